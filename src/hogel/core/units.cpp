@@ -1,0 +1,71 @@
+#include "hogel/core/units.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+struct Unit {
+    std::string_view name;
+    double scale;
+};
+
+constexpr std::array length_units{Unit{"m", 1.0},   Unit{"cm", 1e-2},      Unit{"mm", 1e-3}, Unit{"um", 1e-6},
+                                  Unit{"µm", 1e-6}, Unit{"\u03bcm", 1e-6}, Unit{"nm", 1e-9}};
+constexpr std::array angle_units{Unit{"deg", std::numbers::pi / 180}, Unit{"rad", 1.0}};
+
+double parse(std::string_view text, std::string_view what, std::span<const Unit> units, std::string_view hint) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const auto [rest, status] = std::from_chars(begin, end, value);
+    if (status != std::errc{} || !std::isfinite(value))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: '{}' is not a number with a unit; write e.g. {}", what, text, hint));
+    std::string_view unit(rest, static_cast<std::size_t>(end - rest));
+    while (unit.starts_with(' ')) unit.remove_prefix(1);
+    for (const Unit& known : units)
+        if (unit == known.name) return value * known.scale;
+    if (unit.empty())
+        throw Error(ErrorCode::usage, fmt::format("{}: '{}' has no unit; write e.g. {}", what, text, hint));
+    throw Error(ErrorCode::usage, fmt::format("{}: unknown unit '{}' in '{}'; write e.g. {}", what, unit, text, hint));
+}
+
+}  // namespace
+
+double parse_length(std::string_view text, std::string_view what) {
+    return parse(text, what, length_units, "16mm, 1.5um, 633nm, 5cm or 0.3m");
+}
+
+double parse_angle(std::string_view text, std::string_view what) {
+    return parse(text, what, angle_units, "40deg or 0.7rad");
+}
+
+std::string format_length(double metres) {
+    const double size = std::abs(metres);
+    if (size == 0) return "0 mm";
+    if (size < 1e-6) return fmt::format("{:.6g} nm", metres * 1e9);
+    if (size < 1e-4) return fmt::format("{:.6g} um", metres * 1e6);
+    if (size < 1) return fmt::format("{:.6g} mm", metres * 1e3);
+    return fmt::format("{:.6g} m", metres);
+}
+
+std::string format_bytes(double bytes) {
+    constexpr std::array<std::string_view, 6> names{"bytes", "kB", "MB", "GB", "TB", "PB"};
+    std::size_t i = 0;
+    while (bytes >= 999.5 && i + 1 < names.size()) {
+        bytes /= 1000;
+        ++i;
+    }
+    if (i == 0) return fmt::format("{:.0f} {}", bytes, names[i]);
+    return bytes < 9.95 ? fmt::format("{:.1f} {}", bytes, names[i]) : fmt::format("{:.0f} {}", bytes, names[i]);
+}
+
+}  // namespace hogel

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <string_view>
+
+namespace hogel {
+
+/// Lengths are metres and angles radians everywhere; these literals say what was meant: 633_nm, 5_cm, 40_deg.
+namespace literals {
+constexpr double operator""_m(long double v) { return static_cast<double>(v); }
+constexpr double operator""_cm(long double v) { return static_cast<double>(v * 1e-2L); }
+constexpr double operator""_mm(long double v) { return static_cast<double>(v * 1e-3L); }
+constexpr double operator""_um(long double v) { return static_cast<double>(v * 1e-6L); }
+constexpr double operator""_nm(long double v) { return static_cast<double>(v * 1e-9L); }
+constexpr double operator""_m(unsigned long long v) { return static_cast<double>(v); }
+constexpr double operator""_cm(unsigned long long v) { return static_cast<double>(v) * 1e-2; }
+constexpr double operator""_mm(unsigned long long v) { return static_cast<double>(v) * 1e-3; }
+constexpr double operator""_um(unsigned long long v) { return static_cast<double>(v) * 1e-6; }
+constexpr double operator""_nm(unsigned long long v) { return static_cast<double>(v) * 1e-9; }
+constexpr double operator""_deg(long double v) { return static_cast<double>(v) * std::numbers::pi / 180; }
+constexpr double operator""_deg(unsigned long long v) { return static_cast<double>(v) * std::numbers::pi / 180; }
+}  // namespace literals
+
+/// Reads "16mm", "-0.5 um", "633nm", "1.2m", "5cm"; µm may be written um or µm. Returns metres.
+/// Throws Error(usage) for a missing or unknown unit, naming `what` (an option, say) and the units that exist.
+double parse_length(std::string_view text, std::string_view what);
+
+/// Reads "40deg" or "0.7rad". Returns radians. Throws Error(usage) as parse_length does.
+double parse_angle(std::string_view text, std::string_view what);
+
+/// Writes a length with the unit that reads best: "16 mm", "1.5625 um", "633 nm".
+std::string format_length(double metres);
+
+/// Writes a number of bytes as people say it: "983 MB", "1.4 GB".
+std::string format_bytes(double bytes);
+
+}  // namespace hogel

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hogel/core/array.h"
+
+namespace hogel {
+
+/// A picture in linear light: pixels[y][x][c], row 0 at the top, one or three channels (R, G, B).
+struct Image {
+    Array<float, 3> pixels;
+
+    Image() = default;
+    Image(std::size_t width, std::size_t height, std::size_t channels) : pixels(Shape<3>{height, width, channels}) {}
+    std::size_t width() const { return pixels.extent(1); }
+    std::size_t height() const { return pixels.extent(0); }
+    std::size_t channels() const { return pixels.extent(2); }
+};
+
+/// Words that travel inside a picture file: the options and the version that made it.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// The sRGB transfer curve, linear light to display value and back; both clamp to 0..1.
+float srgb_encode(float linear);
+float srgb_decode(float display);
+
+/// Writes a picture by the extension of the name: .exr as linear half floats, .png and .tif as 8-bit sRGB of
+/// linear values times `exposure`. Written to a temporary name beside it and renamed, so that no half file remains.
+/// Throws Error(cannot_write), or Error(usage) for an unknown extension.
+void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
+                 const Metadata& metadata = {});
+
+/// Encodes a picture as the bytes of an 8-bit sRGB PNG file, for pages that carry their pictures inside.
+std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
+
+/// Reads any picture that OpenImageIO reads, into linear light (8- and 16-bit integer pictures are taken as sRGB), one
+/// or three channels (alpha is dropped, two channels become one). Throws Error(bad_input) naming the file; refuses more
+/// than `max_pixels`.
+Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
+
+/// The same for the bytes of a picture file in memory (a texture inside a glTF file, say).
+Image decode_image(std::span<const unsigned char> bytes, const std::string& name,
+                   std::size_t max_pixels = std::size_t{1} << 28);
+
+/// The exposure that brings the brightest parts (the 99.5th percentile of the largest channel) to display white.
+double automatic_exposure(const Image& image);
+
+}  // namespace hogel

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hogel/image/image.h"
+#include "hogel/lightfield/light_field.h"
+#include "hogel/optics/field.h"
+
+namespace hogel {
+
+enum class SampleType { half, single };
+
+/// A light field in an HDF5 file: dataset "radiance" [c][t][s][v][u] (half or single floats), optional dataset "depth"
+/// [t][s][v][u] (single, metres), chunked by tiles of hogels; all of the sampling in attributes of "radiance".
+/// docs/files.md names every attribute. Opening reads the header alone. Throws Error(bad_input) for anything damaged,
+/// foreign, truncated or inconsistent.
+std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path);
+
+struct LightFieldFileOptions {
+    SampleType type = SampleType::half;
+    bool with_depth = false;
+    Metadata metadata;  ///< kept as string attributes of the file: the options and version that made it
+};
+
+/// The file gets its own name when finish() is called; before that it is a temporary beside it, removed when the sink
+/// is destroyed unfinished. Throws Error(cannot_write).
+std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
+                                                   const LightFieldFileOptions& options = {});
+
+/// A hologram: one field, or three that share a plane's extent for red, green and blue. In HDF5 a group "field<i>" a
+/// wavelength with a dataset "samples" [y][x] of compound {r, i} (single), which h5py reads as complex64, and
+/// attributes pitch, wavelength and pose.
+struct HologramFile {
+    std::vector<std::unique_ptr<FieldSource>> fields;
+    Metadata metadata;
+};
+HologramFile open_hologram(const std::filesystem::path& path);
+
+/// One sink a field; each must be finished. The file gets its own name when the last one is.
+std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
+                                                        std::span<const FieldGrid> grids,
+                                                        const Metadata& metadata = {});
+
+enum class FileKind { light_field, hologram, picture, mesh, unknown };
+
+/// What a file is, by its contents where it is HDF5 and by its extension otherwise. Throws Error(bad_input) for a file
+/// that is missing or cannot be read.
+FileKind file_kind(const std::filesystem::path& path);
+
+/// What `hogel info` prints of a light field or hologram file: name and value, in SI units.
+struct FileSummary {
+    FileKind kind = FileKind::unknown;
+    std::vector<std::pair<std::string, std::string>> text;  ///< string-valued facts, metadata included
+    std::vector<std::pair<std::string, double>> numbers;    ///< numeric facts
+};
+FileSummary summarize(const std::filesystem::path& path);
+
+}  // namespace hogel

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "hogel/core/array.h"
+#include "hogel/core/progress.h"
+
+namespace hogel {
+
+/// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, sections 1 and 4). A ray crosses the hologram
+/// plane at the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Perspective directions: uniform in U,
+/// V.
+struct LightFieldGrid {
+    std::size_t hogels_s = 0, hogels_t = 0;          ///< S columns, T rows of hogels
+    double pitch = 0;                                ///< d, metres between hogels
+    std::size_t directions_u = 0, directions_v = 0;  ///< n_U, n_V samples of direction
+    double tan_half_u = 0, tan_half_v = 0;           ///< directions fill |U| <= tan_half_u, |V| <= tan_half_v
+    std::size_t channels = 3;                        ///< 1, or 3 for R, G, B
+
+    double s(double i) const { return (i + 0.5 - 0.5 * static_cast<double>(hogels_s)) * pitch; }
+    double t(double j) const { return (0.5 * static_cast<double>(hogels_t) - j - 0.5) * pitch; }
+    double step_u() const { return 2 * tan_half_u / static_cast<double>(directions_u); }  ///< ΔU
+    double step_v() const { return 2 * tan_half_v / static_cast<double>(directions_v); }  ///< ΔV
+    double u(double k) const { return (k + 0.5 - 0.5 * static_cast<double>(directions_u)) * step_u(); }
+    double v(double l) const { return (0.5 * static_cast<double>(directions_v) - l - 0.5) * step_v(); }
+    std::size_t directions() const { return directions_u * directions_v; }
+    std::size_t hogels() const { return hogels_s * hogels_t; }
+    double samples() const { return static_cast<double>(channels * directions()) * static_cast<double>(hogels()); }
+    friend bool operator==(const LightFieldGrid&, const LightFieldGrid&) = default;
+};
+
+/// Throws Error(code) naming `what` and the member that is wrong: nothing to sample, not finite, not positive, or more
+/// samples than can be addressed.
+void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
+
+/// A rectangle of hogels with all their directions: the unit of work.
+struct HogelRange {
+    std::size_t s0 = 0, t0 = 0;  ///< first column and row of hogels
+    std::size_t ns = 0, nt = 0;  ///< columns and rows of hogels
+
+    std::size_t hogels() const { return ns * nt; }
+    friend bool operator==(const HogelRange&, const HogelRange&) = default;
+};
+
+/// The values of a range of hogels. `radiance` has shape [c][nt][ns][n_V][n_U]; `depth` (ζ in metres, +infinity where
+/// the ray meets nothing) has shape [nt][ns][n_V][n_U], or no elements where nobody asked for it.
+struct LightFieldTile {
+    HogelRange range;
+    Array<float, 5> radiance;
+    Array<float, 4> depth;
+
+    LightFieldTile() = default;
+    LightFieldTile(const LightFieldGrid& grid, const HogelRange& r, bool with_depth);
+};
+
+/// Where light fields come from: memory, a file, a decoder, a renderer working on demand. read() may be called from
+/// several threads at once and gives the same values for a hogel whatever the range it is asked for in.
+class LightFieldSource {
+  public:
+    virtual ~LightFieldSource() = default;
+    virtual const LightFieldGrid& grid() const = 0;
+    virtual bool has_depth() const { return false; }
+    /// Fills the tile's radiance for tile.range, and its depth where the tile has room for it and has_depth().
+    virtual void read(LightFieldTile& tile) const = 0;
+};
+
+/// Where light fields go. write() may be called from several threads at once, each hogel once.
+class LightFieldSink {
+  public:
+    virtual ~LightFieldSink() = default;
+    virtual void write(const LightFieldTile& tile) = 0;
+    /// Called once after the last tile; a file appears under its own name only now.
+    virtual void finish() {}
+};
+
+/// A light field that is whole in memory: source and sink.
+class LightField final : public LightFieldSource, public LightFieldSink {
+  public:
+    explicit LightField(const LightFieldGrid& grid, bool with_depth = false);
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return depth.size() > 0; }
+    void read(LightFieldTile& tile) const override;
+    void write(const LightFieldTile& tile) override;
+
+    Array<float, 5> radiance;  ///< [c][t][s][v][u]
+    Array<float, 4> depth;     ///< [t][s][v][u], metres; empty without depth
+
+  private:
+    LightFieldGrid grid_;
+};
+
+/// The tiles that `copy` and other streaming loops use: as many hogels as about 16 MiB of samples hold, 1×1 at least.
+HogelRange default_tile(const LightFieldGrid& grid);
+
+/// Streams a light field from a source to a sink tile by tile on all threads; memory: a few tiles. Calls finish().
+void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
+
+}  // namespace hogel

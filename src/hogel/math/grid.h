@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+namespace hogel {
+
+/// The samples of a plane parallel to the hologram, as a picture seen by the viewer: column 0 at the left, row 0 at the
+/// top. Count, pitch and position travel together.
+struct Grid {
+    std::size_t width = 0;   ///< samples in x
+    std::size_t height = 0;  ///< samples in y
+    double pitch_x = 0;      ///< metres between columns
+    double pitch_y = 0;      ///< metres between rows
+    double center_x = 0;     ///< where the middle of the array lies, metres
+    double center_y = 0;
+
+    double x(double column) const { return center_x + (column + 0.5 - 0.5 * static_cast<double>(width)) * pitch_x; }
+    double y(double row) const { return center_y + (0.5 * static_cast<double>(height) - row - 0.5) * pitch_y; }
+    double column(double x) const { return (x - center_x) / pitch_x + 0.5 * static_cast<double>(width) - 0.5; }
+    double row(double y) const { return 0.5 * static_cast<double>(height) - 0.5 - (y - center_y) / pitch_y; }
+    double size_x() const { return static_cast<double>(width) * pitch_x; }
+    double size_y() const { return static_cast<double>(height) * pitch_y; }
+    std::size_t samples() const { return width * height; }
+    friend bool operator==(const Grid&, const Grid&) = default;
+};
+
+/// A rectangle of samples of a Grid.
+struct Region {
+    std::size_t x0 = 0, y0 = 0;  ///< first column and row
+    std::size_t width = 0, height = 0;
+
+    std::size_t samples() const { return width * height; }
+    friend bool operator==(const Region&, const Region&) = default;
+};
+
+}  // namespace hogel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hogel/math/vec.h"
+
+namespace hogel {
+
+/// Where a ray meets a triangle first.
+struct RayHit {
+    static constexpr std::uint32_t miss = ~std::uint32_t{0};
+
+    double distance = 0;            ///< in units of the ray's direction
+    std::uint32_t triangle = miss;  ///< index into the triangles that the caster was built from
+    float b1 = 0, b2 = 0;           ///< barycentric weights of the second and third vertex
+};
+
+/// Rays against triangles, by Embree. Both sides of a triangle are hit. Thread-safe after construction.
+class RayCaster {
+  public:
+    RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles);
+    ~RayCaster();
+    RayCaster(RayCaster&&) noexcept;
+    RayCaster& operator=(RayCaster&&) noexcept;
+
+    /// The first hit along origin + distance · direction, distance in [0, far].
+    RayHit closest(Vec3 origin, Vec3 direction, double far) const;
+    /// The same for many rays that start and point close to each other: `hits` gets one hit a ray.
+    void closest(std::span<const Vec3> origins, std::span<const Vec3> directions, double far,
+                 std::span<RayHit> hits) const;
+    /// Whether anything lies on origin + distance · direction for distance in [near, far].
+    bool occluded(Vec3 origin, Vec3 direction, double near, double far) const;
+
+  private:
+    struct Device;
+    std::unique_ptr<Device> device_;
+};
+
+}  // namespace hogel
