@@ -2,11 +2,12 @@
 #   Compiles src/hogel/NAME/*.cpp (tests aside) into an object library and records who it may include.
 function(hogel_module name)
   cmake_parse_arguments(arg "" "" "USES;LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/hogel/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/hogel/${name}/*.cpp ${CMAKE_SOURCE_DIR}/src/hogel/${name}/*.h)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   add_library(hogel_${name} OBJECT ${sources})
+  set_target_properties(hogel_${name} PROPERTIES LINKER_LANGUAGE CXX)
   hogel_compile_options(hogel_${name})
   target_include_directories(hogel_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src ${CMAKE_BINARY_DIR}/generated)
   target_link_libraries(hogel_${name} PRIVATE ${arg_LINKS} fmt::fmt)
