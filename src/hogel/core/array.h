@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <new>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -18,6 +19,20 @@ constexpr std::size_t count(const Shape<Rank>& shape) {
     for (std::size_t extent : shape) n *= extent;
     return n;
 }
+
+/// Allocates at multiples of a cache line, so that vector code and FFT plans may rely on it for whole arrays.
+template <class T>
+struct CacheLineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t alignment{64};
+
+    CacheLineAllocator() = default;
+    template <class U>
+    CacheLineAllocator(const CacheLineAllocator<U>&) {}
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+    friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
 
 /// A dense row-major array that somebody else owns; the last index runs fastest. Cheap to copy.
 template <class T, std::size_t Rank>
@@ -59,7 +74,7 @@ class View {
     Shape<Rank> shape_{};
 };
 
-/// A dense row-major array that owns its elements, value-initialised.
+/// A dense row-major array that owns its elements, value-initialised, aligned to a cache line.
 template <class T, std::size_t Rank>
 class Array {
   public:
@@ -93,7 +108,7 @@ class Array {
 
   private:
     Shape<Rank> shape_{};
-    std::vector<T> elements_;
+    std::vector<T, CacheLineAllocator<T>> elements_;
 };
 
 }  // namespace hogel

@@ -13,8 +13,8 @@ TEST(Grid, the_top_left_sample_has_the_smallest_x_and_the_largest_y) {
     const Grid grid{4, 2, 1e-3, 2e-3, 0.5, -0.5};
     EXPECT_DOUBLE_EQ(grid.x(0), 0.5 - 1.5e-3);
     EXPECT_DOUBLE_EQ(grid.y(0), -0.5 + 1e-3);
-    EXPECT_DOUBLE_EQ(grid.column(grid.x(3)), 3);
-    EXPECT_DOUBLE_EQ(grid.row(grid.y(1)), 1);
+    EXPECT_NEAR(grid.column(grid.x(3)), 3, 1e-9);
+    EXPECT_NEAR(grid.row(grid.y(1)), 1, 1e-9);
 }
 
 }  // namespace

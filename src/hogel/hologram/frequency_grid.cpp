@@ -1,0 +1,100 @@
+#include "hogel/hologram/frequency_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hogel {
+namespace {
+
+// Integral from −∞ to x of the hat function max(0, 1 − |x|).
+double hat_integral(double x) {
+    if (x <= -1) return 0;
+    if (x >= 1) return 1;
+    return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
+}
+
+struct Average {
+    std::size_t first = 0;
+    std::vector<float> weights;  // empty: outside
+};
+
+// The weights with which the mean over [low, high] of the piecewise linear function through samples 0..count−1 is made
+// of these samples. The end samples hold to the ends of their cells; beyond them the function is zero.
+Average average(double low, double high, std::size_t count) {
+    const double begin = -0.5, end = static_cast<double>(count) - 0.5;
+    const double inside_low = std::max(low, begin), inside_high = std::min(high, end);
+    Average result;
+    if (!(inside_low < inside_high)) return result;
+    const double last = static_cast<double>(count) - 1;
+    const double first = std::clamp(std::floor(inside_low), 0.0, last),
+                 final = std::clamp(std::ceil(inside_high), 0.0, last);
+    result.first = static_cast<std::size_t>(first);
+    for (double k = first; k <= final; ++k) {
+        double weight = hat_integral(inside_high - k) - hat_integral(inside_low - k);
+        // Past an end sample its value holds instead of falling along the hat.
+        if (k == 0 && inside_low < 0)
+            weight += std::min(inside_high, 0.0) - inside_low -
+                      (hat_integral(std::min(inside_high, 0.0)) - hat_integral(inside_low));
+        if (k == last && inside_high > last) {
+            const double from = std::max(inside_low, last) - last, to = inside_high - last;
+            weight += to - from - (hat_integral(to) - hat_integral(from));
+        }
+        result.weights.push_back(static_cast<float>(weight / (high - low)));
+    }
+    return result;
+}
+
+}  // namespace
+
+FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength)
+    : samples_(samples), row_length_(light_field.directions_u) {
+    const double step = wavelength / light_field.pitch;  // between frequencies, as direction sines
+    const double half_u = 0.5 * static_cast<double>(light_field.directions_u) - 0.5;
+    const double half_v = 0.5 * static_cast<double>(light_field.directions_v) - 0.5;
+    const auto n = static_cast<std::ptrdiff_t>(samples);
+    // The sine −n/2 of an even grid would be its own mirror image, so the grid ends one before it.
+    const std::ptrdiff_t reach = (n - 1) / 2;
+    for (std::ptrdiff_t jy = -reach; jy <= reach; ++jy)
+        for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
+            const double sx = step * static_cast<double>(jx), sy = step * static_cast<double>(jy);
+            const double cos2 = 1 - sx * sx - sy * sy;
+            if (cos2 <= 0) continue;
+            const double cosine = std::sqrt(cos2);
+            const double U = -sx / cosine, V = -sy / cosine;
+            // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
+            const double wu = 0.5 * step * (1 + U * U) / cosine, wv = 0.5 * step * (1 + V * V) / cosine;
+            const Average u = average((U - wu) / light_field.step_u() + half_u,
+                                      (U + wu) / light_field.step_u() + half_u, light_field.directions_u);
+            const Average v = average(half_v - (V + wv) / light_field.step_v(),
+                                      half_v - (V - wv) / light_field.step_v(), light_field.directions_v);
+            if (u.weights.empty() || v.weights.empty()) continue;
+            // Rows run down while y runs up, so a row of the DFT is −j_y.
+            const std::size_t row = static_cast<std::size_t>((n - jy) % n),
+                              column = static_cast<std::size_t>((n + jx) % n);
+            lobes_.push_back({static_cast<std::uint32_t>(row * samples + column), static_cast<std::uint32_t>(u.first),
+                              static_cast<std::uint32_t>(v.first), static_cast<std::uint32_t>(u.weights.size()),
+                              static_cast<std::uint32_t>(v.weights.size()), static_cast<std::uint32_t>(weights_.size()),
+                              static_cast<float>(step * step / cosine)});
+            weights_.insert(weights_.end(), u.weights.begin(), u.weights.end());
+            weights_.insert(weights_.end(), v.weights.begin(), v.weights.end());
+        }
+}
+
+void FrequencyGrid::amplitudes(std::span<const float> radiance, std::span<float> moduli) const {
+    std::fill(moduli.begin(), moduli.end(), 0.0f);
+    for (const Lobe& lobe : lobes_) {
+        const float* u = &weights_[lobe.weights];
+        const float* v = u + lobe.nu;
+        float sum = 0;
+        for (std::uint32_t l = 0; l < lobe.nv; ++l) {
+            const float* row = &radiance[(lobe.v0 + l) * row_length_ + lobe.u0];
+            float line = 0;
+            for (std::uint32_t k = 0; k < lobe.nu; ++k) line += u[k] * row[k];
+            sum += v[l] * line;
+        }
+        // A light field may hold small negative values where a codec has passed; they carry no light.
+        moduli[lobe.coefficient] = std::sqrt(std::max(sum, 0.0f) * lobe.scale);
+    }
+}
+
+}  // namespace hogel

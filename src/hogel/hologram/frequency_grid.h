@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hogel/lightfield/light_field.h"
+
+namespace hogel {
+
+/// Resamples the directions of one hogel from the light field's uniform U, V to the frequency grid j/d of the hogel's
+/// Fourier transform ([K] 4.1, Lucente's grid), as amplitudes.
+///
+/// The wave of frequency (f_x, f_y) = (j_x, j_y)/d is the ray (U,V) = −λ(f_x, f_y)/√(1 − λ²|f|²). It lights a lobe of
+/// width 1/d in frequency, so it carries the mean of the (bilinearly interpolated) light field over that lobe. Where
+/// the lobe lies outside the field of view, or |f| ≥ 1/λ, there is nothing.
+class FrequencyGrid {
+  public:
+    /// @param samples   n_Δ, samples along a side of the hogel and frequencies along a side of the grid
+    FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength);
+
+    /// Turns the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a backward
+    /// FFT wants them ([j_y mod n][j_x mod n], rows running down): (λ/d) √(L cos θ) / cos θ.
+    /// This is [K] (4.2) with a² = L cos θ, the radiant intensity of a piece of surface of radiance L, and with the
+    /// DFT's 1/n and Δ drawn together; see docs/notation.md.
+    void amplitudes(std::span<const float> radiance, std::span<float> moduli) const;
+
+    std::size_t samples() const { return samples_; }
+
+  private:
+    // A DFT coefficient that carries light: the directions that it averages and their weights, as an outer product.
+    struct Lobe {
+        std::uint32_t coefficient;
+        std::uint32_t u0, v0;   // first direction
+        std::uint32_t nu, nv;   // directions in each dimension
+        std::uint32_t weights;  // where in weights_ its nu + nv weights begin
+        float scale;            // (λ/d)² / cos θ, applied under the root
+    };
+
+    std::size_t samples_;
+    std::size_t row_length_;  // n_U
+    std::vector<Lobe> lobes_;
+    std::vector<float> weights_;
+};
+
+}  // namespace hogel

@@ -1,0 +1,171 @@
+#include "hogel/hologram/stereogram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <list>
+#include <mutex>
+#include <numbers>
+
+#include "hogel/core/random.h"
+#include "hogel/core/units.h"
+#include "hogel/hologram/frequency_grid.h"
+#include "hogel/math/fft.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+std::size_t samples_per_hogel(const LightFieldGrid& light_field, const StereogramOptions& options) {
+    return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / options.pitch)));
+}
+
+// e^{2πi b/256} for every byte b. A phase drawn from 256 equal steps is as good as a continuous one: its first 255
+// circular moments vanish exactly, and the speckle it makes depends on the first few alone.
+const std::array<Complex, 256>& roots_of_unity() {
+    static const auto table = [] {
+        std::array<Complex, 256> roots;
+        for (std::size_t b = 0; b < roots.size(); ++b)
+            roots[b] = Complex(std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(b) / 256));
+        return roots;
+    }();
+    return table;
+}
+
+// The moduli of the DFT coefficients of a range of hogels, [nt][ns][n²]: the same for every look.
+struct Moduli {
+    HogelRange range;
+    Array<float, 3> values;
+};
+
+class Stereogram final : public FieldSource {
+  public:
+    Stereogram(const LightFieldSource& light_field, const StereogramOptions& options)
+        : light_field_(light_field),
+          options_(options),
+          grid_(stereogram_grid(light_field.grid(), options)),
+          n_(samples_per_hogel(light_field.grid(), options)),
+          frequencies_(light_field.grid(), n_, options.wavelength),
+          fft_(n_, n_) {}
+
+    const FieldGrid& grid() const override { return grid_; }
+    std::size_t looks() const override { return options_.looks; }
+    std::size_t alignment() const override { return n_; }
+
+    void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
+        if (region.samples() == 0) return;
+        HogelRange hogels{region.x0 / n_, region.y0 / n_, 0, 0};
+        hogels.ns = (region.x0 + region.width - 1) / n_ + 1 - hogels.s0;
+        hogels.nt = (region.y0 + region.height - 1) / n_ + 1 - hogels.t0;
+        const std::shared_ptr<const Moduli> moduli = moduli_of(hogels);
+        Array<Complex, 2> hogel({n_, n_});
+        for (std::size_t t = hogels.t0; t < hogels.t0 + hogels.nt; ++t)
+            for (std::size_t s = hogels.s0; s < hogels.s0 + hogels.ns; ++s) {
+                spread_phases(moduli->values[t - hogels.t0][s - hogels.s0], s, t, look, hogel.elements());
+                fft_.backward(hogel);
+                // The part of the hogel that the region asks for.
+                const std::size_t x0 = std::max(s * n_, region.x0),
+                                  x1 = std::min((s + 1) * n_, region.x0 + region.width);
+                const std::size_t y0 = std::max(t * n_, region.y0),
+                                  y1 = std::min((t + 1) * n_, region.y0 + region.height);
+                for (std::size_t y = y0; y < y1; ++y)
+                    std::copy(&hogel(y - t * n_, x0 - s * n_), &hogel(y - t * n_, x0 - s * n_) + (x1 - x0),
+                              &out(y - region.y0, x0 - region.x0));
+            }
+    }
+
+  private:
+    // Gives each coefficient its random phase, counted from the hogel's first sample. The factor i of [K] (4.2) is part
+    // of the random phase.
+    void spread_phases(View<const float, 1> moduli, std::size_t s, std::size_t t, std::size_t look,
+                       std::span<Complex> coefficients) const {
+        const std::array<Complex, 256>& roots = roots_of_unity();
+        const std::array<std::uint32_t, 2> key{static_cast<std::uint32_t>(options_.seed),
+                                               static_cast<std::uint32_t>(options_.seed >> 32)};
+        const std::size_t count = coefficients.size();
+        // The counter names hogel, look, colour and direction; one draw has sixteen bytes for sixteen directions.
+        const auto series = static_cast<std::uint32_t>(look * 4 + options_.channel);
+        for (std::size_t i = 0; i < count; i += 16) {
+            const auto words = philox({static_cast<std::uint32_t>(i / 16), series, static_cast<std::uint32_t>(s),
+                                       static_cast<std::uint32_t>(t)},
+                                      key);
+            const std::size_t end = std::min<std::size_t>(16, count - i);
+            for (std::size_t j = 0; j < end; ++j) {
+                coefficients[i + j] = moduli.data()[i + j] * roots[words[j / 4] >> (8 * (j % 4)) & 0xff];
+            }
+        }
+    }
+
+    std::shared_ptr<const Moduli> moduli_of(const HogelRange& hogels) const {
+        {
+            const std::lock_guard lock(recent_mutex_);
+            for (const auto& entry : recent_)
+                if (entry->range == hogels) return entry;
+        }
+        LightFieldTile tile(light_field_.grid(), hogels, false);
+        light_field_.read(tile);
+        auto moduli = std::make_shared<Moduli>();
+        moduli->range = hogels;
+        moduli->values = Array<float, 3>({hogels.nt, hogels.ns, n_ * n_});
+        for (std::size_t t = 0; t < hogels.nt; ++t)
+            for (std::size_t s = 0; s < hogels.ns; ++s) {
+                const View<const float, 2> radiance = tile.radiance.view()[options_.channel][t][s];
+                frequencies_.amplitudes(radiance.elements(), moduli->values[t][s].elements());
+            }
+        const std::lock_guard lock(recent_mutex_);
+        recent_.push_front(moduli);
+        if (recent_.size() > most_recent) recent_.pop_back();
+        return moduli;
+    }
+
+    // Readers take the looks of a region one after the other, each in a thread of its own.
+    static constexpr std::size_t most_recent = 64;
+
+    const LightFieldSource& light_field_;
+    StereogramOptions options_;
+    FieldGrid grid_;
+    std::size_t n_;
+    FrequencyGrid frequencies_;
+    Fft2 fft_;
+    mutable std::mutex recent_mutex_;
+    mutable std::list<std::shared_ptr<const Moduli>> recent_;
+};
+
+}  // namespace
+
+FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOptions& options) {
+    validate(light_field, ErrorCode::usage, "light field");
+    if (!(options.pitch > 0) || !(options.wavelength > 0))
+        throw Error(ErrorCode::usage, "a stereogram needs a positive pitch and wavelength");
+    if (options.channel >= light_field.channels)
+        throw Error(ErrorCode::usage, fmt::format("the light field has {} channels, so there is no channel {}",
+                                                  light_field.channels, options.channel));
+    const std::size_t n = samples_per_hogel(light_field, options);
+    const double pitch = light_field.pitch / static_cast<double>(n);
+    // The steepest frequencies on the axes; the corners of the field of view are cut by the light field's own square.
+    const double tangent = std::max(light_field.tan_half_u, light_field.tan_half_v);
+    const double needed = tangent / std::sqrt(1 + tangent * tangent), possible = options.wavelength / (2 * pitch);
+    if (needed > possible)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format(
+                "a pitch of {} diffracts {} no farther than {:.2f} degrees, but the light field reaches {:.2f}; "
+                "a pitch of {} or less would do",
+                format_length(pitch), format_length(options.wavelength),
+                std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
+                std::atan(tangent) * 180 / std::numbers::pi, format_length(options.wavelength / (2 * needed))));
+    FieldGrid grid;
+    grid.plane = {light_field.hogels_s * n, light_field.hogels_t * n, pitch, pitch, 0, 0};
+    grid.wavelength = options.wavelength;
+    validate(grid, ErrorCode::usage, "stereogram");
+    return grid;
+}
+
+std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field, const StereogramOptions& options) {
+    return std::make_unique<Stereogram>(light_field, options);
+}
+
+}  // namespace hogel

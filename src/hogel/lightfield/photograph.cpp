@@ -1,0 +1,192 @@
+#include "hogel/lightfield/photograph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+
+namespace hogel {
+namespace {
+
+struct LensPoint {
+    double x, y;              // metres from the centre of the lens
+    double pixel_x, pixel_y;  // where in the pixel this ray lands, −½..½
+};
+
+double van_der_corput(std::size_t i, std::size_t base) {
+    double value = 0, place = 1;
+    for (; i > 0; i /= base) {
+        place /= static_cast<double>(base);
+        value += place * static_cast<double>(i % base);
+    }
+    return value;
+}
+
+// Points spread evenly over the pupil's disc (Halton, mapped by equal areas), each with a place of its own in the
+// pixel, so that one set of rays averages over the pupil and over the pixel's area.
+std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
+    std::vector<LensPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double radius = 0.5 * pupil * std::sqrt((static_cast<double>(i) + 0.5) / static_cast<double>(count));
+        const double angle = 2 * std::numbers::pi * van_der_corput(i, 2);
+        points.push_back({radius * std::cos(angle), radius * std::sin(angle), van_der_corput(i + 1, 3) - 0.5,
+                          van_der_corput(i + 1, 5) - 0.5});
+    }
+    return points;
+}
+
+// Linear interpolation between two neighbours of a row of samples. A sample stands for the cell around it: half a cell
+// beyond the last one still shows it, and farther out there is nothing.
+struct Between {
+    std::size_t low = 0;
+    float high_weight = 0;
+    bool outside = true;
+
+    Between(double index, std::size_t count) {
+        const double last = static_cast<double>(count) - 1;
+        if (!(index >= -0.5 && index <= last + 0.5)) return;
+        outside = false;
+        const double clamped = std::clamp(index, 0.0, last);
+        low = static_cast<std::size_t>(std::clamp(std::floor(clamped), 0.0, std::max(last - 1, 0.0)));
+        high_weight = static_cast<float>(clamped - static_cast<double>(low));
+    }
+    // The upper neighbour; the same one where there is but a single sample.
+    std::size_t high(std::size_t count) const { return std::min(low + 1, count - 1); }
+};
+
+// The film of one camera while hogels stream past.
+class Exposure {
+  public:
+    Exposure(const LightFieldGrid& grid, const Camera& camera, std::size_t lens_count)
+        : grid_(grid),
+          camera_(camera),
+          points_(lens_points(camera.pupil, lens_count)),
+          image_(camera.picture.width, camera.picture.height, grid.channels) {}
+
+    // Adds all rays that cross the hologram plane in a cell whose upper left hogel is in `cells`; the tile holds these
+    // hogels and their right and lower neighbours.
+    void add(const LightFieldTile& tile, const HogelRange& cells) {
+        // What each point of the lens sees of each hogel.
+        Array<float, 4> seen({points_.size(), tile.range.nt, tile.range.ns, grid_.channels});
+        parallel_for(points_.size(), [&](std::size_t i) { look(tile, points_[i], seen[i]); });
+        parallel_for(camera_.picture.height, [&](std::size_t row) {
+            for (std::size_t i = 0; i < points_.size(); ++i) expose(row, points_[i], tile.range, cells, seen[i]);
+        });
+    }
+
+    Image finish() {
+        const float mean = 1 / static_cast<float>(points_.size());
+        for (float& value : image_.pixels.elements()) value *= mean;
+        return std::move(image_);
+    }
+
+  private:
+    void look(const LightFieldTile& tile, const LensPoint& point, View<float, 3> seen) const {
+        const double lens_x = camera_.eye.x + point.x, lens_y = camera_.eye.y + point.y, distance = camera_.eye.z;
+        const double half_u = 0.5 * static_cast<double>(grid_.directions_u) - 0.5;
+        const double half_v = 0.5 * static_cast<double>(grid_.directions_v) - 0.5;
+        for (std::size_t t = 0; t < tile.range.nt; ++t) {
+            const double V = (grid_.t(static_cast<double>(tile.range.t0 + t)) - lens_y) / distance;
+            const Between v(half_v - V / grid_.step_v(), grid_.directions_v);
+            for (std::size_t s = 0; s < tile.range.ns; ++s) {
+                const double U = (grid_.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
+                const Between u(U / grid_.step_u() + half_u, grid_.directions_u);
+                if (u.outside || v.outside) continue;
+                const std::size_t u1 = u.high(grid_.directions_u), v1 = v.high(grid_.directions_v);
+                for (std::size_t c = 0; c < grid_.channels; ++c) {
+                    const View<const float, 2> hogel = tile.radiance.view()[c][t][s];
+                    const float top = std::lerp(hogel(v.low, u.low), hogel(v.low, u1), u.high_weight);
+                    const float bottom = std::lerp(hogel(v1, u.low), hogel(v1, u1), u.high_weight);
+                    seen(t, s, c) = std::lerp(top, bottom, v.high_weight);
+                }
+            }
+        }
+    }
+
+    void expose(std::size_t row, const LensPoint& point, const HogelRange& held, const HogelRange& cells,
+                View<const float, 3> seen) {
+        // A ray from the lens point to the pixel's point of the plane in focus crosses the hologram plane beside the
+        // pixel's own place on it by this fraction of the lens offset.
+        const double R = camera_.eye.z, shift = 1 - R / (R + camera_.focus_depth);
+        const double y = camera_.picture.y(static_cast<double>(row) + point.pixel_y) + shift * point.y;
+        const Between t(0.5 * static_cast<double>(grid_.hogels_t) - 0.5 - y / grid_.pitch, grid_.hogels_t);
+        if (t.outside || t.low < cells.t0 || t.low >= cells.t0 + cells.nt) return;
+        const std::size_t t0 = t.low - held.t0, t1 = t.high(grid_.hogels_t) - held.t0;
+
+        // The columns that can fall into these cells; one more on each side, so that rounding loses none.
+        const double to_column = grid_.pitch / camera_.picture.pitch_x;
+        const auto column_of = [&](double hogel) {
+            return camera_.picture.column(grid_.s(hogel) - shift * point.x) - point.pixel_x;
+        };
+        const double first = std::floor(column_of(static_cast<double>(cells.s0)) - 0.5 * to_column) - 1;
+        const double last = std::ceil(column_of(static_cast<double>(cells.s0 + cells.ns)) + 0.5 * to_column) + 1;
+        const double width = static_cast<double>(camera_.picture.width);
+        for (double column = std::max(first, 0.0); column <= std::min(last, width - 1); ++column) {
+            const double x = camera_.picture.x(column + point.pixel_x) + shift * point.x;
+            const Between s(x / grid_.pitch + 0.5 * static_cast<double>(grid_.hogels_s) - 0.5, grid_.hogels_s);
+            if (s.outside || s.low < cells.s0 || s.low >= cells.s0 + cells.ns) continue;
+            const std::size_t s0 = s.low - held.s0, s1 = s.high(grid_.hogels_s) - held.s0;
+            for (std::size_t c = 0; c < grid_.channels; ++c) {
+                const float top = std::lerp(seen(t0, s0, c), seen(t0, s1, c), s.high_weight);
+                const float bottom = std::lerp(seen(t1, s0, c), seen(t1, s1, c), s.high_weight);
+                image_.pixels(row, static_cast<std::size_t>(column), c) += std::lerp(top, bottom, t.high_weight);
+            }
+        }
+    }
+
+    LightFieldGrid grid_;
+    Camera camera_;
+    std::vector<LensPoint> points_;
+    Image image_;
+};
+
+// A block of cells between hogels, and the hogels at its corners.
+struct Block {
+    HogelRange cells, hogels;
+};
+
+std::vector<Block> blocks(const LightFieldGrid& grid) {
+    const HogelRange size = default_tile(grid);
+    // Cells lie between neighbours, so there is one less than hogels; a single hogel is its own cell.
+    const std::size_t cells_s = std::max<std::size_t>(grid.hogels_s - 1, 1),
+                      cells_t = std::max<std::size_t>(grid.hogels_t - 1, 1);
+    std::vector<Block> list;
+    for (std::size_t t = 0; t < cells_t; t += size.nt)
+        for (std::size_t s = 0; s < cells_s; s += size.ns) {
+            const HogelRange cells{s, t, std::min(size.ns, cells_s - s), std::min(size.nt, cells_t - t)};
+            list.push_back(
+                {cells, {s, t, std::min(cells.ns + 1, grid.hogels_s - s), std::min(cells.nt + 1, grid.hogels_t - t)}});
+        }
+    return list;
+}
+
+}  // namespace
+
+std::vector<Image> photograph(const LightFieldSource& light_field, std::span<const Camera> cameras,
+                              std::size_t pupil_samples, const Progress& progress) {
+    const LightFieldGrid& grid = light_field.grid();
+    std::vector<Exposure> exposures;
+    for (const Camera& camera : cameras) {
+        validate(camera);
+        exposures.emplace_back(grid, camera, std::max<std::size_t>(pupil_samples, 1));
+    }
+    const std::vector<Block> list = blocks(grid);
+    // Reading may mean rendering, so some blocks are read at a time; they are exposed in order.
+    parallel_ordered<LightFieldTile>(
+        list.size(), thread_count(),
+        [&](std::size_t i) {
+            LightFieldTile tile(grid, list[i].hogels, false);
+            light_field.read(tile);
+            return tile;
+        },
+        [&](std::size_t i, LightFieldTile& tile) {
+            for (Exposure& exposure : exposures) exposure.add(tile, list[i].cells);
+            report(progress, static_cast<double>(i + 1) / static_cast<double>(list.size()));
+        });
+    std::vector<Image> images;
+    for (Exposure& exposure : exposures) images.push_back(exposure.finish());
+    return images;
+}
+
+}  // namespace hogel

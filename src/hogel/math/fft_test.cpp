@@ -1,0 +1,67 @@
+#include "hogel/math/fft.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+Array<Complex, 2> noise(std::size_t height, std::size_t width) {
+    Array<Complex, 2> values({height, width});
+    std::mt19937 random(7);
+    std::normal_distribution<float> normal;
+    for (Complex& value : values.elements()) value = {normal(random), normal(random)};
+    return values;
+}
+
+TEST(Fft2, backward_is_the_sum_of_waves_with_a_positive_exponent) {
+    const std::size_t height = 6, width = 5;
+    const Array<Complex, 2> spectrum = noise(height, width);
+    Array<Complex, 2> values = spectrum;
+    Fft2(height, width).backward(values);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            std::complex<double> sum = 0;
+            for (std::size_t k = 0; k < height; ++k)
+                for (std::size_t j = 0; j < width; ++j) {
+                    const double turns = static_cast<double>(k * y) / height + static_cast<double>(j * x) / width;
+                    sum += std::complex<double>(spectrum(k, j)) * std::polar(1.0, 2 * std::numbers::pi * turns);
+                }
+            EXPECT_LT(std::abs(std::complex<double>(values(y, x)) - sum), 1e-5);
+        }
+}
+
+TEST(Fft2, forward_undoes_backward_also_on_unaligned_data) {
+    const std::size_t n = 40;
+    const Array<Complex, 2> original = noise(n, n);
+    std::vector<Complex> storage(n * n + 1);
+    const View<Complex, 2> odd(storage.data() + 1, {n, n});
+    std::copy(original.elements().begin(), original.elements().end(), odd.data());
+    const Fft2 fft(n, n);
+    fft.backward(odd);
+    fft.forward(odd);
+    for (std::size_t i = 0; i < n * n; ++i)
+        EXPECT_LT(std::abs(odd.data()[i] / float(n * n) - original.elements()[i]), 1e-5f);
+}
+
+TEST(Fft2, a_wrong_shape_or_an_empty_size_is_an_error) {
+    Array<Complex, 2> values({4, 5});
+    EXPECT_THROW(Fft2(5, 4).forward(values), Error);
+    EXPECT_THROW(Fft2(0, 4), Error);
+}
+
+TEST(GoodFftSize, is_the_next_seven_smooth_number) {
+    EXPECT_EQ(good_fft_size(1), 1u);
+    EXPECT_EQ(good_fft_size(11), 12u);
+    EXPECT_EQ(good_fft_size(1153), 1176u);
+    EXPECT_EQ(good_fft_size(2048), 2048u);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,20 @@
+#include "hogel/optics/low_pass.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace hogel {
+
+double LowPass::at(double distance) {
+    // Kaiser's design: attenuation a = 7.95 + 14.36 · (2·4.5) · Δf = 72.6 dB for the transition Δf = 1/2, and from it
+    // β = 0.1102 (a − 8.7).
+    constexpr double beta = 7.04;
+    const double relative = distance / half_width;
+    if (std::abs(relative) >= 1) return 0;
+    const double window =
+        std::cyl_bessel_i(0.0, beta * std::sqrt(1 - relative * relative)) / std::cyl_bessel_i(0.0, beta);
+    const double phase = std::numbers::pi * distance;
+    return window * (distance == 0 ? 1 : std::sin(phase) / phase);
+}
+
+}  // namespace hogel

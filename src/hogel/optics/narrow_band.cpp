@@ -1,0 +1,298 @@
+#include "hogel/optics/narrow_band.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/units.h"
+#include "hogel/optics/low_pass.h"
+#include "hogel/optics/narrow_band_kernels.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// A pupil's band is made this much wider than it is, so that eyes may share a pass down the columns (see share_columns)
+// and the band's width may vary a little over the hologram.
+constexpr double guard = 0.1;
+
+Complex unit(double turns) { return Complex(std::polar(1.0, 2 * std::numbers::pi * (turns - std::floor(turns)))); }
+
+// Half the width of the band, cycles per metre, at the point of the hologram that is nearest to the eye.
+double half_band(const FieldGrid& hologram, Vec3 eye, double pupil) {
+    const Grid& plane = hologram.plane;
+    const double x = std::clamp(eye.x, plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2);
+    const double y = std::clamp(eye.y, plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2);
+    return 0.5 * pupil / (hologram.wavelength * ViewGeometry(eye, hologram.wavelength).distance(x, y));
+}
+
+// The samples of the band that a run of samples of the hologram adds to.
+struct Reach {
+    std::size_t first, end;
+};
+
+Reach reach(const NarrowBand& band, std::size_t begin, std::size_t end) {
+    const auto at = [&](double hologram_index) {
+        return hologram_index / static_cast<double>(band.factor) + static_cast<double>(NarrowBand::margin);
+    };
+    const double half = LowPass::half_width + 0.5;
+    return {static_cast<std::size_t>(std::max(0.0, std::floor(at(static_cast<double>(begin)) - half))),
+            static_cast<std::size_t>(std::ceil(at(static_cast<double>(end)) + half))};
+}
+
+// The kernel between hologram sample `from` and band sample `to`; its sum over all `from` is one.
+float tap(const NarrowBand& band, std::size_t from, std::size_t to) {
+    const double factor = static_cast<double>(band.factor);
+    if (band.factor == 1) return from + NarrowBand::margin == to ? 1.0f : 0.0f;
+    return static_cast<float>(LowPass::at((static_cast<double>(from) - band.hologram_index(to)) / factor) / factor);
+}
+
+// Eyes that are at one height and one distance need, down the columns of a narrow tile, nearly the same demodulation:
+// they share the work there, and what their phases differ by is made up for after the decimation, when samples are few.
+// How fast that difference may vary is what the guard band allows.
+bool share_columns(const NarrowBand& a, const NarrowBand& b, const Grid& plane) {
+    if (a.factor != b.factor) return false;
+    double worst = 0;
+    for (double x : {plane.x(0), plane.x(static_cast<double>(plane.width) - 1)})
+        for (double y : {plane.y(0), plane.y(static_cast<double>(plane.height) - 1)})
+            worst = std::max(worst, std::abs(a.geometry.sine_y(x, y) - b.geometry.sine_y(x, y)));
+    const double passed = LowPass::pass / (static_cast<double>(a.factor) * plane.pitch_y);
+    return worst / a.geometry.wavelength() < 0.5 * guard * passed;
+}
+
+// What one tile adds to one eye's band, for all looks.
+struct Contribution {
+    Reach rows, columns;
+    std::vector<Array<Complex, 2>> looks;
+};
+
+// One tile's passage through the two low-passes, for a group of eyes that share the pass down the columns.
+class TilePass {
+  public:
+    TilePass(const Grid& plane, std::span<const NarrowBand> eyes, std::span<const std::size_t> group,
+             const Region& region)
+        : eyes_(eyes), group_(group), region_(region), lead_(eyes[group.front()]) {
+        rows_ = reach(lead_, region.y0, region.y0 + region.height);
+        columns_ = reach(lead_, region.x0, region.x0 + region.width);
+        // The phase that is taken off down the columns is that of the tile's middle column, as the first eye sees it.
+        const double middle = plane.x(static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5);
+        const auto column_phase = [&](double y) { return lead_.geometry.turns(middle, y); };
+        for (std::size_t m = rows_.first; m < rows_.end; ++m)
+            row_weights_.push_back(weights_of_row(plane, m, column_phase));
+        for (std::size_t eye : group_) phases_.push_back(remaining_phases(plane, eyes_[eye], column_phase));
+        prepare_line_taps();
+    }
+
+    // Adds look after look; contributions are in the order of the group.
+    void add(View<const Complex, 2> tile, std::vector<Contribution>& contributions) const {
+        const std::size_t rows = rows_.end - rows_.first, columns = columns_.end - columns_.first;
+        for (Contribution& contribution : contributions) contribution.looks.emplace_back(Shape<2>{rows, columns});
+        std::vector<Complex> down(region_.width);
+        // Room before and after the line, so that every kernel fits whole.
+        std::vector<Complex> line(before_ + region_.width + after_);
+        for (std::size_t m = 0; m < rows; ++m) {
+            const RowWeights& weights = row_weights_[m];
+            if (weights.values.empty()) continue;
+            weighted_rows(&tile(weights.first, 0), region_.width, weights.values, down);
+            for (std::size_t e = 0; e < group_.size(); ++e) {
+                const View<const Complex, 1> phase = phases_[e].view()[m];
+                for (std::size_t x = 0; x < region_.width; ++x) {
+                    const Complex z = down[x], p = phase(x);
+                    line[before_ + x] = {z.real() * p.real() - z.imag() * p.imag(),
+                                         z.real() * p.imag() + z.imag() * p.real()};
+                }
+                decimated_line(line.data(), lead_.factor, line_taps_, contributions[e].looks.back()[m].elements());
+            }
+        }
+    }
+
+    Contribution empty_contribution() const { return {rows_, columns_, {}}; }
+
+  private:
+    struct RowWeights {
+        std::size_t first = 0;  // row of the tile
+        std::vector<Complex> values;
+    };
+
+    template <class Phase>
+    RowWeights weights_of_row(const Grid& plane, std::size_t m, const Phase& phase) const {
+        RowWeights weights;
+        for (std::size_t r = 0; r < region_.height; ++r) {
+            const float h = tap(lead_, region_.y0 + r, m);
+            if (h == 0 && weights.values.empty()) continue;
+            if (weights.values.empty()) weights.first = r;
+            weights.values.push_back(h * unit(phase(plane.y(static_cast<double>(region_.y0 + r)))));
+        }
+        while (!weights.values.empty() && weights.values.back() == Complex(0)) weights.values.pop_back();
+        return weights;
+    }
+
+    // e^{ik|x−c|} less the phase already taken off, at every hologram column and band row of the tile.
+    template <class Phase>
+    Array<Complex, 2> remaining_phases(const Grid& plane, const NarrowBand& eye, const Phase& taken) const {
+        Array<Complex, 2> phases({rows_.end - rows_.first, region_.width});
+        for (std::size_t m = 0; m < phases.extent(0); ++m) {
+            const double y = plane.y(eye.hologram_index(rows_.first + m)), off = taken(y);
+            // Along a stretch of this many samples the phase is a parabola to far below a thousandth of a turn, so it
+            // is followed by differences from its values at the stretch's middle and ends.
+            constexpr std::size_t stretch = 32;
+            for (std::size_t x0 = 0; x0 < region_.width; x0 += stretch) {
+                const auto turns = [&](double step) {
+                    return eye.geometry.turns(plane.x(static_cast<double>(region_.x0 + x0) + step), y) - off;
+                };
+                const double t0 = turns(0), t1 = turns(0.5 * stretch), t2 = turns(stretch);
+                const double curvature = (t2 - 2 * t1 + t0) / (0.25 * stretch * stretch);
+                const double slope = (t2 - t0) / stretch - 0.5 * curvature * stretch;
+                const auto exact_unit = [](double v) {
+                    return std::polar(1.0, 2 * std::numbers::pi * (v - std::floor(v)));
+                };
+                std::complex<double> value = exact_unit(t0), step = exact_unit(slope + 0.5 * curvature);
+                const std::complex<double> bend = exact_unit(curvature);
+                for (std::size_t x = x0; x < std::min(x0 + stretch, region_.width); ++x) {
+                    phases(m, x) = Complex(value);
+                    value = multiply(value, step);
+                    step = multiply(step, bend);
+                }
+            }
+        }
+        return phases;
+    }
+
+    // std::complex's own product checks for infinities.
+    static std::complex<double> multiply(std::complex<double> a, std::complex<double> b) {
+        return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+    }
+
+    // Every band sample has the same taps around it; the first of them lies `before_` samples left of the tile's start.
+    void prepare_line_taps() {
+        const double factor = static_cast<double>(lead_.factor);
+        const auto kernel = static_cast<std::ptrdiff_t>(std::ceil(LowPass::half_width * factor)) + 1;
+        const auto center = static_cast<std::ptrdiff_t>(std::floor(lead_.hologram_index(columns_.first)));
+        const std::ptrdiff_t first = center - kernel;
+        before_ = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(region_.x0) - first);
+        for (std::ptrdiff_t k = 0; k <= 2 * kernel + 1; ++k) {
+            const double distance = static_cast<double>(first + k) - lead_.hologram_index(columns_.first);
+            const double h = lead_.factor == 1 ? (distance == 0 ? 1.0 : 0.0) : LowPass::at(distance / factor) / factor;
+            line_taps_.insert(line_taps_.end(), 2, static_cast<float>(h));
+        }
+        const std::size_t last =
+            (columns_.end - 1 - columns_.first) * lead_.factor + static_cast<std::size_t>(2 * kernel + 2);
+        after_ = last > before_ + region_.width ? last - before_ - region_.width : 0;
+    }
+
+    std::span<const NarrowBand> eyes_;
+    std::span<const std::size_t> group_;
+    Region region_;
+    const NarrowBand& lead_;
+    Reach rows_, columns_;
+    std::vector<RowWeights> row_weights_;    // a band row each
+    std::vector<Array<Complex, 2>> phases_;  // [band row][hologram column], an eye each
+    std::vector<float> line_taps_;
+    std::size_t before_ = 0, after_ = 0;
+};
+
+std::vector<Region> tiles(const FieldSource& hologram) {
+    // Wide enough to share column weights among many columns, small enough for the processor's caches. Fixed, so that
+    // sums come out the same on every machine.
+    const std::size_t a = hologram.alignment();
+    const std::size_t width = (512 + a - 1) / a * a, height = (384 + a - 1) / a * a;
+    const Grid& plane = hologram.grid().plane;
+    std::vector<Region> list;
+    for (std::size_t y = 0; y < plane.height; y += height)
+        for (std::size_t x = 0; x < plane.width; x += width)
+            list.push_back({x, y, std::min(width, plane.width - x), std::min(height, plane.height - y)});
+    return list;
+}
+
+}  // namespace
+
+NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geometry(eye, hologram.wavelength) {
+    const Grid& full = hologram.plane;
+    const double needed = half_band(hologram, eye, pupil) * (1 + guard) / LowPass::pass;  // samples per metre
+    const double pitch = std::max(full.pitch_x, full.pitch_y);
+    const double fits = 1 / (pitch * needed);
+    if (fits < 1)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a pupil of {} at {} takes in more than a hologram with a pitch of {} can hold; "
+                                "a pupil of {} or a pitch of {} would do",
+                                format_length(pupil), format_length(eye.z), format_length(pitch),
+                                format_length(pupil * fits), format_length(pitch * fits)));
+    factor = static_cast<std::size_t>(fits);
+    const auto decimate = [&](std::size_t samples) { return (samples + factor - 1) / factor + 2 * margin; };
+    plane = {decimate(full.width),
+             decimate(full.height),
+             full.pitch_x * static_cast<double>(factor),
+             full.pitch_y * static_cast<double>(factor),
+             0,
+             0};
+    // The first sample must lie where hologram_index(0) says.
+    plane.center_x += full.x(hologram_index(0)) - plane.x(0);
+    plane.center_y += full.y(hologram_index(0)) - plane.y(0);
+}
+
+double NarrowBand::hologram_index(std::size_t index) const {
+    const double step = static_cast<double>(factor);
+    return (static_cast<double>(index) - static_cast<double>(margin)) * step + 0.5 * (step - 1);
+}
+
+std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
+                                                                          std::span<const NarrowBand> eyes,
+                                                                          std::size_t first_look, std::size_t looks,
+                                                                          const Progress& progress) {
+    const Grid& plane = hologram.grid().plane;
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
+            return share_columns(eyes[members.front()], eyes[eye], plane);
+        });
+        if (group == groups.end())
+            groups.push_back({eye});
+        else
+            group->push_back(eye);
+    }
+
+    std::vector<std::vector<Array<Complex, 2>>> bands(eyes.size());
+    for (std::size_t eye = 0; eye < eyes.size(); ++eye)
+        for (std::size_t look = 0; look < looks; ++look)
+            bands[eye].emplace_back(Shape<2>{eyes[eye].plane.height, eyes[eye].plane.width});
+
+    const std::vector<Region> regions = tiles(hologram);
+    using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
+    parallel_ordered<Contributions>(
+        regions.size(), default_in_flight(),
+        [&](std::size_t i) {
+            std::vector<TilePass> passes;
+            Contributions contributions;
+            for (const auto& group : groups) {
+                passes.emplace_back(plane, eyes, group, regions[i]);
+                contributions.emplace_back(group.size(), passes.back().empty_contribution());
+            }
+            Array<Complex, 2> tile({regions[i].height, regions[i].width});
+            for (std::size_t look = 0; look < looks; ++look) {
+                hologram.read(regions[i], first_look + look, tile);
+                for (std::size_t g = 0; g < groups.size(); ++g) passes[g].add(tile, contributions[g]);
+            }
+            return contributions;
+        },
+        [&](std::size_t i, Contributions& contributions) {
+            for (std::size_t g = 0; g < groups.size(); ++g)
+                for (std::size_t member = 0; member < groups[g].size(); ++member) {
+                    const Contribution& part = contributions[g][member];
+                    for (std::size_t look = 0; look < looks; ++look) {
+                        Array<Complex, 2>& band = bands[groups[g][member]][look];
+                        const std::size_t last_row = std::min(part.rows.end, band.extent(0));
+                        const std::size_t last_column = std::min(part.columns.end, band.extent(1));
+                        for (std::size_t m = part.rows.first; m < last_row; ++m)
+                            for (std::size_t n = part.columns.first; n < last_column; ++n)
+                                band(m, n) += part.looks[look](m - part.rows.first, n - part.columns.first);
+                    }
+                }
+            report(progress, static_cast<double>(i + 1) / static_cast<double>(regions.size()));
+        });
+    return bands;
+}
+
+}  // namespace hogel

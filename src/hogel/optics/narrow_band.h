@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hogel/optics/field.h"
+#include "hogel/optics/view_geometry.h"
+
+namespace hogel {
+
+/// One eye's narrow band of a hologram, before and after it is drawn from the field.
+///
+/// Light from the hologram point x that enters a pupil of diameter A around c has, after multiplication by
+/// e^{+ik|x−c|}, a frequency of at most A/(2λr) (docs/notation.md section 6; r the distance). So the demodulated field
+/// may be low-passed and sampled every `factor` samples instead of every one.
+struct NarrowBand {
+    ViewGeometry geometry;
+    std::size_t factor = 1;  ///< samples of the hologram to one sample of the band, in x and in y
+    Grid plane;              ///< samples of the band; reaches beyond the hologram by the kernel's half width
+
+    /// Throws Error(usage) when the field is sampled too coarsely to separate the pupil's light from the rest.
+    NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil);
+
+    /// Where sample `index` of the band lies, in samples of the hologram; the same for columns and rows.
+    double hologram_index(std::size_t index) const;
+
+    /// Samples of the band beyond either end of the hologram.
+    static constexpr std::size_t margin = 5;
+};
+
+/// Draws the narrow bands of several eyes from looks [first_look, first_look + looks) of a hologram in one pass over
+/// it. Returns bands[eye][look][row][column]: the demodulated, low-passed field. The same for any number of threads.
+/// Memory: the result, and a tile of the hologram a thread.
+std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
+                                                                          std::span<const NarrowBand> eyes,
+                                                                          std::size_t first_look, std::size_t looks,
+                                                                          const Progress& progress = {});
+
+}  // namespace hogel

@@ -1,0 +1,133 @@
+#include "hogel/optics/photograph.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+// Exact spherical wave of a point at (x, y, z), converging when the point is in front of the plane.
+Field spherical_wave(const FieldGrid& grid, Vec3 point) {
+    Field field(grid);
+    const double k = 2 * std::numbers::pi / grid.wavelength;
+    for (std::size_t row = 0; row < grid.plane.height; ++row)
+        for (std::size_t column = 0; column < grid.plane.width; ++column) {
+            const double r = length(Vec3{grid.plane.x(double(column)), grid.plane.y(double(row)), 0} - point);
+            field.samples(row, column) = std::complex<float>(std::polar(0.01 / r, k * (point.z < 0 ? r : -r)));
+        }
+    return field;
+}
+
+double sum(const Image& image) {
+    double total = 0;
+    for (float value : image.pixels.elements()) total += value;
+    return total;
+}
+
+double correlation(const Image& a, const Image& b) {
+    double ab = 0, aa = 0, bb = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        ab += double(a.pixels.data()[i]) * b.pixels.data()[i];
+        aa += double(a.pixels.data()[i]) * a.pixels.data()[i];
+        bb += double(b.pixels.data()[i]) * b.pixels.data()[i];
+    }
+    return ab / std::sqrt(aa * bb);
+}
+
+struct Case {
+    Vec3 point, eye;
+    double focus;
+};
+
+class NarrowBandCamera : public ::testing::TestWithParam<Case> {};
+
+// The fast camera against the sum over every sample and every point of the pupil: the same picture, in the same units.
+TEST_P(NarrowBandCamera, agrees_with_direct_summation) {
+    const Case& c = GetParam();
+    const FieldGrid grid{{160, 160, 4_um, 4_um, 0, 0}, 633_nm};
+    const Field field = spherical_wave(grid, c.point);
+    Camera camera;
+    camera.eye = c.eye;
+    camera.focus_depth = c.focus;
+    camera.pupil = 3_mm;
+    camera.picture = {32, 32, 20_um, 20_um, 0, 0};
+    const Image fast = photograph(field, std::span(&camera, 1))[0];
+    const Image direct = photograph_directly(field, camera, 80, 4);
+    EXPECT_GT(correlation(fast, direct), 0.9995);
+    EXPECT_NEAR(sum(fast) / sum(direct), 1, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(PointsEyesAndFocuses, NarrowBandCamera,
+                         ::testing::Values(Case{{0, 0, -4e-3}, {0, 0, 0.1}, 0}, Case{{0.1e-3, -0.12e-3, -4e-3}, {0, 0, 0.1}, 4e-3},
+                                           Case{{-0.1e-3, 0.1e-3, 3e-3}, {4e-3, -2e-3, 0.1}, -3e-3},
+                                           Case{{0.12e-3, 0.1e-3, -3e-3}, {-6e-3, 5e-3, 0.1}, 1e-3}));
+
+// A field of independent random samples is a diffuse surface: seen from anywhere, with any pupil, it has the same
+// radiance. With complex samples of variance σ² at pitch Δ its spectrum is σ²Δ² per unit of frequency, which is
+// Lλ²/cos θ.
+TEST(Photograph, a_diffuse_field_has_its_radiance_from_everywhere) {
+    const FieldGrid grid{{1500, 1500, 1_um, 1_um, 0, 0}, 633_nm};
+    Field field(grid);
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal(0, std::sqrt(0.5f));
+    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    const double at_zero = 1e-12 / (633e-9 * 633e-9);  // radiance at cos θ = 1
+    for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.03, 0, 0.1}, Vec3{0, -0.02, 0.05}})
+        for (double pupil : {4_mm, 8_mm}) {
+            Camera camera;
+            camera.eye = eye;
+            camera.pupil = pupil;
+            camera.picture = {20, 20, 60_um, 60_um, 0, 0};
+            const double mean = sum(photograph(field, std::span(&camera, 1))[0]) / 400;
+            const double expected = at_zero * eye.z / length(eye);
+            EXPECT_NEAR(mean / expected, 1, 0.06) << eye.x << " " << eye.y << " " << pupil;
+        }
+}
+
+TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
+    const FieldGrid grid{{300, 200, 5_um, 5_um, 0, 0}, 532_nm};
+    const Field field = spherical_wave(grid, {0, 0, -5e-3});
+    // Two looks that are the same field: their average is each of them.
+    class Twice final : public FieldSource {
+      public:
+        explicit Twice(const Field& f) : field(f) {}
+        const FieldGrid& grid() const override { return field.grid(); }
+        std::size_t looks() const override { return 2; }
+        void read(const Region& region, std::size_t, View<std::complex<float>, 2> out) const override { field.read(region, 0, out); }
+        const Field& field;
+    };
+    Camera camera;
+    camera.eye.z = 0.15;
+    camera.picture = {30, 20, 50_um, 50_um, 0, 0};
+    const Image once = photograph(field, std::span(&camera, 1))[0];
+    const Image twice = photograph(Twice(field), std::span(&camera, 1))[0];
+    for (std::size_t i = 0; i < once.pixels.size(); ++i)
+        EXPECT_NEAR(once.pixels.data()[i], twice.pixels.data()[i], 1e-5f * (1 + once.pixels.data()[i]));
+}
+
+TEST(Photograph, a_pupil_too_wide_for_the_pitch_is_refused_with_one_that_would_do) {
+    const FieldGrid grid{{64, 64, 20_um, 20_um, 0, 0}, 633_nm};
+    const Field field(grid);
+    Camera camera;
+    camera.eye.z = 0.1;
+    camera.pupil = 10_mm;
+    camera.picture = {8, 8, 100_um, 100_um, 0, 0};
+    try {
+        photograph(field, std::span(&camera, 1));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("pupil of 1."), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace hogel

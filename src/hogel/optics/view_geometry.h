@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "hogel/math/vec.h"
+#include "hogel/optics/field.h"
+
+namespace hogel {
+
+/// A hologram as the centre of a lens sees it. A point (x, y, 0) lies in direction n = (x − c)/r from the lens centre
+/// c, so n_x and n_y are direction sines; light from there to a point δ of the pupil has, once demodulated by e^{ikr},
+/// the frequency n'·δ/λ.
+class ViewGeometry {
+  public:
+    ViewGeometry(Vec3 eye, double wavelength) : eye_(eye), wavelength_(wavelength) {}
+
+    Vec3 eye() const { return eye_; }
+    double wavelength() const { return wavelength_; }
+    double distance(double x, double y) const {
+        return std::sqrt((x - eye_.x) * (x - eye_.x) + (y - eye_.y) * (y - eye_.y) + eye_.z * eye_.z);
+    }
+    /// Phase kr in turns of the light's path from (x, y, 0) to the eye.
+    double turns(double x, double y) const { return distance(x, y) / wavelength_; }
+    double cosine(double x, double y) const { return eye_.z / distance(x, y); }
+    double sine_x(double x, double y) const { return (x - eye_.x) / distance(x, y); }
+    double sine_y(double x, double y) const { return (y - eye_.y) / distance(x, y); }
+    /// The x at which the direction has a given sine n_x, for a given y; and the y for a given n_y and x.
+    double x_of_sine(double sine, double y) const {
+        return eye_.x + sine * std::sqrt(((y - eye_.y) * (y - eye_.y) + eye_.z * eye_.z) / (1 - sine * sine));
+    }
+    double y_of_sine(double sine, double x) const {
+        return eye_.y + sine * std::sqrt(((x - eye_.x) * (x - eye_.x) + eye_.z * eye_.z) / (1 - sine * sine));
+    }
+
+  private:
+    Vec3 eye_;
+    double wavelength_;
+};
+
+}  // namespace hogel

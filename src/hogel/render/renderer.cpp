@@ -1,0 +1,36 @@
+#include "hogel/render/renderer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <vector>
+
+#include "hogel/render/raytrace_internal.h"
+#include "hogel/render/zbuffer_internal.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::array infos{
+    RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)"},
+    RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
+};
+
+}  // namespace
+
+std::span<const RendererInfo> renderers() { return infos; }
+
+std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
+                                                const LightFieldGrid& grid) {
+    validate(grid, ErrorCode::usage, "light field to render");
+    if (grid.channels != 1 && grid.channels != 3)
+        throw Error(ErrorCode::usage, fmt::format("a light field has 1 or 3 channels, not {}", grid.channels));
+    if (name == "raytrace") return make_raytrace_renderer(std::move(scene), grid);
+    if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
+    std::vector<std::string_view> known;
+    for (const RendererInfo& info : infos) known.push_back(info.name);
+    throw Error(ErrorCode::usage, fmt::format("unknown renderer '{}'; known: {}", name, fmt::join(known, ", ")));
+}
+
+}  // namespace hogel
