@@ -50,6 +50,25 @@ const InterpolationTable& interpolation() {
     return table;
 }
 
+// Catmull and Rom's cubic through four neighbours: intensities come with two samples to their finest wave, for which
+// straight lines would be too coarse. Nothing outside, and never negative.
+double cubic_at(View<const float, 2> values, double row, double column) {
+    const auto weights = [](double f) {
+        return std::array{((-0.5 * f + 1) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1, ((-1.5 * f + 2) * f + 0.5) * f,
+                          (0.5 * f - 0.5) * f * f};
+    };
+    const double row0 = std::floor(row), column0 = std::floor(column);
+    if (row0 < 1 || column0 < 1 || row0 + 2 >= static_cast<double>(values.extent(0)) ||
+        column0 + 2 >= static_cast<double>(values.extent(1)))
+        return 0;
+    const auto down = weights(row - row0), across = weights(column - column0);
+    const auto j = static_cast<std::size_t>(row0) - 1, i = static_cast<std::size_t>(column0) - 1;
+    double sum = 0;
+    for (std::size_t b = 0; b < 4; ++b)
+        for (std::size_t a = 0; a < 4; ++a) sum += down[b] * across[a] * values(j + b, i + a);
+    return std::max(sum, 0.0);
+}
+
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -279,13 +298,7 @@ Image Film::develop(std::size_t index, View<const float, 2> intensity) const {
                         continue;
                     const double i = (geometry.sine_x(x, y) - sines_.first_x) / sines_.step;
                     const double j = (geometry.sine_y(x, y) - sines_.first_y) / sines_.step;
-                    const double i0 = std::floor(i), j0 = std::floor(j), fi = i - i0, fj = j - j0;
-                    if (i0 < 0 || j0 < 0 || i0 + 1 >= static_cast<double>(sines_.size_x) ||
-                        j0 + 1 >= static_cast<double>(sines_.size_y))
-                        continue;
-                    const auto ii = static_cast<std::size_t>(i0), jj = static_cast<std::size_t>(j0);
-                    const double value = (1 - fj) * ((1 - fi) * intensity(jj, ii) + fi * intensity(jj, ii + 1)) +
-                                         fj * ((1 - fi) * intensity(jj + 1, ii) + fi * intensity(jj + 1, ii + 1));
+                    const double value = cubic_at(intensity, j, i);
                     // A diffuse surface of radiance L sends L cos θ · (area of the pupil) cos θ/r² through this band,
                     // and its plane waves have 1/cos θ of that as |F|² (docs/notation.md section 6).
                     const double r = geometry.distance(x, y);

@@ -1,0 +1,178 @@
+#include "hogel/hologram/stereogram.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+#include "hogel/hologram/frequency_grid.h"
+#include "hogel/optics/photograph.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+using Complex = std::complex<float>;
+
+LightField uniform(const LightFieldGrid& grid, float radiance) {
+    LightField light_field(grid);
+    std::ranges::fill(light_field.radiance.elements(), radiance);
+    return light_field;
+}
+
+const LightFieldGrid small{8, 6, 64_um, 24, 24, 0.15, 0.15, 1};
+
+// One direction alone makes one plane wave, which runs the way the ray does: e^{2πi (f_x x + f_y y)} with
+// f = −(U,V)/(λ√(1+U²+V²)), over every hogel, with |F|² = L (λ/d)²/cos θ.
+TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) {
+    StereogramOptions options;
+    options.wavelength = 633_nm;
+    options.pitch = 2_um;
+    // Radiance only at the sample nearest to frequency (+3, −2)/d: U and V have the opposite signs.
+    const double step = options.wavelength / small.pitch, sx = 3 * step, sy = -2 * step;
+    const double cosine = std::sqrt(1 - sx * sx - sy * sy);
+    LightFieldGrid grid = small;
+    // A grid of directions so fine that one sample lies within one lobe.
+    grid.directions_u = grid.directions_v = 151;
+    LightField light_field(grid);
+    const double U = -sx / cosine, V = -sy / cosine;
+    const auto k = static_cast<std::size_t>(std::lround(U / grid.step_u() + 75)), l = static_cast<std::size_t>(std::lround(75 - V / grid.step_v()));
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s) light_field.radiance(0, t, s, l, k) = 1;
+    const auto stereogram = make_stereogram(light_field, options);
+    const Grid& plane = stereogram->grid().plane;
+    Array<Complex, 2> field({plane.height, plane.width});
+    stereogram->read({0, 0, plane.width, plane.height}, 0, field);
+    // The mean over the lobe of a single sample's hat: its share of the lobe's area.
+    const double lobe = step / (grid.step_u() * cosine) * (1 + U * U) * step / (grid.step_v() * cosine) * (1 + V * V);
+    const double modulus = std::sqrt(step * step / cosine / lobe);
+    const std::size_t n = stereogram->alignment();
+    ASSERT_EQ(n, 32u);
+    for (std::size_t y = 0; y < plane.height; ++y)
+        for (std::size_t x = 0; x < plane.width; ++x) {
+            const std::size_t x0 = x / n * n, y0 = y / n * n;  // the hogel's first sample has its random phase
+            const double turns = 3 / small.pitch * (plane.x(double(x)) - plane.x(double(x0))) -
+                                 2 / small.pitch * (plane.y(double(y)) - plane.y(double(y0)));
+            const auto expected = std::complex<double>(field(y0, x0)) * std::polar(1.0, 2 * std::numbers::pi * turns);
+            ASSERT_LT(std::abs(std::complex<double>(field(y, x)) - expected), 1e-4 * modulus) << x << " " << y;
+            ASSERT_NEAR(std::abs(field(y, x)), modulus, 1e-3 * modulus);
+        }
+}
+
+// Parseval: the mean of |F|² over a hogel is Σ_j L (λ/d)²/cos θ_j.
+TEST(Stereogram, carries_the_energy_of_its_light_field) {
+    const LightField light_field = uniform(small, 0.7f);
+    StereogramOptions options;
+    options.pitch = 1.6_um;  // 40 samples a hogel
+    const auto stereogram = make_stereogram(light_field, options);
+    const double step = options.wavelength / small.pitch;
+    double expected = 0;
+    for (int j = -19; j <= 19; ++j)
+        for (int i = -19; i <= 19; ++i) {
+            const double sine2 = (i * i + j * j) * step * step, cosine = std::sqrt(1 - sine2);
+            // Lobes on the border of the field of view are partly lit.
+            const auto lit = [&](double sine) {
+                const double tangent = std::abs(sine) / cosine, half = 0.5 * step * (1 + tangent * tangent) / cosine;
+                return std::clamp((0.15 - tangent + half) / (2 * half), 0.0, 1.0);
+            };
+            expected += 0.7 * lit(i * step) * lit(j * step) * step * step / cosine;
+        }
+    Array<Complex, 2> hogel({40, 40});
+    stereogram->read({80, 40, 40, 40}, 0, hogel);
+    double energy = 0;
+    for (const Complex& value : hogel.elements()) energy += std::norm(value) / 1600;
+    EXPECT_NEAR(energy / expected, 1, 1e-4);
+}
+
+TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_look_or_seed) {
+    LightField light_field(small);
+    for (std::size_t i = 0; i < light_field.radiance.size(); ++i) light_field.radiance.data()[i] = float(i % 97) / 97;
+    StereogramOptions options;
+    options.pitch = 1.6_um;
+    options.looks = 2;
+    const auto stereogram = make_stereogram(light_field, options);
+    const Grid& plane = stereogram->grid().plane;
+    Array<Complex, 2> whole({plane.height, plane.width});
+    stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
+    for (const Region& region : {Region{0, 0, 40, 40}, Region{13, 29, 101, 77}, Region{319, 239, 1, 1}, Region{40, 80, 80, 40}}) {
+        Array<Complex, 2> part({region.height, region.width});
+        stereogram->read(region, 0, part);
+        for (std::size_t y = 0; y < region.height; ++y)
+            for (std::size_t x = 0; x < region.width; ++x)
+                ASSERT_EQ(part(y, x), whole(region.y0 + y, region.x0 + x)) << x << " " << y;
+    }
+    const auto correlation = [&](const FieldSource& other, std::size_t look) {
+        Array<Complex, 2> field({plane.height, plane.width});
+        other.read({0, 0, plane.width, plane.height}, look, field);
+        std::complex<double> ab = 0;
+        double aa = 0, bb = 0;
+        for (std::size_t i = 0; i < field.size(); ++i) {
+            ab += std::complex<double>(field.data()[i]) * std::conj(std::complex<double>(whole.data()[i]));
+            aa += std::norm(field.data()[i]);
+            bb += std::norm(whole.data()[i]);
+        }
+        return std::abs(ab) / std::sqrt(aa * bb);
+    };
+    EXPECT_NEAR(correlation(*stereogram, 0), 1, 1e-6);
+    EXPECT_LT(correlation(*stereogram, 1), 0.03);
+    options.seed = 2;
+    EXPECT_LT(correlation(*make_stereogram(light_field, options), 0), 0.03);
+}
+
+// A surface of uniform radiance is as bright from everywhere, and as bright as the light field says: no free factor.
+TEST(Stereogram, a_uniform_light_field_photographs_as_its_radiance_from_every_side) {
+    const LightFieldGrid grid{24, 24, 64_um, 30, 30, 0.3, 0.3, 1};
+    const LightField light_field = uniform(grid, 0.5f);
+    StereogramOptions options;
+    options.pitch = 1_um;
+    options.looks = 4;
+    const auto stereogram = make_stereogram(light_field, options);
+    for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.025, 0, 0.1}, Vec3{-0.01, 0.02, 0.1}}) {
+        Camera camera;
+        camera.eye = eye;
+        camera.pupil = 5_mm;
+        camera.picture = {16, 16, 64_um, 64_um, 0, 0};
+        const Image image = photograph(*stereogram, std::span(&camera, 1))[0];
+        double mean = 0;
+        for (float value : image.pixels.elements()) mean += value / 256;
+        EXPECT_NEAR(mean, 0.5, 0.02) << eye.x << " " << eye.y;
+    }
+}
+
+TEST(Stereogram, a_pitch_too_coarse_for_the_field_of_view_is_refused_with_one_that_would_do) {
+    const LightField light_field = uniform(small, 1);
+    StereogramOptions options;
+    options.pitch = 4_um;  // diffracts to asin(633/8000) = 4.5 degrees, the light field reaches 8.5
+    try {
+        make_stereogram(light_field, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("a pitch of 2.13"), std::string::npos) << error.what();
+    }
+    options.pitch = 2_um;
+    options.channel = 1;
+    EXPECT_THROW(make_stereogram(light_field, options), Error);
+}
+
+// The resampling keeps constants and, away from borders, the means of linear functions.
+TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
+    const LightFieldGrid grid{1, 1, 64_um, 41, 37, 0.14, 0.14, 1};
+    const double wavelength = 532_nm, step = wavelength / grid.pitch;
+    const FrequencyGrid frequencies(grid, 32, wavelength);
+    std::vector<float> radiance(grid.directions()), moduli(32 * 32);
+    for (std::size_t l = 0; l < 37; ++l)
+        for (std::size_t k = 0; k < 41; ++k) radiance[l * 41 + k] = float(1 + 3 * grid.u(double(k)) - 2 * grid.v(double(l)));
+    frequencies.amplitudes(radiance, moduli);
+    for (int j = -10; j <= 10; ++j)
+        for (int i = -10; i <= 10; ++i) {
+            const double cosine = std::sqrt(1 - (i * i + j * j) * step * step), U = -i * step / cosine, V = -j * step / cosine;
+            const double modulus = moduli[std::size_t((32 - j) % 32) * 32 + std::size_t((32 + i) % 32)];
+            EXPECT_NEAR(modulus * modulus / (step * step / cosine), 1 + 3 * U - 2 * V, 1e-5) << i << " " << j;
+        }
+}
+
+}  // namespace
+}  // namespace hogel
