@@ -15,8 +15,8 @@ namespace {
 
 using namespace literals;
 
-// Where the light of a picture is: its centroid and the full width at half maximum of its horizontal profile through the
-// brightest pixel, in metres on the hologram plane.
+// Where the light of a picture is: its centroid and the full width at half maximum of its horizontal profile through
+// the brightest pixel, in metres on the hologram plane.
 struct Spot {
     double x = 0, y = 0, width = 0, peak = 0;
 };
@@ -85,7 +85,8 @@ TEST_P(PointPhotograph, is_where_geometry_says_and_as_sharp_as_diffraction_allow
     // Seen through the middle of the lens the point lies over this place of the hologram plane.
     const double along = eye.z / (eye.z - point.z);
     const double x = eye.x + along * (point.x - eye.x), y = eye.y + along * (point.y - eye.y);
-    const std::array cameras{camera_at(eye, depth, x, y), camera_at(eye, depth + 2_mm, x, y), camera_at(eye, depth - 2_mm, x, y)};
+    const std::array cameras{camera_at(eye, depth, x, y), camera_at(eye, depth + 2_mm, x, y),
+                             camera_at(eye, depth - 2_mm, x, y)};
     const std::vector<Image> images = photograph(field, cameras);
     const Spot sharp = measure(images[0], cameras[0].picture);
     const double cell = resolution_cell(cameras[0], wavelength);
@@ -102,16 +103,18 @@ TEST_P(PointPhotograph, is_where_geometry_says_and_as_sharp_as_diffraction_allow
 }
 
 INSTANTIATE_TEST_SUITE_P(DepthsAndEyes, PointPhotograph,
-                         ::testing::Values(Case{5e-3, {0, 0, 0.1}}, Case{5e-3, {20e-3, 0, 0.1}}, Case{5e-3, {-10e-3, 15e-3, 0.1}},
-                                           Case{-5e-3, {0, 0, 0.1}}, Case{-5e-3, {20e-3, 0, 0.1}},
-                                           Case{-5e-3, {-10e-3, 15e-3, 0.1}}, Case{12e-3, {0, 0, 0.12}}));
+                         ::testing::Values(Case{5e-3, {0, 0, 0.1}}, Case{5e-3, {20e-3, 0, 0.1}},
+                                           Case{5e-3, {-10e-3, 15e-3, 0.1}}, Case{-5e-3, {0, 0, 0.1}},
+                                           Case{-5e-3, {20e-3, 0, 0.1}}, Case{-5e-3, {-10e-3, 15e-3, 0.1}},
+                                           Case{12e-3, {0, 0, 0.12}}));
 
 TEST(PointHologram, is_the_spherical_wave_of_its_point_and_refuses_the_plane_itself) {
     const FieldGrid grid{{3, 2, 5_um, 5_um, 0, 0}, 532_nm};
     const PointSource point{{1e-3, 2e-3, -4e-3}, 0.3, 0.7};
     const Field field = point_hologram(std::span(&point, 1), grid);
     const double r = std::hypot(1e-3 - grid.plane.x(2), 2e-3 - grid.plane.y(1), 4e-3);
-    const auto expected = std::polar(0.3 / r, std::remainder(2 * std::numbers::pi * (r / 532e-9) + 0.7, 2 * std::numbers::pi));
+    const auto expected =
+        std::polar(0.3 / r, std::remainder(2 * std::numbers::pi * (r / 532e-9) + 0.7, 2 * std::numbers::pi));
     EXPECT_LT(std::abs(std::complex<double>(field.samples(1, 2)) - expected), 1e-4 * std::abs(expected));
     const PointSource on_plane{{0, 0, 0}};
     EXPECT_THROW(point_hologram(std::span(&on_plane, 1), grid), Error);

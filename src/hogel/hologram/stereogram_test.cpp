@@ -38,7 +38,8 @@ TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) 
     grid.directions_u = grid.directions_v = 151;
     LightField light_field(grid);
     const double U = -sx / cosine, V = -sy / cosine;
-    const auto k = static_cast<std::size_t>(std::lround(U / grid.step_u() + 75)), l = static_cast<std::size_t>(std::lround(75 - V / grid.step_v()));
+    const auto k = static_cast<std::size_t>(std::lround(U / grid.step_u() + 75)),
+               l = static_cast<std::size_t>(std::lround(75 - V / grid.step_v()));
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s) light_field.radiance(0, t, s, l, k) = 1;
     const auto stereogram = make_stereogram(light_field, options);
@@ -96,7 +97,8 @@ TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_
     const Grid& plane = stereogram->grid().plane;
     Array<Complex, 2> whole({plane.height, plane.width});
     stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
-    for (const Region& region : {Region{0, 0, 40, 40}, Region{13, 29, 101, 77}, Region{319, 239, 1, 1}, Region{40, 80, 80, 40}}) {
+    for (const Region& region :
+         {Region{0, 0, 40, 40}, Region{13, 29, 101, 77}, Region{319, 239, 1, 1}, Region{40, 80, 80, 40}}) {
         Array<Complex, 2> part({region.height, region.width});
         stereogram->read(region, 0, part);
         for (std::size_t y = 0; y < region.height; ++y)
@@ -164,11 +166,13 @@ TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
     const FrequencyGrid frequencies(grid, 32, wavelength);
     std::vector<float> radiance(grid.directions()), moduli(32 * 32);
     for (std::size_t l = 0; l < 37; ++l)
-        for (std::size_t k = 0; k < 41; ++k) radiance[l * 41 + k] = float(1 + 3 * grid.u(double(k)) - 2 * grid.v(double(l)));
+        for (std::size_t k = 0; k < 41; ++k)
+            radiance[l * 41 + k] = float(1 + 3 * grid.u(double(k)) - 2 * grid.v(double(l)));
     frequencies.amplitudes(radiance, moduli);
     for (int j = -10; j <= 10; ++j)
         for (int i = -10; i <= 10; ++i) {
-            const double cosine = std::sqrt(1 - (i * i + j * j) * step * step), U = -i * step / cosine, V = -j * step / cosine;
+            const double cosine = std::sqrt(1 - (i * i + j * j) * step * step), U = -i * step / cosine,
+                         V = -j * step / cosine;
             const double modulus = moduli[std::size_t((32 - j) % 32) * 32 + std::size_t((32 + i) % 32)];
             EXPECT_NEAR(modulus * modulus / (step * step / cosine), 1 + 3 * U - 2 * V, 1e-5) << i << " " << j;
         }

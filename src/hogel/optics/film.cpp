@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hogel/optics/low_pass.h"
+#include "hogel/optics/narrow_band_kernels.h"
 
 namespace hogel {
 namespace {
@@ -246,12 +247,7 @@ std::vector<Array<float, 2>> Film::expose(View<const Complex, 2> band) const {
     for (const Lens& lens : lenses_) {
         Array<float, 2>& film = films.emplace_back(spectrum.shape());
         for (std::size_t node = 0; node < lens.pupils.size(); ++node) {
-            const std::span<const Complex> pupil = lens.pupils[node].elements(), pupil_field = spectrum.elements();
-            for (std::size_t i = 0; i < pupil.size(); ++i) {
-                const Complex a = pupil_field[i], b = pupil[i];
-                field.data()[i] = {a.real() * b.real() - a.imag() * b.imag(),
-                                   a.real() * b.imag() + a.imag() * b.real()};
-            }
+            multiply(spectrum.data(), lens.pupils[node].data(), field.elements());
             fft_->backward(field);
             // Between nodes the intensities cross over linearly.
             const auto weight = [](std::size_t k, std::size_t size, std::size_t at, std::size_t nodes) {

@@ -29,25 +29,17 @@ double half_band(const FieldGrid& hologram, Vec3 eye, double pupil) {
     return 0.5 * pupil / (hologram.wavelength * ViewGeometry(eye, hologram.wavelength).distance(x, y));
 }
 
-// The samples of the band that a run of samples of the hologram adds to.
+// The samples of the band that samples [begin, end) of the hologram add to.
 struct Reach {
     std::size_t first, end;
 };
 
-Reach reach(const NarrowBand& band, std::size_t begin, std::size_t end) {
-    const auto at = [&](double hologram_index) {
-        return hologram_index / static_cast<double>(band.factor) + static_cast<double>(NarrowBand::margin);
-    };
-    const double half = LowPass::half_width + 0.5;
-    return {static_cast<std::size_t>(std::max(0.0, std::floor(at(static_cast<double>(begin)) - half))),
-            static_cast<std::size_t>(std::ceil(at(static_cast<double>(end)) + half))};
-}
-
-// The kernel between hologram sample `from` and band sample `to`; its sum over all `from` is one.
-float tap(const NarrowBand& band, std::size_t from, std::size_t to) {
-    const double factor = static_cast<double>(band.factor);
-    if (band.factor == 1) return from + NarrowBand::margin == to ? 1.0f : 0.0f;
-    return static_cast<float>(LowPass::at((static_cast<double>(from) - band.hologram_index(to)) / factor) / factor);
+Reach reach(const NarrowBand& band, std::size_t samples, std::size_t begin, std::size_t end) {
+    const auto taps = static_cast<std::ptrdiff_t>(band.taps.size());
+    Reach r{0, 0};
+    while (r.first + 1 < samples && band.first_tap(r.first) + taps <= static_cast<std::ptrdiff_t>(begin)) ++r.first;
+    for (r.end = r.first; r.end < samples && band.first_tap(r.end) < static_cast<std::ptrdiff_t>(end);) ++r.end;
+    return r;
 }
 
 // Eyes that are at one height and one distance need, down the columns of a narrow tile, nearly the same demodulation:
@@ -75,13 +67,12 @@ class TilePass {
     TilePass(const Grid& plane, std::span<const NarrowBand> eyes, std::span<const std::size_t> group,
              const Region& region)
         : eyes_(eyes), group_(group), region_(region), lead_(eyes[group.front()]) {
-        rows_ = reach(lead_, region.y0, region.y0 + region.height);
-        columns_ = reach(lead_, region.x0, region.x0 + region.width);
+        rows_ = reach(lead_, lead_.plane.height, region.y0, region.y0 + region.height);
+        columns_ = reach(lead_, lead_.plane.width, region.x0, region.x0 + region.width);
         // The phase that is taken off down the columns is that of the tile's middle column, as the first eye sees it.
         const double middle = plane.x(static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5);
         const auto column_phase = [&](double y) { return lead_.geometry.turns(middle, y); };
-        for (std::size_t m = rows_.first; m < rows_.end; ++m)
-            row_weights_.push_back(weights_of_row(plane, m, column_phase));
+        weigh_rows(plane, column_phase);
         for (std::size_t eye : group_) phases_.push_back(remaining_phases(plane, eyes_[eye], column_phase));
         prepare_line_taps();
     }
@@ -95,15 +86,9 @@ class TilePass {
         std::vector<Complex> line(before_ + region_.width + after_);
         for (std::size_t m = 0; m < rows; ++m) {
             const RowWeights& weights = row_weights_[m];
-            if (weights.values.empty()) continue;
             weighted_rows(&tile(weights.first, 0), region_.width, weights.values, down);
             for (std::size_t e = 0; e < group_.size(); ++e) {
-                const View<const Complex, 1> phase = phases_[e].view()[m];
-                for (std::size_t x = 0; x < region_.width; ++x) {
-                    const Complex z = down[x], p = phase(x);
-                    line[before_ + x] = {z.real() * p.real() - z.imag() * p.imag(),
-                                         z.real() * p.imag() + z.imag() * p.real()};
-                }
+                multiply(down.data(), phases_[e].view()[m].data(), std::span(line).subspan(before_, region_.width));
                 decimated_line(line.data(), lead_.factor, line_taps_, contributions[e].looks.back()[m].elements());
             }
         }
@@ -118,16 +103,26 @@ class TilePass {
     };
 
     template <class Phase>
-    RowWeights weights_of_row(const Grid& plane, std::size_t m, const Phase& phase) const {
-        RowWeights weights;
-        for (std::size_t r = 0; r < region_.height; ++r) {
-            const float h = tap(lead_, region_.y0 + r, m);
-            if (h == 0 && weights.values.empty()) continue;
-            if (weights.values.empty()) weights.first = r;
-            weights.values.push_back(h * unit(phase(plane.y(static_cast<double>(region_.y0 + r)))));
+    void weigh_rows(const Grid& plane, const Phase& phase) {
+        std::vector<Complex> demodulation(region_.height);
+        for (std::size_t r = 0; r < region_.height; ++r)
+            demodulation[r] = unit(phase(plane.y(static_cast<double>(region_.y0 + r))));
+        for (std::size_t m = rows_.first; m < rows_.end; ++m) {
+            // The taps that fall into the tile.
+            const std::ptrdiff_t offset = lead_.first_tap(m) - static_cast<std::ptrdiff_t>(region_.y0);
+            const auto begin = std::max<std::ptrdiff_t>(offset, 0);
+            const auto end = std::min(offset + static_cast<std::ptrdiff_t>(lead_.taps.size()),
+                                      static_cast<std::ptrdiff_t>(region_.height));
+            RowWeights& weights = row_weights_.emplace_back();
+            weights.first = static_cast<std::size_t>(begin);
+            for (std::ptrdiff_t r = begin; r < end; ++r)
+                weights.values.push_back(lead_.taps[static_cast<std::size_t>(r - offset)] *
+                                         demodulation[static_cast<std::size_t>(r)]);
         }
-        while (!weights.values.empty() && weights.values.back() == Complex(0)) weights.values.pop_back();
-        return weights;
+    }
+
+    static std::complex<double> times(std::complex<double> a, std::complex<double> b) {
+        return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
     }
 
     // e^{ik|x−c|} less the phase already taken off, at every hologram column and band row of the tile.
@@ -153,33 +148,19 @@ class TilePass {
                 const std::complex<double> bend = exact_unit(curvature);
                 for (std::size_t x = x0; x < std::min(x0 + stretch, region_.width); ++x) {
                     phases(m, x) = Complex(value);
-                    value = multiply(value, step);
-                    step = multiply(step, bend);
+                    value = times(value, step);
+                    step = times(step, bend);
                 }
             }
         }
         return phases;
     }
 
-    // std::complex's own product checks for infinities.
-    static std::complex<double> multiply(std::complex<double> a, std::complex<double> b) {
-        return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-    }
-
     // Every band sample has the same taps around it; the first of them lies `before_` samples left of the tile's start.
     void prepare_line_taps() {
-        const double factor = static_cast<double>(lead_.factor);
-        const auto kernel = static_cast<std::ptrdiff_t>(std::ceil(LowPass::half_width * factor)) + 1;
-        const auto center = static_cast<std::ptrdiff_t>(std::floor(lead_.hologram_index(columns_.first)));
-        const std::ptrdiff_t first = center - kernel;
-        before_ = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(region_.x0) - first);
-        for (std::ptrdiff_t k = 0; k <= 2 * kernel + 1; ++k) {
-            const double distance = static_cast<double>(first + k) - lead_.hologram_index(columns_.first);
-            const double h = lead_.factor == 1 ? (distance == 0 ? 1.0 : 0.0) : LowPass::at(distance / factor) / factor;
-            line_taps_.insert(line_taps_.end(), 2, static_cast<float>(h));
-        }
-        const std::size_t last =
-            (columns_.end - 1 - columns_.first) * lead_.factor + static_cast<std::size_t>(2 * kernel + 2);
+        for (float tap : lead_.taps) line_taps_.insert(line_taps_.end(), 2, tap);
+        before_ = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(region_.x0) - lead_.first_tap(columns_.first));
+        const std::size_t last = (columns_.end - 1 - columns_.first) * lead_.factor + lead_.taps.size();
         after_ = last > before_ + region_.width ? last - before_ - region_.width : 0;
     }
 
@@ -228,6 +209,21 @@ NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geom
              full.pitch_y * static_cast<double>(factor),
              0,
              0};
+    const double step = static_cast<double>(factor);
+    if (factor == 1) {
+        taps = {1};
+    } else {
+        const auto count = static_cast<std::size_t>(std::ceil(2 * LowPass::half_width * step)) + 1;
+        taps.resize(count);
+        const double first = static_cast<double>(first_tap(margin)) - hologram_index(margin);
+        double sum = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            taps[k] = static_cast<float>(LowPass::at((first + static_cast<double>(k)) / step));
+            sum += taps[k];
+        }
+        // What the sampling of the kernel changes of its integral, so that a constant stays itself.
+        for (float& tap : taps) tap /= static_cast<float>(sum);
+    }
     // The first sample must lie where hologram_index(0) says.
     plane.center_x += full.x(hologram_index(0)) - plane.x(0);
     plane.center_y += full.y(hologram_index(0)) - plane.y(0);
@@ -236,6 +232,11 @@ NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geom
 double NarrowBand::hologram_index(std::size_t index) const {
     const double step = static_cast<double>(factor);
     return (static_cast<double>(index) - static_cast<double>(margin)) * step + 0.5 * (step - 1);
+}
+
+std::ptrdiff_t NarrowBand::first_tap(std::size_t index) const {
+    const double middle = hologram_index(index);
+    return static_cast<std::ptrdiff_t>(std::ceil(middle - 0.5 * static_cast<double>(taps.size() - 1)));
 }
 
 std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,

@@ -15,14 +15,17 @@ namespace hogel {
 /// may be low-passed and sampled every `factor` samples instead of every one.
 struct NarrowBand {
     ViewGeometry geometry;
-    std::size_t factor = 1;  ///< samples of the hologram to one sample of the band, in x and in y
-    Grid plane;              ///< samples of the band; reaches beyond the hologram by the kernel's half width
+    std::size_t factor = 1;   ///< samples of the hologram to one sample of the band, in x and in y
+    Grid plane;               ///< samples of the band; reaches beyond the hologram by the kernel's half width
+    std::vector<float> taps;  ///< the low-pass: band sample b is Σ_k taps[k] · hologram sample (first_tap(b) + k)
 
     /// Throws Error(usage) when the field is sampled too coarsely to separate the pupil's light from the rest.
     NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil);
 
     /// Where sample `index` of the band lies, in samples of the hologram; the same for columns and rows.
     double hologram_index(std::size_t index) const;
+    /// The hologram sample under the first tap of band sample `index`; may lie before the hologram's first.
+    std::ptrdiff_t first_tap(std::size_t index) const;
 
     /// Samples of the band beyond either end of the hologram.
     static constexpr std::size_t margin = 5;

@@ -8,7 +8,7 @@
 
 namespace hogel {
 
-/// The two inner loops of the narrow-band camera, each plain and as fast as this processor allows; the twins agree to
+/// The inner loops of the narrow-band camera, each plain and as fast as this processor allows; the twins agree to
 /// rounding.
 
 /// out[x] = Σ_r weights[r] · rows[r·stride + x], for every x of `out`: the low-pass down the columns of a tile.
@@ -23,5 +23,9 @@ void decimated_line_plain(const std::complex<float>* line, std::size_t step, std
                           std::span<std::complex<float>> out);
 void decimated_line(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
                     std::span<std::complex<float>> out);
+
+/// out[x] = a[x] · b[x], for every x of `out`.
+void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
+void multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
 
 }  // namespace hogel

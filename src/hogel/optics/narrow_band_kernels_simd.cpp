@@ -23,6 +23,10 @@ void DecimatedLine(const std::complex<float>* line, std::size_t step, std::span<
                    std::span<std::complex<float>> out) {
     decimated_line_plain(line, step, taps, out);
 }
+
+void Multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out) {
+    multiply_plain(a, b, out);
+}
 #else
 // Complex numbers lie in pairs of lanes. A complex weight w times a complex vector z is summed as two real products,
 // a = Σ re(w)·z and b = Σ im(w)·z; swapping b's lanes and giving one of them the minus sign comes once, at the end.
@@ -88,6 +92,19 @@ void DecimatedLine(const std::complex<float>* line, std::size_t step, std::span<
     }
 }
 
+
+void Multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out) {
+    const hn::ScalableTag<float> d;
+    const std::size_t lanes = hn::Lanes(d), floats = 2 * out.size();
+    const auto *p = reinterpret_cast<const float*>(a), *q = reinterpret_cast<const float*>(b);
+    auto* to = reinterpret_cast<float*>(out.data());
+    std::size_t x = 0;
+    for (; x + lanes <= floats; x += lanes) {
+        const auto u = hn::LoadU(d, p + x), v = hn::LoadU(d, q + x);
+        hn::StoreU(join(d, hn::Mul(u, hn::DupEven(v)), hn::Mul(u, hn::DupOdd(v))), d, to + x);
+    }
+    if (x < floats) multiply_plain(a + x / 2, b + x / 2, out.subspan(x / 2));
+}
 #endif
 
 }  // namespace HWY_NAMESPACE
@@ -99,6 +116,7 @@ namespace hogel {
 
 HWY_EXPORT(WeightedRows);
 HWY_EXPORT(DecimatedLine);
+HWY_EXPORT(Multiply);
 
 void weighted_rows(const std::complex<float>* rows, std::size_t stride, std::span<const std::complex<float>> weights,
                    std::span<std::complex<float>> out) {
@@ -108,6 +126,10 @@ void weighted_rows(const std::complex<float>* rows, std::size_t stride, std::spa
 void decimated_line(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
                     std::span<std::complex<float>> out) {
     HWY_DYNAMIC_DISPATCH(DecimatedLine)(line, step, taps, out);
+}
+
+void multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out) {
+    HWY_DYNAMIC_DISPATCH(Multiply)(a, b, out);
 }
 
 }  // namespace hogel

@@ -38,7 +38,18 @@ TEST(NarrowBandKernels, vector_and_plain_lines_agree) {
         std::vector<Complex> fast(60), plain(60);
         decimated_line(line.data(), 13, doubled, fast);
         decimated_line_plain(line.data(), 13, doubled, plain);
-        for (std::size_t n = 0; n < fast.size(); ++n) EXPECT_LT(std::abs(fast[n] - plain[n]), 1e-5f) << taps << " " << n;
+        for (std::size_t n = 0; n < fast.size(); ++n)
+            EXPECT_LT(std::abs(fast[n] - plain[n]), 1e-5f) << taps << " " << n;
+    }
+}
+
+TEST(NarrowBandKernels, vector_and_plain_products_agree) {
+    const std::vector<Complex> a = noise(80), b(a.rbegin(), a.rend());
+    for (std::size_t count = 0; count <= 70; ++count) {
+        std::vector<Complex> fast(count), plain(count);
+        multiply(&a[1], &b[2], fast);
+        multiply_plain(&a[1], &b[2], plain);
+        for (std::size_t x = 0; x < count; ++x) EXPECT_LT(std::abs(fast[x] - plain[x]), 1e-6f) << count << " " << x;
     }
 }
 

@@ -66,7 +66,8 @@ TEST_P(NarrowBandCamera, agrees_with_direct_summation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PointsEyesAndFocuses, NarrowBandCamera,
-                         ::testing::Values(Case{{0, 0, -4e-3}, {0, 0, 0.1}, 0}, Case{{0.1e-3, -0.12e-3, -4e-3}, {0, 0, 0.1}, 4e-3},
+                         ::testing::Values(Case{{0, 0, -4e-3}, {0, 0, 0.1}, 0},
+                                           Case{{0.1e-3, -0.12e-3, -4e-3}, {0, 0, 0.1}, 4e-3},
                                            Case{{-0.1e-3, 0.1e-3, 3e-3}, {4e-3, -2e-3, 0.1}, -3e-3},
                                            Case{{0.12e-3, 0.1e-3, -3e-3}, {-6e-3, 5e-3, 0.1}, 1e-3}));
 
@@ -101,7 +102,9 @@ TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
         explicit Twice(const Field& f) : field(f) {}
         const FieldGrid& grid() const override { return field.grid(); }
         std::size_t looks() const override { return 2; }
-        void read(const Region& region, std::size_t, View<std::complex<float>, 2> out) const override { field.read(region, 0, out); }
+        void read(const Region& region, std::size_t, View<std::complex<float>, 2> out) const override {
+            field.read(region, 0, out);
+        }
         const Field& field;
     };
     Camera camera;
