@@ -22,8 +22,8 @@ LightField plane_at(double depth, const std::function<double(double, double)>& f
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
             for (std::size_t v = 0; v < grid.directions_v; ++v)
                 for (std::size_t u = 0; u < grid.directions_u; ++u)
-                    light_field.radiance(0, t, s, v, u) = static_cast<float>(
-                        f(grid.s(double(s)) + grid.u(double(u)) * depth, grid.t(double(t)) + grid.v(double(v)) * depth));
+                    light_field.radiance(0, t, s, v, u) = static_cast<float>(f(
+                        grid.s(double(s)) + grid.u(double(u)) * depth, grid.t(double(t)) + grid.v(double(v)) * depth));
     return light_field;
 }
 
@@ -59,14 +59,15 @@ TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_
     }
 }
 
-// A bright stripe is as sharp as it is when in focus, and blurred by the circle of confusion when not: the mean over the
-// lens of the stripe where the rays through one point of the plane in focus meet it.
+// A bright stripe is as sharp as it is when in focus, and blurred by the circle of confusion when not: the mean over
+// the lens of the stripe where the rays through one point of the plane in focus meet it.
 TEST(GeometricPhotograph, blurs_by_the_circle_of_confusion) {
     const double depth = 6_mm, width = 0.4_mm;
     const auto stripe = [&](double x) { return std::exp(-x * x / (0.5 * width * width)); };
     // Sampled so finely that interpolation blurs little beside the stripe's own width.
     const LightFieldGrid fine{160, 12, 50_um, 96, 8, 0.25, 0.22, 1};
-    const LightField light_field = plane_at(depth, [&](double x, double) { return stripe(x); }, fine);
+    const LightField light_field = plane_at(
+        depth, [&](double x, double) { return stripe(x); }, fine);
     for (double focus : {6_mm, 3_mm, 0_mm, -6_mm}) {
         Camera camera = camera_at({0, 0, 0.1}, focus);
         camera.picture = {40, 1, 60_um, 60_um, 0, 0};
@@ -99,7 +100,8 @@ TEST(GeometricPhotograph, is_black_outside_the_hologram_and_outside_the_field_of
 }
 
 TEST(GeometricPhotograph, is_the_same_for_any_number_of_threads) {
-    const LightField light_field = plane_at(3e-3, [](double x, double y) { return std::sin(4e3 * x) + std::cos(3e3 * y); });
+    const LightField light_field =
+        plane_at(3e-3, [](double x, double y) { return std::sin(4e3 * x) + std::cos(3e3 * y); });
     const Camera camera = camera_at({2e-3, 1e-3, 0.1}, 1e-3);
     const Image all = photograph(light_field, std::span(&camera, 1))[0];
     const ThreadLimit one(1);
