@@ -19,7 +19,8 @@ Field converging(const FieldGrid& grid, Vec3 to) {
     for (std::size_t y = 0; y < grid.plane.height; ++y)
         for (std::size_t x = 0; x < grid.plane.width; ++x) {
             const double turns = geometry.turns(grid.plane.x(double(x)), grid.plane.y(double(y)));
-            field.samples(y, x) = std::complex<float>(std::polar(1.0, -2 * std::numbers::pi * std::remainder(turns, 1.0)));
+            field.samples(y, x) =
+                std::complex<float>(std::polar(1.0, -2 * std::numbers::pi * std::remainder(turns, 1.0)));
         }
     return field;
 }
@@ -35,8 +36,8 @@ double deviation(const NarrowBand& band, const Array<std::complex<float>, 2>& sa
     return worst;
 }
 
-// Demodulation makes a wave that converges on the eye a constant, and the low-pass leaves a constant alone: for eyes that
-// share the pass down the columns and for one that does not.
+// Demodulation makes a wave that converges on the eye a constant, and the low-pass leaves a constant alone: for eyes
+// that share the pass down the columns and for one that does not.
 TEST(NarrowBand, a_wave_converging_on_the_eye_becomes_one) {
     const std::array eyes{Vec3{0, 0, 0.1}, Vec3{8e-3, 0, 0.1}, Vec3{-8e-3, 0, 0.1}, Vec3{5e-3, 30e-3, 0.08}};
     std::vector<NarrowBand> bands;
