@@ -11,7 +11,8 @@
 namespace hogel {
 
 /// A scene with its lighting done: one list of triangles with a radiance at each vertex, ready for any renderer. The
-/// radiance at a point of a triangle is the interpolated vertex radiance times the texture, plus the emission.
+/// radiance at a point of a triangle is the interpolated vertex radiance (reflected light plus emission) times the
+/// texture.
 struct ShadedScene {
     static constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
 
@@ -22,15 +23,17 @@ struct ShadedScene {
     };
 
     std::vector<Vec3> positions;  ///< metres, world frame
-    std::vector<Rgb> radiance;    ///< of reflected light at the vertices (before the texture) plus emission
+    std::vector<Rgb> radiance;    ///< at the vertices, before the texture: reflected light plus emission
     std::vector<TextureCoordinate> texture_coordinates;  ///< as long as `positions`
     std::vector<Triangle> triangles;
     std::vector<std::shared_ptr<const Image>> textures;
     Rgb background;
 };
 
-/// Lights a scene at its vertices (Gouraud): radiance = colour · (ambient + Σ visible lights E · max(0, n·l)/π ...),
-/// with shadow rays from the vertices for lights that cast shadows. Cost: vertices × lights rays.
+/// Lights a scene at its vertices (Gouraud): radiance = emission + colour · (ambient + Σ E · max(0, n·l)/π) over the
+/// lights that the vertex sees, E = intensity for a directional light and intensity/r² for a point light. Shadow rays
+/// start a ten-thousandth of the scene's diagonal above the surface. Throws what validate(Scene) throws, and
+/// Error(bad_input) for a mesh without normals when there are lights. Cost: vertices × lights rays.
 ShadedScene shade_vertices(const Scene& scene);
 
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).

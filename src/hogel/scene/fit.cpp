@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "hogel/core/error.h"
+#include "hogel/scene/import.h"
+
+namespace hogel {
+
+void fit_scene(Scene& scene, const Fit& fit) {
+    if (!(fit.width > 0 && fit.height > 0 && fit.fill > 0))
+        throw Error(ErrorCode::usage, fmt::format("fit: {} m x {} m filled to {}; expected sizes above zero", fit.width,
+                                                  fit.height, fit.fill));
+    const auto [low, high] = bounds(scene);
+    const Vec3 size = high - low;
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    const double scale =
+        fit.fill * std::min(size.x > 0 ? fit.width / size.x : inf, size.y > 0 ? fit.height / size.y : inf);
+    if (!(scale < inf))
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("scene '{}': no width and no height; expected something to see", scene.name));
+    const Vec3 anchor{0.5 * low.x + 0.5 * high.x, 0.5 * low.y + 0.5 * high.y, high.z - fit.front * size.z};
+    for (Mesh& mesh : scene.meshes)
+        for (Vec3& position : mesh.positions) position = scale * (position - anchor);
+    for (Light& light : scene.lights) {
+        light.position = scale * (light.position - anchor);
+        if (light.kind == Light::Kind::point) light.intensity = static_cast<float>(scale * scale) * light.intensity;
+    }
+}
+
+void add_default_lights(Scene& scene) {
+    Light key;
+    key.direction = normalize({0.5, -0.6, -0.7});
+    key.intensity = {2.2f, 2.15f, 2.05f};
+    Light fill;
+    fill.direction = normalize({-0.8, -0.1, -0.6});
+    fill.intensity = {0.55f, 0.6f, 0.7f};
+    scene.lights.push_back(key);
+    scene.lights.push_back(fill);
+    scene.ambient += Rgb{0.08f, 0.08f, 0.09f};
+}
+
+}  // namespace hogel

@@ -1,0 +1,219 @@
+#include "hogel/trace/ray_caster.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t packet = 16;
+
+[[noreturn]] void fail(const char* what) {
+    throw Error(ErrorCode::internal, fmt::format("RayCaster: {}; expected Embree to accept the mesh", what));
+}
+
+}  // namespace
+
+// Embree works in single precision, so it gets coordinates in which the scene's box is centred and about 2 wide, and
+// rays that begin where they enter the ball around that box. It only chooses the triangle: distance and weights are
+// then computed in double precision from the caller's own ray and triangle.
+struct RayCaster::Device {
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    Vec3 center;
+    double scale = 1;   ///< Embree's units per metre
+    double radius = 0;  ///< of the ball around the box, metres, with a little room for rounding
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    ~Device() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+
+    void frame();
+    void build();
+
+    /// A ray in Embree's frame: origin, unit direction, length; and where it begins on the caller's ray.
+    struct Segment {
+        double start = 0;  ///< in units of the caller's direction
+        float x = 0, y = 0, z = 0, dx = 0, dy = 0, dz = 0;
+        float length = -1;  ///< negative: it misses the ball
+    };
+    Segment enter(Vec3 origin, Vec3 direction, double near, double far) const;
+    RayHit refine(Vec3 origin, Vec3 direction, double far, std::uint32_t triangle) const;
+};
+
+void RayCaster::Device::frame() {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
+    for (const auto& triangle : triangles)
+        for (std::uint32_t vertex : triangle) {
+            const Vec3 p = positions[vertex];
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    center = 0.5 * low + 0.5 * high;
+    const Vec3 size = high - low;
+    const double widest = std::max({size.x, size.y, size.z});
+    if (widest > 0) scale = 2 / widest;
+    radius = 0.5 * length(size) * (1 + 1e-5) + 1e-5 / scale;
+}
+
+void RayCaster::Device::build() {
+    device = rtcNewDevice(nullptr);
+    if (!device) fail("no Embree device");
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 3 * sizeof(float), positions.size()));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
+    if (!vertices || !indices) {
+        rtcReleaseGeometry(geometry);
+        fail("out of memory");
+    }
+    for (const Vec3& position : positions) {
+        const Vec3 p = scale * (position - center);
+        *vertices++ = static_cast<float>(p.x);
+        *vertices++ = static_cast<float>(p.y);
+        *vertices++ = static_cast<float>(p.z);
+    }
+    for (const auto& triangle : triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) fail("Embree reports an error");
+}
+
+RayCaster::Device::Segment RayCaster::Device::enter(Vec3 origin, Vec3 direction, double near, double far) const {
+    Segment segment;
+    const double speed = length(direction);
+    const Vec3 unit = direction / speed;
+    const Vec3 from_center = origin - center;
+    const double middle = -dot(from_center, unit);  // of the chord, in metres along the ray
+    const double half_squared = radius * radius - dot(from_center, from_center) + middle * middle;
+    if (!(half_squared >= 0)) return segment;
+    const double half = std::sqrt(half_squared);
+    const double begin = std::max(near * speed, middle - half);
+    const double end = std::min(far * speed, middle + half);
+    if (!(begin <= end)) return segment;
+    const Vec3 p = scale * (from_center + begin * unit);
+    segment = {begin / speed,
+               static_cast<float>(p.x),
+               static_cast<float>(p.y),
+               static_cast<float>(p.z),
+               static_cast<float>(unit.x),
+               static_cast<float>(unit.y),
+               static_cast<float>(unit.z),
+               static_cast<float>(scale * (end - begin))};
+    return segment;
+}
+
+/// Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+RayHit RayCaster::Device::refine(Vec3 origin, Vec3 direction, double far, std::uint32_t index) const {
+    const auto& triangle = triangles[index];
+    const Vec3 a = positions[triangle[0]];
+    const Vec3 ab = positions[triangle[1]] - a, ac = positions[triangle[2]] - a;
+    const Vec3 to_origin = origin - a;
+    const Vec3 p = cross(direction, ac), q = cross(to_origin, ab);
+    const double inverse = 1 / dot(ab, p);
+    double b1 = dot(to_origin, p) * inverse, b2 = dot(direction, q) * inverse;
+    double distance = dot(ac, q) * inverse;
+    if (!(b1 >= 0 && b2 >= 0 && b1 + b2 <= 1)) {
+        // The single-precision hit lies on the triangle's edge and the exact one just beside it; for a triangle seen
+        // edge-on "just beside" may be far away along the ray. Take the point of the triangle itself.
+        b1 = b1 > 0 ? std::min(b1, 1.0) : 0;
+        b2 = b2 > 0 ? std::min(b2, 1.0) : 0;
+        const double sum = std::max(b1 + b2, 1.0);
+        b1 /= sum;
+        b2 /= sum;
+        distance = dot(a + b1 * ab + b2 * ac - origin, direction) / dot(direction, direction);
+    }
+    return {std::clamp(distance, 0.0, far), index, static_cast<float>(b1), static_cast<float>(b2)};
+}
+
+RayCaster::RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
+    : device_(std::make_unique<Device>()) {
+    device_->positions.assign(positions.begin(), positions.end());
+    device_->triangles.assign(triangles.begin(), triangles.end());
+    for (const auto& triangle : triangles)
+        for (std::uint32_t vertex : triangle)
+            if (vertex >= positions.size())
+                throw Error(ErrorCode::bad_input,
+                            fmt::format("triangle: vertex index {}; expected less than {}", vertex, positions.size()));
+    if (triangles.empty()) return;
+    device_->frame();
+    device_->build();
+}
+
+RayCaster::~RayCaster() = default;
+RayCaster::RayCaster(RayCaster&&) noexcept = default;
+RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
+
+RayHit RayCaster::closest(Vec3 origin, Vec3 direction, double far) const {
+    if (!device_->scene) return {};
+    const auto segment = device_->enter(origin, direction, 0, far);
+    if (segment.length < 0) return {};
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray{};
+    ray.ray = {segment.x, segment.y, segment.z, 0, segment.dx, segment.dy, segment.dz, 0, segment.length, ~0u, 0, 0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(device_->scene, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return device_->refine(origin, direction, far, ray.hit.primID);
+}
+
+void RayCaster::closest(std::span<const Vec3> origins, std::span<const Vec3> directions, double far,
+                        std::span<RayHit> hits) const {
+    if (!device_->scene) {
+        std::fill(hits.begin(), hits.end(), RayHit{});
+        return;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (std::size_t first = 0; first < hits.size(); first += packet) {
+        const std::size_t n = std::min(packet, hits.size() - first);
+        alignas(64) RTCRayHit16 rays;
+        alignas(64) std::array<int, packet> valid{};
+        for (std::size_t i = 0; i < packet; ++i) {
+            const auto segment =
+                i < n ? device_->enter(origins[first + i], directions[first + i], 0, far) : Device::Segment{};
+            valid[i] = segment.length >= 0 ? -1 : 0;
+            rays.ray.org_x[i] = segment.x, rays.ray.org_y[i] = segment.y, rays.ray.org_z[i] = segment.z;
+            rays.ray.dir_x[i] = segment.dx, rays.ray.dir_y[i] = segment.dy, rays.ray.dir_z[i] = segment.dz;
+            rays.ray.tnear[i] = 0, rays.ray.tfar[i] = segment.length, rays.ray.time[i] = 0;
+            rays.ray.mask[i] = ~0u, rays.ray.id[i] = 0, rays.ray.flags[i] = 0;
+            rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        rtcIntersect16(valid.data(), device_->scene, &context, &rays);
+        for (std::size_t i = 0; i < n; ++i)
+            hits[first + i] = valid[i] && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID
+                                  ? device_->refine(origins[first + i], directions[first + i], far, rays.hit.primID[i])
+                                  : RayHit{};
+    }
+}
+
+bool RayCaster::occluded(Vec3 origin, Vec3 direction, double near, double far) const {
+    if (!device_->scene) return false;
+    const auto segment = device_->enter(origin, direction, near, far);
+    if (segment.length < 0) return false;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray{segment.x, segment.y, segment.z, 0, segment.dx, segment.dy, segment.dz, 0, segment.length, ~0u, 0, 0};
+    rtcOccluded1(device_->scene, &context, &ray);
+    return ray.tfar < 0;
+}
+
+}  // namespace hogel

@@ -1,0 +1,169 @@
+#include "hogel/trace/ray_caster.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Soup {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+};
+
+class Numbers {
+  public:
+    explicit Numbers(unsigned seed) : engine_(seed) {}
+    double operator()(double low, double high) {
+        return low + (high - low) * static_cast<double>(engine_()) / 4294967296.0;
+    }
+    Vec3 point(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
+
+  private:
+    std::mt19937 engine_;
+};
+
+Soup random_soup(std::size_t n, Vec3 center, double size) {
+    Numbers number(7);
+    Soup soup;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Vec3 middle = center + number.point(size);
+        for (int k = 0; k < 3; ++k) soup.positions.push_back(middle + number.point(0.3 * size));
+        soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return soup;
+}
+
+struct Exact {
+    double distance = infinity;
+    std::uint32_t triangle = RayHit::miss;
+    double b1 = 0, b2 = 0;
+    double margin = infinity;  ///< how near any triangle's edge (in weights) or the runner-up's distance comes
+};
+
+// Cramer's rule on a + b1 (b - a) + b2 (c - a) = o + distance d, for every triangle.
+Exact brute_force(const Soup& soup, Vec3 o, Vec3 d) {
+    Exact best;
+    double margin = infinity;
+    for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
+        const auto& t = soup.triangles[i];
+        const Vec3 a = soup.positions[t[0]], e1 = soup.positions[t[1]] - a, e2 = soup.positions[t[2]] - a;
+        const Vec3 r = o - a;
+        const double det = dot(cross(e1, e2), -d);
+        const double b1 = dot(cross(r, e2), -d) / det, b2 = dot(cross(e1, r), -d) / det;
+        const double distance = dot(cross(e1, e2), r) / det;
+        const double inside = std::min({b1, b2, 1 - b1 - b2});
+        margin = std::min(margin, std::abs(inside));
+        if (inside < 0 || distance < 0) continue;
+        margin = std::min(margin, std::abs(distance - best.distance) / distance);
+        if (distance < best.distance) best = {distance, i, b1, b2, 0};
+    }
+    best.margin = margin;
+    return best;
+}
+
+void compare_with_brute_force(const Soup& soup, Vec3 center, double size) {
+    const RayCaster caster(soup.positions, soup.triangles);
+    Numbers number(11);
+    std::vector<Vec3> origins, directions;
+    for (int i = 0; i < 3001; ++i) {
+        origins.push_back(center + number.point(i % 3 == 0 ? size : 30 * size));
+        directions.push_back(number(0.1, 10) * (center + number.point(size) - origins.back()));
+    }
+    std::vector<RayHit> hits(origins.size());
+    caster.closest(origins, directions, infinity, hits);
+    int hit = 0, compared = 0;
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        const Exact exact = brute_force(soup, origins[i], directions[i]);
+        if (exact.margin < 1e-5) continue;  // too close to an edge for single precision to decide
+        ++compared;
+        for (const RayHit& found : {hits[i], caster.closest(origins[i], directions[i], infinity)}) {
+            ASSERT_EQ(found.triangle, exact.triangle);
+            if (exact.triangle == RayHit::miss) continue;
+            ++hit;
+            EXPECT_NEAR(found.distance, exact.distance, 1e-12 * exact.distance * (1 + 1e-2 / exact.margin));
+            EXPECT_NEAR(found.b1, exact.b1, 1e-6);
+            EXPECT_NEAR(found.b2, exact.b2, 1e-6);
+        }
+        EXPECT_EQ(caster.occluded(origins[i], directions[i], 0, infinity), exact.triangle != RayHit::miss);
+    }
+    EXPECT_GT(compared, 2500);
+    EXPECT_GT(hit, 1000);
+}
+
+TEST(RayCaster, finds_what_brute_force_finds) { compare_with_brute_force(random_soup(200, {}, 1), {}, 1); }
+
+TEST(RayCaster, keeps_its_accuracy_for_centimetre_scenes_far_from_the_origin) {
+    const Vec3 center{0.3, -0.2, 5};
+    compare_with_brute_force(random_soup(200, center, 5e-3), center, 5e-3);
+}
+
+TEST(RayCaster, both_sides_are_hit_and_the_range_is_kept) {
+    const std::vector<Vec3> positions{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}};
+    const std::vector<Triangle> triangles{{0, 1, 2}};
+    const RayCaster caster(positions, triangles);
+    EXPECT_DOUBLE_EQ(caster.closest({0, 0, 5}, {0, 0, -2}, 10).distance, 1.5);
+    EXPECT_DOUBLE_EQ(caster.closest({0, 0, 0}, {0, 0, 2}, 10).distance, 1);
+    EXPECT_EQ(caster.closest({0, 0, 5}, {0, 0, -2}, 1.4).triangle, RayHit::miss);
+    EXPECT_EQ(caster.closest({0, 0, 1.9}, {0, 0, -1}, infinity).triangle, RayHit::miss);
+    EXPECT_TRUE(caster.occluded({0, 0, 5}, {0, 0, -1}, 2.9, 3.1));
+    EXPECT_FALSE(caster.occluded({0, 0, 5}, {0, 0, -1}, 3.1, infinity));
+    EXPECT_FALSE(caster.occluded({0, 0, 5}, {0, 0, -1}, 0, 2.9));
+}
+
+TEST(RayCaster, of_coincident_triangles_it_names_one_at_the_right_distance) {
+    const std::vector<Vec3> positions{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    const std::vector<Triangle> triangles{{0, 1, 2}, {2, 1, 0}, {1, 2, 0}};
+    const RayCaster caster(positions, triangles);
+    const RayHit hit = caster.closest({0.1, 0.1, 3}, {0, 0, -1}, infinity);
+    EXPECT_LT(hit.triangle, triangles.size());
+    EXPECT_DOUBLE_EQ(hit.distance, 3);
+}
+
+// A ray through a shared edge or vertex may go to either side but never through.
+TEST(RayCaster, a_closed_fan_has_no_cracks) {
+    std::vector<Vec3> positions{{0.01, 0.02, 0}};
+    std::vector<Triangle> triangles;
+    constexpr std::uint32_t n = 37;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        positions.push_back({std::cos(6.28318530718 * i / n), std::sin(6.28318530718 * i / n), 0.1 * (i % 3)});
+        triangles.push_back({0, i + 1, (i + 1) % n + 1});
+    }
+    const RayCaster caster(positions, triangles);
+    const Vec3 eye{0.3, -0.2, 7};
+    for (std::uint32_t i = 1; i <= n; ++i)
+        for (int k = 0; k < 200; ++k) {
+            const Vec3 target = positions[0] + k / 200.0 * (positions[i] - positions[0]);
+            const RayHit hit = caster.closest(eye, target - eye, infinity);
+            ASSERT_NE(hit.triangle, RayHit::miss);
+            EXPECT_NEAR(hit.distance, 1, 1e-6);
+            EXPECT_TRUE(hit.b1 >= 0 && hit.b2 >= 0 && hit.b1 + hit.b2 <= 1.000001f);
+        }
+}
+
+TEST(RayCaster, nothing_is_never_hit) {
+    const RayCaster caster({}, {});
+    EXPECT_EQ(caster.closest({0, 0, 0}, {0, 0, 1}, infinity).triangle, RayHit::miss);
+    EXPECT_FALSE(caster.occluded({0, 0, 0}, {0, 0, 1}, 0, infinity));
+    const std::vector<Vec3> rays(20, Vec3{0, 0, 1});
+    std::vector<RayHit> hits(20, RayHit{1, 1, 0, 0});
+    caster.closest(rays, rays, infinity, hits);
+    for (const RayHit& hit : hits) EXPECT_EQ(hit.triangle, RayHit::miss);
+}
+
+TEST(RayCaster, refuses_an_index_without_a_vertex) {
+    const std::vector<Vec3> positions(3);
+    const std::vector<Triangle> triangles{{0, 1, 3}};
+    EXPECT_THROW(RayCaster(positions, triangles), Error);
+}
+
+}  // namespace
+}  // namespace hogel
