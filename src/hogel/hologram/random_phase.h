@@ -15,8 +15,7 @@ struct PhaseSeries {
 
 /// values[i] = moduli[i] · e^{2πi b_i/256}, where b_i is byte i mod 16 of Philox's draw number i/16: a phase of its own
 /// for every coefficient, the same in whatever order hogels are made. 256 equal steps are as good as a continuum: the
-/// first 255 circular moments vanish exactly, and speckle depends on the first few alone. The plain twin looks the root
-/// of unity up in a table; the fast one computes it. They agree to rounding.
+/// first 255 circular moments vanish exactly, and speckle depends on the first few alone.
 void spread_random_phases(const PhaseSeries& series, std::span<const float> moduli,
                           std::span<std::complex<float>> values);
 
