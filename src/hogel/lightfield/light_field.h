@@ -54,6 +54,9 @@ struct LightFieldTile {
     LightFieldTile(const LightFieldGrid& grid, const HogelRange& r, bool with_depth);
 };
 
+/// Throws Error(usage) when a tile's range is empty or leaves the grid, or its arrays do not have the range's shapes.
+void validate(const LightFieldTile& tile, const LightFieldGrid& grid);
+
 /// Where light fields come from: memory, a file, a decoder, a renderer working on demand. read() may be called from
 /// several threads at once and gives the same values for a hogel whatever the range it is asked for in.
 class LightFieldSource {

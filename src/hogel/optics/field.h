@@ -22,6 +22,9 @@ struct FieldGrid {
 /// positive and finite, more samples than can be addressed.
 void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
 
+/// Throws Error(usage) when a region is empty or leaves the grid, or an array for it does not have its shape.
+void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array);
+
 /// Where fields come from: memory, a file, or a synthesis on demand. A source may offer several looks: statistically
 /// independent fields (other random phases) of the same object, whose photographs are averaged against speckle.
 /// read() may be called from several threads at once and gives the same value for a sample whatever the region.

@@ -92,7 +92,6 @@ void DecimatedLine(const std::complex<float>* line, std::size_t step, std::span<
     }
 }
 
-
 void Multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out) {
     const hn::ScalableTag<float> d;
     const std::size_t lanes = hn::Lanes(d), floats = 2 * out.size();

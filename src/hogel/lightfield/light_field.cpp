@@ -1,0 +1,149 @@
+#include "hogel/lightfield/light_field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "hogel/core/parallel.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t tile_bytes = std::size_t{16} << 20;
+constexpr std::size_t most_bytes = std::numeric_limits<std::size_t>::max() >> 1;
+
+void require_positive(double value, ErrorCode code, const std::string& what, const char* member) {
+    if (!(std::isfinite(value) && value > 0))
+        throw Error(code, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
+}
+
+Shape<5> radiance_shape(const LightFieldGrid& grid, const HogelRange& range) {
+    return {grid.channels, range.nt, range.ns, grid.directions_v, grid.directions_u};
+}
+
+Shape<4> depth_shape(const LightFieldGrid& grid, const HogelRange& range) {
+    return {range.nt, range.ns, grid.directions_v, grid.directions_u};
+}
+
+HogelRange all_hogels(const LightFieldGrid& grid) { return {0, 0, grid.hogels_s, grid.hogels_t}; }
+
+// A row of a range is contiguous both in the whole light field and in the tile.
+void copy_row(const float* from, float* to, std::size_t hogels, std::size_t directions) {
+    std::copy_n(from, hogels * directions, to);
+}
+
+}  // namespace
+
+void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
+    if (grid.hogels_s == 0 || grid.hogels_t == 0)
+        throw Error(code,
+                    fmt::format("{}: {}x{} hogels, but at least 1x1 are needed", what, grid.hogels_s, grid.hogels_t));
+    if (grid.directions_u == 0 || grid.directions_v == 0)
+        throw Error(code, fmt::format("{}: {}x{} directions, but at least 1x1 are needed", what, grid.directions_u,
+                                      grid.directions_v));
+    if (grid.channels != 1 && grid.channels != 3)
+        throw Error(code, fmt::format("{}: {} channels, but 1 or 3 were expected", what, grid.channels));
+    require_positive(grid.pitch, code, what, "hogel pitch");
+    require_positive(grid.tan_half_u, code, what, "tan_half_u");
+    require_positive(grid.tan_half_v, code, what, "tan_half_v");
+    require_positive(grid.step_u(), code, what, "the step between directions in u");
+    require_positive(grid.step_v(), code, what, "the step between directions in v");
+    require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
+    require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, code, what, "the height of the hologram");
+    std::size_t room = most_bytes / sizeof(float);
+    for (std::size_t extent : radiance_shape(grid, all_hogels(grid))) room /= extent;
+    if (room == 0)
+        throw Error(
+            code, fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
+                              "be addressed",
+                              what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
+}
+
+LightFieldTile::LightFieldTile(const LightFieldGrid& grid, const HogelRange& r, bool with_depth)
+    : range(r), radiance(radiance_shape(grid, r)) {
+    if (with_depth) depth = Array<float, 4>(depth_shape(grid, r));
+}
+
+void validate(const LightFieldTile& tile, const LightFieldGrid& grid) {
+    const HogelRange& r = tile.range;
+    if (r.hogels() == 0 || r.s0 >= grid.hogels_s || r.ns > grid.hogels_s - r.s0 || r.t0 >= grid.hogels_t ||
+        r.nt > grid.hogels_t - r.t0)
+        throw Error(ErrorCode::usage,
+                    fmt::format("tile of {}x{} hogels at ({}, {}) is not inside a light field of {}x{} hogels", r.ns,
+                                r.nt, r.s0, r.t0, grid.hogels_s, grid.hogels_t));
+    if (tile.radiance.shape() != radiance_shape(grid, r) ||
+        (tile.depth.size() > 0 && tile.depth.shape() != depth_shape(grid, r)))
+        throw Error(ErrorCode::usage,
+                    fmt::format("tile at ({}, {}): its arrays are not those of {}x{} hogels with {}x{} directions in "
+                                "{} channels",
+                                r.s0, r.t0, r.ns, r.nt, grid.directions_u, grid.directions_v, grid.channels));
+}
+
+LightField::LightField(const LightFieldGrid& grid, bool with_depth) : grid_(grid) {
+    validate(grid, ErrorCode::usage, "light field");
+    radiance = Array<float, 5>(radiance_shape(grid, all_hogels(grid)));
+    if (with_depth)
+        depth = Array<float, 4>(depth_shape(grid, all_hogels(grid)), std::numeric_limits<float>::infinity());
+}
+
+void LightField::read(LightFieldTile& tile) const {
+    validate(tile, grid_);
+    const HogelRange& r = tile.range;
+    for (std::size_t j = 0; j < r.nt; ++j) {
+        for (std::size_t c = 0; c < grid_.channels; ++c)
+            copy_row(&radiance(c, r.t0 + j, r.s0, 0, 0), &tile.radiance(c, j, 0, 0, 0), r.ns, grid_.directions());
+        if (has_depth() && tile.depth.size() > 0)
+            copy_row(&depth(r.t0 + j, r.s0, 0, 0), &tile.depth(j, 0, 0, 0), r.ns, grid_.directions());
+    }
+}
+
+void LightField::write(const LightFieldTile& tile) {
+    validate(tile, grid_);
+    const HogelRange& r = tile.range;
+    if (has_depth() && tile.depth.size() == 0)
+        throw Error(ErrorCode::usage, "a tile without depth was written to a light field with depth");
+    for (std::size_t j = 0; j < r.nt; ++j) {
+        for (std::size_t c = 0; c < grid_.channels; ++c)
+            copy_row(&tile.radiance(c, j, 0, 0, 0), &radiance(c, r.t0 + j, r.s0, 0, 0), r.ns, grid_.directions());
+        if (has_depth()) copy_row(&tile.depth(j, 0, 0, 0), &depth(r.t0 + j, r.s0, 0, 0), r.ns, grid_.directions());
+    }
+}
+
+HogelRange default_tile(const LightFieldGrid& grid) {
+    const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
+    HogelRange tile{0, 0, 1, 1};
+    // Sides that are powers of two (or the whole hologram) line up with the chunks of a file.
+    while (2 * tile.hogels() <= tile_bytes / hogel_bytes && (tile.ns < grid.hogels_s || tile.nt < grid.hogels_t)) {
+        const bool widen = tile.ns < grid.hogels_s && (tile.ns <= tile.nt || tile.nt >= grid.hogels_t);
+        (widen ? tile.ns : tile.nt) *= 2;
+    }
+    tile.ns = std::min(tile.ns, grid.hogels_s);
+    tile.nt = std::min(tile.nt, grid.hogels_t);
+    return tile;
+}
+
+void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress) {
+    const LightFieldGrid& grid = source.grid();
+    const HogelRange size = default_tile(grid);
+    const std::size_t across = (grid.hogels_s + size.ns - 1) / size.ns;
+    const std::size_t down = (grid.hogels_t + size.nt - 1) / size.nt;
+    std::mutex reporting;
+    std::size_t done = 0;
+    report(progress, 0);
+    parallel_for(across * down, [&](std::size_t i) {
+        HogelRange range{(i % across) * size.ns, (i / across) * size.nt, size.ns, size.nt};
+        range.ns = std::min(range.ns, grid.hogels_s - range.s0);
+        range.nt = std::min(range.nt, grid.hogels_t - range.t0);
+        LightFieldTile tile(grid, range, source.has_depth());
+        source.read(tile);
+        sink.write(tile);
+        const std::lock_guard lock(reporting);
+        report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
+    });
+    sink.finish();
+}
+
+}  // namespace hogel

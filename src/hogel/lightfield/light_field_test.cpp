@@ -1,0 +1,211 @@
+#include "hogel/lightfield/light_field.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+LightFieldGrid small_grid() {
+    LightFieldGrid grid;
+    grid.hogels_s = 7;
+    grid.hogels_t = 5;
+    grid.pitch = 0.5_mm;
+    grid.directions_u = 4;
+    grid.directions_v = 3;
+    grid.tan_half_u = 0.4;
+    grid.tan_half_v = 0.3;
+    return grid;
+}
+
+// Every sample tells where it belongs.
+float value_at(const LightFieldGrid& g, std::size_t c, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+    return static_cast<float>((((c * g.hogels_t + t) * g.hogels_s + s) * g.directions_v + v) * g.directions_u + u) + 1;
+}
+
+LightField numbered(const LightFieldGrid& g, bool with_depth) {
+    LightField field(g, with_depth);
+    for (std::size_t c = 0; c < g.channels; ++c)
+        for (std::size_t t = 0; t < g.hogels_t; ++t)
+            for (std::size_t s = 0; s < g.hogels_s; ++s)
+                for (std::size_t v = 0; v < g.directions_v; ++v)
+                    for (std::size_t u = 0; u < g.directions_u; ++u) {
+                        field.radiance(c, t, s, v, u) = value_at(g, c, t, s, v, u);
+                        if (with_depth) field.depth(t, s, v, u) = -value_at(g, 0, t, s, v, u);
+                    }
+    return field;
+}
+
+TEST(LightFieldGrid, coordinates_are_those_of_the_notation) {
+    LightFieldGrid g = small_grid();
+    g.hogels_s = 4;
+    // s_i = (i + 1/2 - S/2) d: -1.5 d, -0.5 d, 0.5 d, 1.5 d; t runs from the top down.
+    EXPECT_DOUBLE_EQ(g.s(0), -0.75_mm);
+    EXPECT_DOUBLE_EQ(g.s(3), 0.75_mm);
+    EXPECT_DOUBLE_EQ(g.t(0), 1_mm);
+    EXPECT_DOUBLE_EQ(g.t(2), 0);
+    EXPECT_DOUBLE_EQ(g.t(4), -1_mm);
+    // Delta U = 2 tan / n_U = 0.2: centres at -0.3, -0.1, 0.1, 0.3; V from the top down: 0.2, 0, -0.2.
+    EXPECT_DOUBLE_EQ(g.step_u(), 0.2);
+    EXPECT_DOUBLE_EQ(g.u(0), -0.3);
+    EXPECT_DOUBLE_EQ(g.u(3), 0.3);
+    EXPECT_DOUBLE_EQ(g.v(0), 0.2);
+    EXPECT_NEAR(g.v(1), 0, 1e-17);
+    EXPECT_DOUBLE_EQ(g.v(2), -0.2);
+}
+
+TEST(LightField, every_range_reads_the_slice) {
+    const LightFieldGrid g = small_grid();
+    const LightField field = numbered(g, true);
+    for (std::size_t t0 = 0; t0 < g.hogels_t; ++t0)
+        for (std::size_t s0 = 0; s0 < g.hogels_s; ++s0)
+            for (std::size_t nt = 1; nt <= g.hogels_t - t0; ++nt)
+                for (std::size_t ns = 1; ns <= g.hogels_s - s0; ++ns) {
+                    LightFieldTile tile(g, {s0, t0, ns, nt}, true);
+                    field.read(tile);
+                    for (std::size_t c = 0; c < g.channels; ++c)
+                        for (std::size_t t = 0; t < nt; ++t)
+                            for (std::size_t s = 0; s < ns; ++s)
+                                for (std::size_t v = 0; v < g.directions_v; ++v)
+                                    for (std::size_t u = 0; u < g.directions_u; ++u) {
+                                        ASSERT_EQ(tile.radiance(c, t, s, v, u), value_at(g, c, t0 + t, s0 + s, v, u));
+                                        ASSERT_EQ(tile.depth(t, s, v, u), -value_at(g, 0, t0 + t, s0 + s, v, u));
+                                    }
+                }
+}
+
+TEST(LightField, writing_through_any_tiling_gives_the_same_light_field) {
+    const LightFieldGrid g = small_grid();
+    const LightField from = numbered(g, true);
+    for (std::size_t nt = 1; nt <= g.hogels_t; ++nt)
+        for (std::size_t ns = 1; ns <= g.hogels_s; ++ns) {
+            LightField to(g, true);
+            for (std::size_t t0 = 0; t0 < g.hogels_t; t0 += nt)
+                for (std::size_t s0 = 0; s0 < g.hogels_s; s0 += ns) {
+                    LightFieldTile tile(g, {s0, t0, std::min(ns, g.hogels_s - s0), std::min(nt, g.hogels_t - t0)},
+                                        true);
+                    from.read(tile);
+                    to.write(tile);
+                }
+            ASSERT_TRUE(std::ranges::equal(to.radiance.elements(), from.radiance.elements()));
+            ASSERT_TRUE(std::ranges::equal(to.depth.elements(), from.depth.elements()));
+        }
+}
+
+TEST(LightField, copy_carries_everything_over_many_tiles) {
+    LightFieldGrid g = small_grid();
+    g.hogels_s = 19;
+    g.hogels_t = 11;
+    g.directions_u = g.directions_v = 96;
+    ASSERT_LT(default_tile(g).hogels(), g.hogels()) << "should need several tiles";
+    const LightField from = numbered(g, true);
+    LightField to(g, true);
+    double last = -1;
+    copy(from, to, [&](double fraction) {
+        EXPECT_GT(fraction, last);
+        last = fraction;
+        return true;
+    });
+    EXPECT_EQ(last, 1);
+    EXPECT_TRUE(std::ranges::equal(to.radiance.elements(), from.radiance.elements()));
+    EXPECT_TRUE(std::ranges::equal(to.depth.elements(), from.depth.elements()));
+}
+
+TEST(LightField, copy_stops_when_asked_to) {
+    const LightField from = numbered(small_grid(), false);
+    LightField to(small_grid());
+    try {
+        copy(from, to, [](double) { return false; });
+        FAIL() << "was not stopped";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::cancelled);
+    }
+}
+
+TEST(LightField, depth_is_left_alone_where_a_tile_has_no_room_for_it) {
+    const LightField field = numbered(small_grid(), true);
+    LightFieldTile tile(small_grid(), {1, 1, 2, 2}, false);
+    field.read(tile);
+    EXPECT_EQ(tile.depth.size(), 0u);
+    LightField to(small_grid(), true);
+    EXPECT_THROW(to.write(tile), Error);
+}
+
+TEST(LightField, rejects_ranges_outside_and_arrays_of_another_shape) {
+    LightField field(small_grid());
+    constexpr std::size_t huge = std::numeric_limits<std::size_t>::max();
+    for (const HogelRange range :
+         {HogelRange{0, 0, 0, 1}, HogelRange{0, 0, 1, 0}, HogelRange{7, 0, 1, 1}, HogelRange{6, 0, 2, 1},
+          HogelRange{0, 5, 1, 1}, HogelRange{0, 4, 1, 2}, HogelRange{huge, 0, 2, 1}, HogelRange{1, 0, huge, 1}}) {
+        LightFieldTile tile;
+        tile.range = range;
+        EXPECT_THROW(field.read(tile), Error);
+        EXPECT_THROW(field.write(tile), Error);
+    }
+    LightFieldTile tile(small_grid(), {0, 0, 2, 1}, false);
+    tile.range = {0, 0, 1, 2};
+    EXPECT_THROW(field.read(tile), Error);
+}
+
+TEST(LightFieldGrid, validate_names_what_is_wrong) {
+    const auto message = [](auto change) -> std::string {
+        LightFieldGrid g = small_grid();
+        change(g);
+        try {
+            validate(g, ErrorCode::bad_input, "x.h5");
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+            return error.what();
+        }
+        return "";
+    };
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    using G = LightFieldGrid;
+    EXPECT_EQ(message([](G&) {}), "");
+    EXPECT_NE(message([](G& g) { g.hogels_s = 0; }).find("x.h5: 0x5 hogels"), std::string::npos);
+    EXPECT_NE(message([](G& g) { g.directions_v = 0; }).find("4x0 directions"), std::string::npos);
+    EXPECT_NE(message([](G& g) { g.channels = 2; }).find("2 channels"), std::string::npos);
+    for (double bad : {nan, infinite, -infinite, 0.0, -1.0}) {
+        EXPECT_NE(message([=](G& g) { g.pitch = bad; }).find("pitch"), std::string::npos);
+        EXPECT_NE(message([=](G& g) { g.tan_half_u = bad; }).find("tan_half_u"), std::string::npos);
+        EXPECT_NE(message([=](G& g) { g.tan_half_v = bad; }).find("tan_half_v"), std::string::npos);
+    }
+    EXPECT_NE(message([](G& g) { g.pitch = 1e308; }).find("width"), std::string::npos);
+    const std::size_t big = std::size_t{1} << 31;
+    EXPECT_NE(message([=](G& g) { g.hogels_s = g.hogels_t = big; }).find("addressed"), std::string::npos);
+    // 2^64 hogels: the product is zero in 64 bits.
+    EXPECT_NE(message([=](G& g) { g.hogels_s = g.hogels_t = 2 * big; }).find("addressed"), std::string::npos);
+}
+
+TEST(LightFieldGrid, default_tiles_fit_in_their_budget) {
+    for (std::size_t s : {1, 3, 64, 256, 100000})
+        for (std::size_t t : {1, 5, 256})
+            for (std::size_t n : {1, 2, 127, 256, 5000}) {
+                LightFieldGrid g = small_grid();
+                g.hogels_s = s;
+                g.hogels_t = t;
+                g.directions_u = g.directions_v = n;
+                const HogelRange tile = default_tile(g);
+                ASSERT_GE(tile.hogels(), 1u);
+                ASSERT_LE(tile.ns, s);
+                ASSERT_LE(tile.nt, t);
+                const std::size_t bytes = tile.hogels() * g.directions() * g.channels * sizeof(float);
+                const bool fits = bytes <= std::size_t{16} << 20;
+                EXPECT_TRUE(fits || tile.hogels() == 1);
+                const bool all = tile.hogels() == g.hogels();
+                const bool full = 4 * bytes > std::size_t{16} << 20;
+                EXPECT_TRUE(all || full) << s << "x" << t << " hogels, " << n << " directions";
+            }
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,113 @@
+#include "hogel/lightfield/photograph.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/units.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+const LightFieldGrid coarse{80, 60, 100_um, 48, 40, 0.25, 0.22, 1};
+
+// The light field of a luminous plane at a depth ζ with radiance f(x, y).
+LightField plane_at(double depth, const std::function<double(double, double)>& f, const LightFieldGrid& grid = coarse) {
+    LightField light_field(grid);
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s)
+            for (std::size_t v = 0; v < grid.directions_v; ++v)
+                for (std::size_t u = 0; u < grid.directions_u; ++u)
+                    light_field.radiance(0, t, s, v, u) = static_cast<float>(f(
+                        grid.s(double(s)) + grid.u(double(u)) * depth, grid.t(double(t)) + grid.v(double(v)) * depth));
+    return light_field;
+}
+
+Camera camera_at(Vec3 eye, double focus) {
+    Camera camera;
+    camera.eye = eye;
+    camera.focus_depth = focus;
+    camera.pupil = 4_mm;
+    camera.picture = {40, 30, 150_um, 150_um, 0, 0};
+    return camera;
+}
+
+// On a linear radiance all four interpolations and the averages over pupil and pixel are exact: each pixel shows the
+// plane where the line of sight through the middle of the lens meets it.
+TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_it) {
+    const auto f = [](double x, double y) { return 1 + 100 * x - 60 * y; };
+    for (double depth : {-4_mm, 0_mm, 6_mm}) {
+        const LightField light_field = plane_at(depth, f);
+        for (double focus : {-4_mm, 0_mm, 6_mm})
+            for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{10e-3, 0, 0.1}, Vec3{-6e-3, 8e-3, 0.12}}) {
+                const Camera camera = camera_at(eye, focus);
+                const Image image = photograph(light_field, std::span(&camera, 1), 256)[0];
+                for (std::size_t row = 2; row < 28; ++row)
+                    for (std::size_t column = 2; column < 38; ++column) {
+                        const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
+                        const double reach = (eye.z + depth) / eye.z;
+                        const double expected = f(eye.x + (x - eye.x) * reach, eye.y + (y - eye.y) * reach);
+                        // What is left is the unevenness of 256 points over the pupil and the pixel.
+                        ASSERT_NEAR(image.pixels(row, column, 0), expected, 2e-3)
+                            << depth << " " << focus << " " << eye.x << " pixel " << column << "," << row;
+                    }
+            }
+    }
+}
+
+// A bright stripe is as sharp as it is when in focus, and blurred by the circle of confusion when not: the mean over
+// the lens of the stripe where the rays through one point of the plane in focus meet it.
+TEST(GeometricPhotograph, blurs_by_the_circle_of_confusion) {
+    const double depth = 6_mm, width = 0.4_mm;
+    const auto stripe = [&](double x) { return std::exp(-x * x / (0.5 * width * width)); };
+    // Sampled so finely that interpolation blurs little beside the stripe's own width.
+    const LightFieldGrid fine{160, 12, 50_um, 96, 8, 0.25, 0.22, 1};
+    const LightField light_field = plane_at(
+        depth, [&](double x, double) { return stripe(x); }, fine);
+    for (double focus : {6_mm, 3_mm, 0_mm, -6_mm}) {
+        Camera camera = camera_at({0, 0, 0.1}, focus);
+        camera.picture = {40, 1, 60_um, 60_um, 0, 0};
+        const Image image = photograph(light_field, std::span(&camera, 1), 256)[0];
+        const double R = camera.eye.z, in_focus = camera.picture.x(20) * (R + focus) / R;
+        double sum = 0, count = 0;
+        for (double y = -1; y <= 1; y += 0.01)
+            for (double x = -1; x <= 1; x += 0.01) {
+                if (x * x + y * y > 1) continue;
+                const double lens = 0.5 * camera.pupil * x;
+                sum += stripe(lens + (in_focus - lens) * (R + depth) / (R + focus));
+                ++count;
+            }
+        EXPECT_NEAR(image.pixels(0, 20, 0), sum / count, 0.02) << focus;
+    }
+}
+
+TEST(GeometricPhotograph, is_black_outside_the_hologram_and_outside_the_field_of_view) {
+    const LightField light_field = plane_at(0, [](double, double) { return 1; });
+    Camera camera = camera_at({0, 0, 0.1}, 0);
+    camera.picture = {40, 30, 250_um, 250_um, 0, 0};  // 10 mm × 7.5 mm; the hologram is 8 mm × 6 mm
+    const Image image = photograph(light_field, std::span(&camera, 1))[0];
+    EXPECT_EQ(image.pixels(15, 0, 0), 0);
+    EXPECT_EQ(image.pixels(0, 20, 0), 0);
+    EXPECT_NEAR(image.pixels(15, 20, 0), 1, 1e-5);
+    EXPECT_NEAR(image.pixels(4, 5, 0), 1, 1e-5);
+    camera.eye = {40_mm, 0, 100_mm};  // an angle of 0.4, where the light field ends at 0.25
+    const Image from_the_side = photograph(light_field, std::span(&camera, 1))[0];
+    for (float value : from_the_side.pixels.elements()) EXPECT_EQ(value, 0);
+}
+
+TEST(GeometricPhotograph, is_the_same_for_any_number_of_threads) {
+    const LightField light_field =
+        plane_at(3e-3, [](double x, double y) { return std::sin(4e3 * x) + std::cos(3e3 * y); });
+    const Camera camera = camera_at({2e-3, 1e-3, 0.1}, 1e-3);
+    const Image all = photograph(light_field, std::span(&camera, 1))[0];
+    const ThreadLimit one(1);
+    const Image alone = photograph(light_field, std::span(&camera, 1))[0];
+    for (std::size_t i = 0; i < all.pixels.size(); ++i) ASSERT_EQ(all.pixels.data()[i], alone.pixels.data()[i]);
+}
+
+}  // namespace
+}  // namespace hogel

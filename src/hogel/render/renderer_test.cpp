@@ -1,0 +1,204 @@
+#include "hogel/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+std::uint32_t add_vertex(ShadedScene& scene, Vec3 position, Rgb radiance) {
+    scene.positions.push_back(position);
+    scene.radiance.push_back(radiance);
+    scene.texture_coordinates.push_back({});
+    return static_cast<std::uint32_t>(scene.positions.size() - 1);
+}
+
+void add_triangle(ShadedScene& scene, Vec3 a, Vec3 b, Vec3 c, const std::function<Rgb(Vec3)>& radiance) {
+    const std::uint32_t first = add_vertex(scene, a, radiance(a));
+    add_vertex(scene, b, radiance(b));
+    add_vertex(scene, c, radiance(c));
+    scene.triangles.push_back({{first, first + 1, first + 2}, ShadedScene::no_texture, 0});
+}
+
+LightField render(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
+    LightField light_field(grid, true);
+    copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), grid), light_field);
+    return light_field;
+}
+
+const LightFieldGrid grid{5, 4, 1_mm, 33, 31, 0.5, 0.4, 3};
+
+std::vector<std::string> names() {
+    std::vector<std::string> list;
+    for (const RendererInfo& info : renderers()) list.emplace_back(info.name);
+    return list;
+}
+
+class EveryRenderer : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Renderers, EveryRenderer, ::testing::ValuesIn(names()),
+                         [](const auto& parameter) { return parameter.param; });
+
+// A radiance that is linear over a plane is reproduced exactly by interpolation over any of its triangles, also where
+// the plane passes through the hologram: there ζ changes sign and the view of a hogel turns inside out.
+TEST_P(EveryRenderer, sees_a_tilted_plane_through_the_hologram_where_geometry_says) {
+    const auto radiance = [](Vec3 p) {
+        return Rgb{float(0.5 + 40 * p.x), float(0.5 - 30 * p.y), float(0.5 + 50 * p.z)};
+    };
+    // z = 0.3 x − 0.2 y + 0.4 mm, as a fan of triangles around a point off centre.
+    const auto plane = [](double x, double y) { return Vec3{x, y, 0.3 * x - 0.2 * y + 0.4e-3}; };
+    ShadedScene scene;
+    const double e = 8e-3;
+    const Vec3 hub = plane(1e-3, -0.7e-3);
+    const std::array corners{plane(-e, -e), plane(e, -e), plane(e, e), plane(-e, e)};
+    for (std::size_t i = 0; i < 4; ++i) add_triangle(scene, hub, corners[i], corners[(i + 1) % 4], radiance);
+    scene.background = {9, 9, 9};
+    const LightField seen = render(GetParam(), scene, grid);
+    std::size_t front = 0, behind = 0;
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s)
+            for (std::size_t v = 0; v < grid.directions_v; ++v)
+                for (std::size_t u = 0; u < grid.directions_u; ++u) {
+                    // −ζ = 0.3 (s + Uζ) − 0.2 (t + Vζ) + 0.4 mm
+                    const double S = grid.s(double(s)), T = grid.t(double(t)), U = grid.u(double(u)),
+                                 V = grid.v(double(v));
+                    const double depth = -(0.3 * S - 0.2 * T + 0.4e-3) / (1 + 0.3 * U - 0.2 * V);
+                    const Rgb expected = radiance({S + U * depth, T + V * depth, -depth});
+                    ASSERT_NEAR(seen.depth(t, s, v, u), depth, 1e-9) << s << " " << t << " " << u << " " << v;
+                    ASSERT_NEAR(seen.radiance(0, t, s, v, u), expected.r, 1e-5);
+                    ASSERT_NEAR(seen.radiance(1, t, s, v, u), expected.g, 1e-5);
+                    ASSERT_NEAR(seen.radiance(2, t, s, v, u), expected.b, 1e-5);
+                    (depth > 0 ? behind : front) += 1;
+                }
+    EXPECT_GT(front, 100u);
+    EXPECT_GT(behind, 100u);
+}
+
+// A wall of triangles that share edges and corners, many of which rays meet exactly: no ray slips through.
+TEST_P(EveryRenderer, leaves_no_crack_between_triangles_that_share_edges) {
+    ShadedScene scene;
+    scene.background = {0, 0, 0};
+    const double depth = 4e-3;
+    // With these steps many corners lie on rays: x = s + Uζ for U a multiple of ΔU/2.
+    const double step_x = 0.5 * grid.step_u() * depth * 3, step_y = 0.5 * grid.step_v() * depth * 3;
+    const auto corner = [&](int i, int j) { return Vec3{i * step_x, j * step_y, -depth}; };
+    for (int j = -40; j < 40; ++j)
+        for (int i = -40; i < 40; ++i) {
+            const auto white = [](Vec3) { return Rgb{1, 1, 1}; };
+            if ((i + j) % 2 == 0) {
+                add_triangle(scene, corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), white);
+                add_triangle(scene, corner(i, j), corner(i + 1, j + 1), corner(i, j + 1), white);
+            } else {
+                add_triangle(scene, corner(i, j), corner(i + 1, j), corner(i, j + 1), white);
+                add_triangle(scene, corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1), white);
+            }
+        }
+    LightFieldGrid centred = grid;
+    centred.pitch = step_x;
+    const LightField seen = render(GetParam(), scene, centred);
+    for (float value : seen.radiance.elements()) ASSERT_NEAR(value, 1, 1e-6);
+}
+
+TEST_P(EveryRenderer, gives_the_same_bytes_in_any_tiling) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-3e-3, 3e-3);
+    ShadedScene scene;
+    for (int i = 0; i < 40; ++i) {
+        const auto point = [&] { return Vec3{place(random), place(random), place(random)}; };
+        add_triangle(scene, point(), point(), point(), [](Vec3 p) { return Rgb{float(p.x), float(p.y), float(p.z)}; });
+    }
+    const LightField whole = render(GetParam(), scene, grid);
+    const auto renderer = make_renderer(GetParam(), std::make_shared<const ShadedScene>(scene), grid);
+    for (const HogelRange& range :
+         {HogelRange{0, 0, 1, 1}, HogelRange{2, 1, 3, 2}, HogelRange{4, 3, 1, 1}, HogelRange{0, 0, 5, 4}}) {
+        LightFieldTile tile(grid, range, true), expected(grid, range, true);
+        renderer->read(tile);
+        whole.read(expected);
+        EXPECT_TRUE(std::ranges::equal(tile.radiance.elements(), expected.radiance.elements()));
+        EXPECT_TRUE(std::ranges::equal(tile.depth.elements(), expected.depth.elements()));
+    }
+}
+
+TEST_P(EveryRenderer, an_empty_scene_is_background_at_infinity) {
+    ShadedScene scene;
+    scene.background = {0.1f, 0.2f, 0.3f};
+    const LightField seen = render(GetParam(), scene, grid);
+    for (float depth : seen.depth.elements()) ASSERT_EQ(depth, std::numeric_limits<float>::infinity());
+    for (std::size_t c = 0; c < 3; ++c)
+        for (float value : seen.radiance[c].elements()) ASSERT_EQ(value, 0.1f * float(c + 1) + 0.0f) << c;
+}
+
+// Whether a sample lies within one sample of a silhouette: a neighbour sees something else, much nearer or farther.
+bool near_silhouette(const LightField& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u,
+                     double jump) {
+    const float here = light_field.depth(t, s, v, u);
+    for (std::size_t l = v > 0 ? v - 1 : 0; l < std::min(v + 2, grid.directions_v); ++l)
+        for (std::size_t k = u > 0 ? u - 1 : 0; k < std::min(u + 2, grid.directions_u); ++k) {
+            const float there = light_field.depth(t, s, l, k);
+            if (std::isinf(here) != std::isinf(there) || std::abs(here - there) > jump) return true;
+        }
+    return false;
+}
+
+// Independent of each other: one intersects rays with a hierarchy, the other scan converts edge functions.
+TEST(Renderers, agree_on_random_scenes_that_straddle_the_hologram) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> place(-4e-3, 4e-3);
+    std::uniform_real_distribution<float> colour(0, 1);
+    std::size_t compared = 0, hits = 0;
+    for (int round = 0; round < 60; ++round) {
+        ShadedScene scene;
+        scene.background = {0.5f, 0.5f, 0.5f};
+        for (int i = 0; i < 12; ++i) {
+            const auto point = [&] { return Vec3{place(random), place(random), place(random)}; };
+            const Vec3 a = point(), b = point();
+            // Now and then a triangle without area, or as thin as a line.
+            const Vec3 c = i % 6 == 0 ? a : i % 6 == 1 ? 0.5 * (a + b) + 1e-9 * point() : point();
+            const Rgb flat{colour(random), colour(random), colour(random)};
+            add_triangle(scene, a, b, c, [&](Vec3) { return flat; });
+        }
+        const LightField first = render(names()[0], scene, grid);
+        for (std::size_t other = 1; other < names().size(); ++other) {
+            const LightField second = render(names()[other], scene, grid);
+            for (std::size_t t = 0; t < grid.hogels_t; ++t)
+                for (std::size_t s = 0; s < grid.hogels_s; ++s)
+                    for (std::size_t v = 0; v < grid.directions_v; ++v)
+                        for (std::size_t u = 0; u < grid.directions_u; ++u) {
+                            if (near_silhouette(first, t, s, v, u, 0.4e-3)) continue;
+                            ++compared;
+                            const bool hit = std::isfinite(first.depth(t, s, v, u));
+                            hits += hit ? 1 : 0;
+                            ASSERT_EQ(hit, std::isfinite(second.depth(t, s, v, u))) << round;
+                            if (hit) {
+                                ASSERT_NEAR(first.depth(t, s, v, u), second.depth(t, s, v, u), 1e-7) << round;
+                            }
+                            for (std::size_t c = 0; c < 3; ++c)
+                                ASSERT_NEAR(first.radiance(c, t, s, v, u), second.radiance(c, t, s, v, u), 1e-3)
+                                    << round;
+                        }
+        }
+    }
+    EXPECT_GT(compared, 300000u);
+    EXPECT_GT(hits, 150000u);
+}
+
+TEST(Renderers, an_unknown_name_is_a_usage_error_that_lists_the_known_ones) {
+    try {
+        make_renderer("radiosity", std::make_shared<const ShadedScene>(), grid);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("raytrace, zbuffer"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace hogel
