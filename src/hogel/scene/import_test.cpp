@@ -228,6 +228,25 @@ TEST_F(Import, instance_bombs_and_cycles_are_refused_before_they_unfold) {
     expect_refusal("deep.gltf", gltf(chain + R"({"mesh":0}])", "[0]"), "flatter");
 }
 
+TEST_F(Import, sizes_that_a_gltf_file_cannot_hold_are_refused) {
+    std::string json = gltf(R"([{"mesh":0}])", "[0]");
+    json.append(3 - (json.size() + 3) % 4, ' ');  // chunks are whole words
+    const auto size = static_cast<std::uint32_t>(json.size());
+    const auto glb = [&](std::uint32_t json_length, std::uint32_t data_length = 72) {
+        return "glTF" + raw<std::uint32_t>({2, 28 + size + 72, json_length}) + "JSON" + json +
+               raw<std::uint32_t>({data_length}) + std::string("BIN\0", 4) + raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) +
+               std::string(36, '\0');
+    };
+    EXPECT_EQ(triangle_count(import_scene(write("fine.glb", glb(size)))), 1u);
+    for (const std::uint32_t length : {size + 81, 0x40000000u, 0xfffffff0u})
+        expect_refusal("chunk.glb", glb(length), "a chunk of");
+    expect_refusal("data.glb", glb(size, 0xfffffff0u), "a chunk of");
+    std::string zeros = json;
+    const std::string view = R"("bufferView":0,"componentType":5126,"count":3)";
+    zeros.replace(zeros.find(view), view.size(), R"("componentType":5126,"count":1000000000)");
+    expect_refusal("zeros.gltf", zeros, "without data");
+}
+
 TEST_F(Import, a_giant_polygon_is_refused) {
     std::string obj;
     std::string face = "f";
