@@ -12,10 +12,7 @@ class HelpFormatter final : public CLI::Formatter {
     /// The group of options that is shown last.
     static constexpr const char* last_group = "General";
 
-    HelpFormatter() {
-        column_width(24);
-        label("Subcommands", "Commands");
-    }
+    HelpFormatter() { column_width(24); }
     std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
     std::string make_usage(const CLI::App* app, std::string name) const override;
     std::string make_positionals(const CLI::App* app) const override;

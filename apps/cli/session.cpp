@@ -42,6 +42,7 @@ void Session::detail(const std::string& line) const {
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                       const std::string& examples, std::function<int()> run) {
     CLI::App* command = app.add_subcommand(name, description);
+    command->group("Commands");
     command->footer("Examples:\n" + examples);
     command->add_flag("-q,--quiet", session.quiet, "Say nothing but errors")->group(HelpFormatter::last_group);
     command->add_flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage")
