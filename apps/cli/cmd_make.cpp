@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
 #include "hogel/lightfield/photograph.h"
 #include "inputs.h"
@@ -101,6 +102,10 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
     }
 }
 
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    write_file(path, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
 int make(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
@@ -149,8 +154,8 @@ int make(const Options& options, const Session& session) {
     report.exposure = automatic_exposure(report.pairs[1].geometric);
     for (PhotographPair& pair : report.pairs) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
     write_pictures(folder.path(), report);
-    write_file(folder.path() / "report.json", report_json(report));
-    write_file(folder.path() / "report.html", report_html(report));
+    write_text(folder.path() / "report.json", report_json(report));
+    write_text(folder.path() / "report.html", report_html(report));
     session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
     return 0;
 }

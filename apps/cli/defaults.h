@@ -18,7 +18,7 @@ struct Defaults {
     double front = 0.3;             ///< how much of a fitted mesh stands in front of the plane
 
     // hologram
-    double pitch = 1.6_um;
+    double pitch = 1.3_um;  ///< blue must still be diffracted over the field of view
     double red = 633_nm, green = 532_nm, blue = 460_nm;
 
     // camera

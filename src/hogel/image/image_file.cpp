@@ -227,6 +227,8 @@ void write_image(const std::filesystem::path& path, const Image& image, double e
     write_file(path, encode(image, exposure, format, metadata));
 }
 
+void require_picture_name(const std::filesystem::path& path) { format_of(path); }
+
 std::vector<unsigned char> encode_png(const Image& image, double exposure) {
     return encode(image, exposure, "png", {});
 }
