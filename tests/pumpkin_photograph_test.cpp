@@ -20,8 +20,8 @@ using namespace literals;
 constexpr std::size_t pixels = 256;
 constexpr double size = 12.8_mm;
 
-// Photographs of the jack-o'-lantern in green light, from the left and from the upper right, focused on the hologram plane
-// and behind it: by waves, averaged over 16 sets of phases, and by rays.
+// Photographs of the jack-o'-lantern in green light, from the left and from the upper right, focused on the hologram
+// plane and behind it: by waves, averaged over 16 sets of phases, and by rays.
 struct Photographs {
     std::vector<Camera> cameras;
     std::vector<Image> waves, rays;
@@ -48,7 +48,8 @@ struct Photographs {
         waves = photograph(*make_stereogram(light_field, options), cameras);
         for (const Image& colour : photograph(light_field, cameras)) {
             Image green(pixels, pixels, 1);
-            for (std::size_t i = 0; i < green.pixels.size(); ++i) green.pixels.data()[i] = colour.pixels.data()[3 * i + 1];
+            for (std::size_t i = 0; i < green.pixels.size(); ++i)
+                green.pixels.data()[i] = colour.pixels.data()[3 * i + 1];
             rays.push_back(std::move(green));
         }
     }
@@ -103,7 +104,8 @@ std::vector<bool> silhouette(const Image& image, double exposure) {
 
 TEST_F(PumpkinPhotograph, has_the_silhouette_that_geometric_optics_says) {
     for (std::size_t i = 0; i < photographs().cameras.size(); ++i) {
-        const auto wave = silhouette(photographs().waves[i], exposure()), ray = silhouette(photographs().rays[i], exposure());
+        const auto wave = silhouette(photographs().waves[i], exposure()),
+                   ray = silhouette(photographs().rays[i], exposure());
         std::size_t both = 0, either = 0;
         for (std::size_t k = 0; k < wave.size(); ++k) {
             both += wave[k] && ray[k];
@@ -120,7 +122,8 @@ double shift_between(const Image& from, const Image& to, std::size_t row) {
         double ab = 0, aa = 0, bb = 0;
         for (std::size_t y = row; y < row + 24; ++y)
             for (int x = 40; x < static_cast<int>(pixels) - 40; ++x) {
-                const double a = from.pixels(y, static_cast<std::size_t>(x), 0), b = to.pixels(y, static_cast<std::size_t>(x + shift), 0);
+                const double a = from.pixels(y, static_cast<std::size_t>(x), 0),
+                             b = to.pixels(y, static_cast<std::size_t>(x + shift), 0);
                 ab += a * b;
                 aa += a * a;
                 bb += b * b;
@@ -134,8 +137,8 @@ double shift_between(const Image& from, const Image& to, std::size_t row) {
     return best + 0.5 * (before - after) / (before - 2 * at + after);
 }
 
-// Between two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in waves as in
-// rays, to a fraction of a pixel.
+// Between two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in waves as
+// in rays, to a fraction of a pixel.
 TEST_F(PumpkinPhotograph, has_the_parallax_that_geometric_optics_says) {
     for (std::size_t row = 60; row + 60 < pixels; row += 24) {
         const double by_waves = shift_between(photographs().waves[0], photographs().waves[2], row);

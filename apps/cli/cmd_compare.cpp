@@ -59,7 +59,8 @@ struct Blocks {
     }
 };
 
-Difference sum_blocks(const Blocks& blocks, Stage& stage, const std::function<Difference(const Region&)>& compare_block) {
+Difference sum_blocks(const Blocks& blocks, Stage& stage,
+                      const std::function<Difference(const Region&)>& compare_block) {
     Difference sum;
     const Progress progress = stage.progress();
     parallel_ordered<Difference>(
@@ -129,8 +130,7 @@ bool misses(const Session& session, const char* name, std::optional<double> boun
 int compare_files(const Options& options, const Session& session) {
     const FileKind kind = file_kind(options.a);
     if (file_kind(options.b) != kind)
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("{} and {} are not files of one kind", options.a, options.b));
+        throw Error(ErrorCode::bad_input, fmt::format("{} and {} are not files of one kind", options.a, options.b));
     std::optional<double> psnr, sqnr;
     if (kind == FileKind::picture) {
         if (options.min_sqnr) misses(session, "sqnr", options.min_sqnr, sqnr);

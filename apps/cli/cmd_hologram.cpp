@@ -14,10 +14,12 @@ struct Options {
 };
 
 int hologram(const Options& options, const Session& session) {
-    if (input_kind(options.input) == InputKind::hologram)
+    const InputKind kind = input_kind(options.input);
+    if (kind == InputKind::hologram)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
+    if (kind == InputKind::scene) require_holograms(options.render.grid(), options.hologram);
     const auto light_field =
         open_or_render(session, options.input, options.render, options.hologram.wavelengths.size() > 1);
     const auto sources = make_holograms(session, *light_field, options.hologram, 1);
@@ -26,8 +28,7 @@ int hologram(const Options& options, const Session& session) {
     for (const auto& source : sources) grids.push_back(source->grid());
     const auto sinks = create_hologram(options.output, grids, describe_run(session));
     Stage stage(session, "hologram");
-    for (std::size_t i = 0; i < sources.size(); ++i)
-        copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
+    for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
     session.say(fmt::format("{}: {}x{} samples at {}, {} wavelength{}, {}", options.output, grids[0].plane.width,
                             grids[0].plane.height, format_length(grids[0].plane.pitch_x), grids.size(),
                             grids.size() == 1 ? "" : "s",

@@ -50,10 +50,14 @@ FileSummary summarize_mesh(const std::string& path) {
 FileSummary summarize_any(const std::string& path) {
     switch (file_kind(path)) {
         case FileKind::light_field:
-        case FileKind::hologram: return summarize(path);
-        case FileKind::picture: return summarize_picture(path);
-        case FileKind::mesh: return summarize_mesh(path);
-        case FileKind::unknown: break;
+        case FileKind::hologram:
+            return summarize(path);
+        case FileKind::picture:
+            return summarize_picture(path);
+        case FileKind::mesh:
+            return summarize_mesh(path);
+        case FileKind::unknown:
+            break;
     }
     throw Error(ErrorCode::bad_input,
                 fmt::format("{}: is neither a light field, a hologram, a picture nor a mesh", path));

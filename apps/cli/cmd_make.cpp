@@ -87,8 +87,7 @@ void store(const std::vector<std::unique_ptr<FieldSource>>& holograms, const std
     std::vector<FieldGrid> grids;
     for (const auto& hologram : holograms) grids.push_back(hologram->grid());
     const auto sinks = create_hologram(path, grids, metadata);
-    for (std::size_t i = 0; i < sinks.size(); ++i)
-        copy(*holograms[i], *sinks[i], 0, stage.progress(i, sinks.size()));
+    for (std::size_t i = 0; i < sinks.size(); ++i) copy(*holograms[i], *sinks[i], 0, stage.progress(i, sinks.size()));
 }
 
 void write_pictures(const std::filesystem::path& folder, const Report& report) {
@@ -114,6 +113,7 @@ int make(const Options& options, const Session& session) {
     report.threads = thread_count();
     report.run = describe_run(session);
 
+    require_holograms(report.light_field, options.hologram);
     const Scene scene = load_scene(options.scene, options.render);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
@@ -138,11 +138,10 @@ int make(const Options& options, const Session& session) {
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].geometric = std::move(pictures[i]);
     });
     if (options.store_hologram)
-        timed(session, report, "hologram file", [&](Stage& stage) {
-            store(holograms, folder.path() / "hologram.h5", report.run, stage);
-        });
-    timed(session, report, "photographs by waves", [&](Stage&) {
-        std::vector<Image> pictures = photograph_colours(session, holograms, cameras);
+        timed(session, report, "hologram file",
+              [&](Stage& stage) { store(holograms, folder.path() / "hologram.h5", report.run, stage); });
+    timed(session, report, "photographs by waves", [&](Stage& stage) {
+        std::vector<Image> pictures = photograph_colours(stage, holograms, cameras);
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
     });
 
@@ -178,7 +177,8 @@ void add_make(CLI::App& app, Session& session) {
     camera(add_length(command, "--pupil", options->pupil, "Diameter of the lens"));
     camera(add_count(command, "--resolution", options->resolution, "Pixels across a photograph"));
     camera(add_count(command, "--looks", options->looks, "Photographs averaged against speckle"));
-    camera(add_count(command, "--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays"));
+    camera(
+        add_count(command, "--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays"));
     add_render_options(command, options->render);
 }
 

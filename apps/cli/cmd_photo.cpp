@@ -25,8 +25,7 @@ struct Options {
 double parse_exposure(const std::string& text) {
     double exposure = 0;
     if (!CLI::detail::lexical_cast(text, exposure) || !(exposure > 0 && exposure < 1e12))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--exposure: '{}' is neither auto nor a positive number", text));
+        throw Error(ErrorCode::usage, fmt::format("--exposure: '{}' is neither auto nor a positive number", text));
     return exposure;
 }
 
@@ -46,7 +45,8 @@ Image photograph_of_hologram(const Options& options, const Session& session) {
                                                       options.input, file.fields.size()));
     const Grid& plane = file.fields.front()->grid().plane;
     const Camera camera = make_camera(options, plane.size_x(), plane.size_y());
-    return photograph_colours(session, file.fields, {&camera, 1}).front();
+    Stage stage(session, "wave photograph");
+    return photograph_colours(stage, file.fields, {&camera, 1}).front();
 }
 
 Image photograph_of_light_field(const Options& options, const Session& session, bool geometric) {
@@ -54,10 +54,11 @@ Image photograph_of_light_field(const Options& options, const Session& session, 
     const LightFieldGrid& grid = light_field->grid();
     const Camera camera = make_camera(options, grid.pitch * static_cast<double>(grid.hogels_s),
                                       grid.pitch * static_cast<double>(grid.hogels_t));
-    if (!geometric)
-        return photograph_colours(session, make_holograms(session, *light_field, options.hologram, options.looks),
-                                  {&camera, 1})
-            .front();
+    if (!geometric) {
+        const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
+        Stage stage(session, "wave photograph");
+        return photograph_colours(stage, holograms, {&camera, 1}).front();
+    }
     Stage stage(session, "geometric photograph");
     return photograph(*light_field, {&camera, 1}, options.pupil_samples, stage.progress()).front();
 }
@@ -69,6 +70,7 @@ int photo(const Options& options, const Session& session) {
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
+    if (kind == InputKind::scene && !geometric) require_holograms(options.render.grid(), options.hologram);
 
     const Image picture = kind == InputKind::hologram ? photograph_of_hologram(options, session)
                                                       : photograph_of_light_field(options, session, geometric);
@@ -76,20 +78,21 @@ int photo(const Options& options, const Session& session) {
     Metadata metadata = describe_run(session);
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
     write_image(options.output, picture, exposure, metadata);
-    session.say(fmt::format("{}: {}x{} pixels, exposure {:.6g}", options.output, picture.width(), picture.height(),
-                            exposure));
+    session.say(
+        fmt::format("{}: {}x{} pixels, exposure {:.6g}", options.output, picture.width(), picture.height(), exposure));
     return 0;
 }
 
 void add_camera_options(CLI::App* command, Options& options) {
     const auto group = [](CLI::Option* option) { option->group("Camera"); };
     group(add_point(command, "--eye", options.eye, "Centre of the lens; the hologram is around 0,0,0"));
-    group(add_length(command, "--focus", options.focus, "Depth in focus: positive behind the hologram, negative in front"));
+    group(add_length(command, "--focus", options.focus,
+                     "Depth in focus: positive behind the hologram, negative in front"));
     group(add_length(command, "--pupil", options.pupil, "Diameter of the lens"));
     group(add_count(command, "--resolution", options.resolution, "Pixels across"));
-    group(add_count(command, "--looks", options.looks, "Photographs averaged against speckle, unless of a hologram file"));
-    group(command
-              ->add_option("--exposure", options.exposure, "What linear values are multiplied by in PNG, or auto")
+    group(add_count(command, "--looks", options.looks,
+                    "Photographs averaged against speckle, unless of a hologram file"));
+    group(command->add_option("--exposure", options.exposure, "What linear values are multiplied by in PNG, or auto")
               ->type_name("NUMBER|auto")
               ->capture_default_str());
     CLI::Option* geometric =
@@ -97,19 +100,19 @@ void add_camera_options(CLI::App* command, Options& options) {
     group(geometric);
     group(command->add_flag("--wave", options.wave, "By waves, through the hologram (default for a scene)")
               ->excludes(geometric));
-    group(add_count(command, "--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph"));
+    group(
+        add_count(command, "--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph"));
 }
 
 }  // namespace
 
 void add_photo(CLI::App& app, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        add_command(app, session, "photo", "Photograph a hologram, a light field or a scene",
-                    "  hogel photo hologram.h5 -o left.png --eye -30,0,300mm --focus 5mm\n"
-                    "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
-                    "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8",
-                    [options, &session] { return photo(*options, session); });
+    CLI::App* command = add_command(app, session, "photo", "Photograph a hologram, a light field or a scene",
+                                    "  hogel photo hologram.h5 -o left.png --eye -30,0,300mm --focus 5mm\n"
+                                    "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
+                                    "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8",
+                                    [options, &session] { return photo(*options, session); });
     command->add_option("input", options->input, "Hologram, light field, mesh file or built-in scene")
         ->type_name("F.h5|X.h5|SCENE")
         ->required();

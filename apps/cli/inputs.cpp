@@ -22,6 +22,15 @@ bool is_builtin(const std::string& name) {
     return std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
 }
 
+StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
+                                     double wavelength) {
+    StereogramOptions stereogram;
+    stereogram.wavelength = wavelength;
+    stereogram.pitch = options.pitch;
+    stereogram.channel = light_field.channels == 1 ? 0 : colour_of(wavelength);
+    return stereogram;
+}
+
 }  // namespace
 
 LightFieldGrid RenderOptions::grid() const {
@@ -64,7 +73,10 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
     CLI::Option* as_is = command->add_flag("--as-is", options.as_is,
                                            "Take a mesh file where it is, its numbers as metres, z towards the viewer");
     group(as_is);
-    group(command->add_flag("--fit", "Scale and move a mesh file to fill the hologram (default)")->excludes(as_is));
+    group(command
+              ->add_flag_function(
+                  "--fit", [](std::int64_t) {}, "Scale and move a mesh file to fill the hologram (default)")
+              ->excludes(as_is));
 }
 
 void add_hologram_options(CLI::App* command, HologramOptions& options) {
@@ -85,13 +97,17 @@ InputKind input_kind(const std::string& name) {
         make_builtin_scene(name, defaults.size);  // knows the names that exist, and says so
     }
     switch (file_kind(name)) {
-        case FileKind::light_field: return InputKind::light_field;
-        case FileKind::hologram: return InputKind::hologram;
-        case FileKind::mesh: return InputKind::scene;
+        case FileKind::light_field:
+            return InputKind::light_field;
+        case FileKind::hologram:
+            return InputKind::hologram;
+        case FileKind::mesh:
+            return InputKind::scene;
         case FileKind::picture:
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is a picture; expected a scene, a light field or a hologram", name));
-        case FileKind::unknown: break;
+        case FileKind::unknown:
+            break;
     }
     throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
 }
@@ -102,7 +118,8 @@ Scene load_scene(const std::string& name, const RenderOptions& options) {
     if (!options.as_is) {
         Fit fit;
         fit.width = options.size;
-        fit.height = options.size * static_cast<double>(options.hogels.rows) / static_cast<double>(options.hogels.columns);
+        fit.height =
+            options.size * static_cast<double>(options.hogels.rows) / static_cast<double>(options.hogels.columns);
         fit.front = options.front;
         fit_scene(scene, fit);
     }
@@ -125,27 +142,27 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
     return light_field;
 }
 
+void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options) {
+    for (const double wavelength : options.wavelengths)
+        stereogram_grid(light_field, stereogram_options(light_field, options, wavelength));
+}
+
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
                                                          const HologramOptions& options, std::size_t looks) {
     std::vector<std::unique_ptr<FieldSource>> holograms;
     for (const double wavelength : options.wavelengths) {
-        StereogramOptions stereogram;
-        stereogram.wavelength = wavelength;
-        stereogram.pitch = options.pitch;
-        stereogram.channel = light_field.grid().channels == 1 ? 0 : colour_of(wavelength);
+        StereogramOptions stereogram = stereogram_options(light_field.grid(), options, wavelength);
         stereogram.looks = looks;
         stereogram.seed = session.seed;
-        stereogram_grid(light_field.grid(), stereogram);  // complains before any work is done
         holograms.push_back(make_stereogram(light_field, stereogram));
     }
     return holograms;
 }
 
-std::vector<Image> photograph_colours(const Session& session, std::span<const std::unique_ptr<FieldSource>> holograms,
+std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
                                       std::span<const Camera> cameras) {
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
-    Stage stage(session, "wave photographs");
     for (std::size_t c = 0; c < colours; ++c) {
         const std::vector<Image> seen = photograph(*holograms[c], cameras, stage.progress(c, colours));
         for (std::size_t i = 0; i < cameras.size(); ++i) {

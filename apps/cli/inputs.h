@@ -55,12 +55,15 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const Ren
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options, bool read_often);
 
+/// Throws Error(usage) where a light field sampled like this cannot become such holograms: too coarse a pitch, say.
+void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options);
+
 /// One hologram a wavelength, made from the light field where it is read.
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
                                                          const HologramOptions& options, std::size_t looks);
 
 /// Photographs holograms of one or three wavelengths by wave optics and joins the colours.
-std::vector<Image> photograph_colours(const Session& session, std::span<const std::unique_ptr<FieldSource>> holograms,
+std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
                                       std::span<const Camera> cameras);
 
 /// A camera that frames a hologram of this size with so many pixels across.

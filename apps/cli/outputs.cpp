@@ -24,9 +24,8 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
     std::error_code error;
     created_ = fs::create_directories(path_, error);
     if (error || !fs::is_directory(path_))
-        throw Error(ErrorCode::cannot_write,
-                    fmt::format("{}: cannot create this folder: {}", path_.string(),
-                                error ? error.message() : "a file has its name"));
+        throw Error(ErrorCode::cannot_write, fmt::format("{}: cannot create this folder: {}", path_.string(),
+                                                         error ? error.message() : "a file has its name"));
     require_writable(path_ / "report.html");
 }
 

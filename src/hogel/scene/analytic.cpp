@@ -19,8 +19,8 @@ constexpr double pi = std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Rgb background{0.02f, 0.02f, 0.03f};
 
-/// The pictures: sums of waves with whole periods across the picture, so that its texture may repeat. p to the right and
-/// q up run from 0 to 1.
+/// The pictures: sums of waves with whole periods across the picture, so that its texture may repeat. p to the right
+/// and q up run from 0 to 1.
 Rgb picture(int number, double p, double q) {
     const double a = 2 * pi * p, b = 2 * pi * q;
     if (number == 0)
@@ -63,12 +63,15 @@ Mesh panel_mesh(const Panel& panel, double size) {
         }
     MeshBuilder builder;
     const auto part = [](std::size_t i) { return static_cast<double>(i) / cells; };
-    builder.patch(cells, cells, false,
-                  [&](std::size_t i, std::size_t k) {
-                      return size * Vec3{panel.x + panel.half_width * (2 * part(i) - 1),
-                                         panel.y + panel.half_width * (2 * part(k) - 1), -panel.depth};
-                  },
-                  [](Vec3) { return Rgb{1, 1, 1}; });
+    builder.patch(
+        cells, cells, false,
+        [&](std::size_t i, std::size_t k) {
+            return size * Vec3{panel.x + panel.half_width * (2 * part(i) - 1),
+                               panel.y + panel.half_width * (2 * part(k) - 1), -panel.depth};
+        },
+        [](Vec3) {
+            return Rgb{1, 1, 1};
+        });
     Mesh mesh = std::move(builder.mesh);
     for (std::size_t k = 0; k <= cells; ++k)
         for (std::size_t i = 0; i <= cells; ++i)
@@ -104,11 +107,10 @@ void see_ball(double s, double t, double U, double V, AnalyticSample& seen) {
     const double distance = length(origin + nearest * direction);
     seen.clearance = std::abs(ball_radius - distance);
     if (distance > ball_radius) return;
-    seen.depth =
-        nearest - std::sqrt((ball_radius * ball_radius - distance * distance) / dot(direction, direction));
+    seen.depth = nearest - std::sqrt((ball_radius * ball_radius - distance * distance) / dot(direction, direction));
     const Vec3 normal = (origin + seen.depth * direction) / ball_radius;
-    seen.radiance = ball_color * (ball_ambient +
-                                  static_cast<float>(std::max(0.0, dot(normal, to_lamp)) / pi) * ball_irradiance);
+    seen.radiance =
+        ball_color * (ball_ambient + static_cast<float>(std::max(0.0, dot(normal, to_lamp)) / pi) * ball_irradiance);
 }
 
 void see_dot(double s, double t, double U, double V, AnalyticSample& seen) {
@@ -205,7 +207,8 @@ AnalyticSample analytic_radiance(std::string_view name, double hologram_size, do
         see_dot(s, t, U, V, seen);
     } else {
         throw Error(ErrorCode::usage, fmt::format("scene '{}' has no closed form; expected plane, two-planes, sphere "
-                                                  "or point", name));
+                                                  "or point",
+                                                  name));
     }
     seen.depth *= hologram_size;
     seen.clearance *= hologram_size;

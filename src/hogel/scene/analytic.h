@@ -17,8 +17,8 @@ struct AnalyticSample {
 bool has_analytic_radiance(std::string_view name);
 
 /// The closed form of a built-in scene, written without its mesh, so that any renderer can be compared with it. The ray
-/// crosses the hologram at (s, t) and passes x = s + Uζ, y = t + Vζ. A faithful renderer agrees wherever the clearance is
-/// more than hologram_size/1000: radiance to 1e-3, depth to 1e-3 · hologram_size (plane, two-planes and point: to
+/// crosses the hologram at (s, t) and passes x = s + Uζ, y = t + Vζ. A faithful renderer agrees wherever the clearance
+/// is more than hologram_size/1000: radiance to 1e-3, depth to 1e-3 · hologram_size (plane, two-planes and point: to
 /// rounding). Throws Error(usage) for a scene without closed form.
 ///   plane       a picture of half-width 0.425 D at ζ = 0.2 D
 ///   two-planes  the same behind one of half-width 0.15 D at ζ = −0.1 D, centred at (−0.05 D, 0.04 D)

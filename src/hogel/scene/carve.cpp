@@ -88,13 +88,12 @@ class Carver {
             for (std::size_t i = 0; i < hole.size(); ++i) {
                 const Parameter p = hole[(i + hole.size() - 1) % hole.size()], q = hole[i],
                                 r = hole[(i + 1) % hole.size()];
-                const double cosine = ((q.a - p.a) * (r.a - q.a) + (q.b - p.b) * (r.b - q.b)) /
-                                      (distance(p, q) * distance(q, r));
+                const double cosine =
+                    ((q.a - p.a) * (r.a - q.a) + (q.b - p.b) * (r.b - q.b)) / (distance(p, q) * distance(q, r));
                 if (cosine > std::cos(std::numbers::pi / 6)) continue;
                 const auto nearest =
-                    std::min_element(grid_.points.begin(), grid_.points.end(), [&](Parameter x, Parameter y) {
-                        return distance(x, q) < distance(y, q);
-                    });
+                    std::min_element(grid_.points.begin(), grid_.points.end(),
+                                     [&](Parameter x, Parameter y) { return distance(x, q) < distance(y, q); });
                 const auto index = static_cast<Index>(nearest - grid_.points.begin());
                 if (side_[index] != 0) move(index, q);
             }
@@ -108,8 +107,10 @@ class Carver {
                 Index i = triangle[k], j = triangle[(k + 1) % 3];
                 if (side_[i] * side_[j] >= 0) continue;
                 const double w = crossing(i, j);
-                if (w < close) move(i, lerp(grid_.points[i], grid_.points[j], w));
-                else if (w > 1 - close) move(j, lerp(grid_.points[i], grid_.points[j], w));
+                if (w < close)
+                    move(i, lerp(grid_.points[i], grid_.points[j], w));
+                else if (w > 1 - close)
+                    move(j, lerp(grid_.points[i], grid_.points[j], w));
             }
     }
 

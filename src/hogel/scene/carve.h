@@ -22,7 +22,8 @@ struct CarvedGrid {
 /// Cuts holes into a grid whose columns are periodic (an angle) and whose first and last row are single points (poles).
 /// @param columns  a of each column, increasing, within one period of 2π
 /// @param rows     b of each row from pole to pole, increasing
-/// @param holes    simple polygons that stay clear of the poles, of each other, and of the seam between the last and the
+/// @param holes    simple polygons that stay clear of the poles, of each other, and of the seam between the last and
+/// the
 ///                 first column; corners sharper than 30 degrees survive, others are rounded to the size of a cell
 CarvedGrid carve(std::span<const double> columns, std::span<const double> rows,
                  std::span<const std::vector<Parameter>> holes);

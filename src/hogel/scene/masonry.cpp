@@ -39,12 +39,13 @@ void Masonry::quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Rgb color) {
 
 void Masonry::flat_patch(Vec3 corner, Vec3 right, Vec3 up, Rgb color, double patch) {
     const std::size_t across = pieces(length(right), patch), rows = pieces(length(up), patch);
-    faceted.patch(across, rows, false,
-                  [&](std::size_t i, std::size_t k) {
-                      return corner + static_cast<double>(i) / static_cast<double>(across) * right +
-                             static_cast<double>(k) / static_cast<double>(rows) * up;
-                  },
-                  [&](Vec3) { return color; });
+    faceted.patch(
+        across, rows, false,
+        [&](std::size_t i, std::size_t k) {
+            return corner + static_cast<double>(i) / static_cast<double>(across) * right +
+                   static_cast<double>(k) / static_cast<double>(rows) * up;
+        },
+        [&](Vec3) { return color; });
 }
 
 void Masonry::wall(const Frame& frame, double a0, double a1, double b0, double b1, Rgb stone) {
@@ -232,15 +233,19 @@ void Masonry::pyramid(Vec3 foot, double half_width, double height, std::size_t r
 }
 
 void Masonry::spire(Vec3 foot, Rgb ball, Rgb point) {
-    smooth.revolve(foot, 16, 8,
-                   [](std::size_t k) {
-                       const double angle = pi * (0.06 + 0.94 * static_cast<double>(k) / 8);
-                       return std::pair{std::max(0.015, 0.12 * std::sin(angle)), 0.14 - 0.12 * std::cos(angle)};
-                   },
-                   [&](Vec3) { return ball; });
-    smooth.revolve(foot + Vec3{0, 0.25, 0}, 10, 4,
-                   [](std::size_t k) { return std::pair{0.035 * (1 - 0.22 * static_cast<double>(k)), 0.12 * static_cast<double>(k)}; },
-                   [&](Vec3) { return point; });
+    smooth.revolve(
+        foot, 16, 8,
+        [](std::size_t k) {
+            const double angle = pi * (0.06 + 0.94 * static_cast<double>(k) / 8);
+            return std::pair{std::max(0.015, 0.12 * std::sin(angle)), 0.14 - 0.12 * std::cos(angle)};
+        },
+        [&](Vec3) { return ball; });
+    smooth.revolve(
+        foot + Vec3{0, 0.25, 0}, 10, 4,
+        [](std::size_t k) {
+            return std::pair{0.035 * (1 - 0.22 * static_cast<double>(k)), 0.12 * static_cast<double>(k)};
+        },
+        [&](Vec3) { return point; });
 }
 
 void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, double ridge, Rgb stone, Rgb trim,
@@ -248,7 +253,8 @@ void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, do
     constexpr std::size_t windows = 4;
     const double middle = foot.x + 0.5 * length, half = 0.5 * length;
     for (int side : {1, -1}) {
-        const Frame wall_frame{{middle, foot.y, foot.z + side * half_depth}, {1.0 * side, 0, 0}, {0, 1, 0}, {0, 0, 1.0 * side}};
+        const Frame wall_frame{
+            {middle, foot.y, foot.z + side * half_depth}, {1.0 * side, 0, 0}, {0, 1, 0}, {0, 0, 1.0 * side}};
         const double step = length / windows;
         for (std::size_t i = 0; i < windows; ++i) {
             const double a0 = -half + step * static_cast<double>(i);
@@ -268,8 +274,9 @@ void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, do
             for (std::size_t i = 0; i < tiles; ++i) {
                 const auto at = [&](std::size_t column, std::size_t row) {
                     const double w = static_cast<double>(row) / rows;
-                    return wall_frame.at((2 * static_cast<double>(column) / static_cast<double>(tiles) - 1) * (half + 0.1),
-                                         eaves + (ridge - eaves) * w, 0.18 - (half_depth + 0.18) * w);
+                    return wall_frame.at(
+                        (2 * static_cast<double>(column) / static_cast<double>(tiles) - 1) * (half + 0.1),
+                        eaves + (ridge - eaves) * w, 0.18 - (half_depth + 0.18) * w);
                 };
                 quad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1),
                      (k % 2 == 0 ? 1.0f : 0.86f) * vary({0.36f, 0.15f, 0.085f}, 0.35));
@@ -301,15 +308,16 @@ void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, do
 
 void Masonry::lawn(Vec3 center, double half_width, double half_depth) {
     constexpr std::size_t columns = 72, rows = 24;
-    smooth.revolve(center, columns, rows + 1,
-                   [&](std::size_t k) {
-                       if (k == 0) return std::pair{0.98, -0.14};
-                       return std::pair{1 - 0.995 * static_cast<double>(k - 1) / rows, 0.0};
-                   },
-                   [](Vec3 p) {
-                       const double tufts = 0.5 + 0.5 * std::sin(9 * p.x + 3 * std::sin(8 * p.z)) * std::sin(11 * p.z);
-                       return mix({0.09f, 0.15f, 0.045f}, {0.16f, 0.22f, 0.07f}, tufts);
-                   });
+    smooth.revolve(
+        center, columns, rows + 1,
+        [&](std::size_t k) {
+            if (k == 0) return std::pair{0.98, -0.14};
+            return std::pair{1 - 0.995 * static_cast<double>(k - 1) / rows, 0.0};
+        },
+        [](Vec3 p) {
+            const double tufts = 0.5 + 0.5 * std::sin(9 * p.x + 3 * std::sin(8 * p.z)) * std::sin(11 * p.z);
+            return mix({0.09f, 0.15f, 0.045f}, {0.16f, 0.22f, 0.07f}, tufts);
+        });
     const std::size_t first = smooth.mesh.positions.size() - columns * (rows + 2);
     for (std::size_t i = first; i < smooth.mesh.positions.size(); ++i) {
         Vec3& p = smooth.mesh.positions[i];
@@ -318,20 +326,21 @@ void Masonry::lawn(Vec3 center, double half_width, double half_depth) {
 }
 
 void Masonry::tree(Vec3 foot, double height) {
-    smooth.revolve(foot, 18, 14,
-                   [&](std::size_t k) {
-                       if (k == 0) return std::pair{0.05, 0.0};
-                       if (k == 1) return std::pair{0.05, 0.12 * height};
-                       const double w = static_cast<double>(k - 2) / 12;
-                       const double bump = 1 + 0.10 * std::sin(40 * w + foot.x);
-                       return std::pair{std::max(0.01, 0.30 * bump * std::pow(std::sin(pi * std::pow(1 - w, 1.4)), 0.8)),
-                                        height * (0.12 + 0.88 * w)};
-                   },
-                   [&](Vec3 p) {
-                       if (p.y < foot.y + 0.11 * height) return Rgb{0.16f, 0.10f, 0.05f};
-                       const double leaves = 0.5 + 0.5 * std::sin(19 * p.x + 23 * p.y) * std::sin(17 * p.z + 13 * p.y);
-                       return mix({0.05f, 0.10f, 0.04f}, {0.13f, 0.19f, 0.06f}, leaves);
-                   });
+    smooth.revolve(
+        foot, 18, 14,
+        [&](std::size_t k) {
+            if (k == 0) return std::pair{0.05, 0.0};
+            if (k == 1) return std::pair{0.05, 0.12 * height};
+            const double w = static_cast<double>(k - 2) / 12;
+            const double bump = 1 + 0.10 * std::sin(40 * w + foot.x);
+            return std::pair{std::max(0.01, 0.30 * bump * std::pow(std::sin(pi * std::pow(1 - w, 1.4)), 0.8)),
+                             height * (0.12 + 0.88 * w)};
+        },
+        [&](Vec3 p) {
+            if (p.y < foot.y + 0.11 * height) return Rgb{0.16f, 0.10f, 0.05f};
+            const double leaves = 0.5 + 0.5 * std::sin(19 * p.x + 23 * p.y) * std::sin(17 * p.z + 13 * p.y);
+            return mix({0.05f, 0.10f, 0.04f}, {0.13f, 0.19f, 0.06f}, leaves);
+        });
 }
 
 }  // namespace hogel

@@ -28,8 +28,8 @@ class MeshBuilder {
     /// A patch of columns × rows quads with vertices at(i, k), 0 <= i <= columns, 0 <= k <= rows: counter-clockwise
     /// from the side where k runs to the right-hand left of i (as x and y do on paper). `wraps`: column `columns` is
     /// column 0 again.
-    void patch(std::size_t columns, std::size_t rows, bool wraps, const std::function<Vec3(std::size_t, std::size_t)>& at,
-               const std::function<Rgb(Vec3)>& color) {
+    void patch(std::size_t columns, std::size_t rows, bool wraps,
+               const std::function<Vec3(std::size_t, std::size_t)>& at, const std::function<Rgb(Vec3)>& color) {
         const std::size_t across = wraps ? columns : columns + 1;
         const auto base = static_cast<Index>(mesh.positions.size());
         for (std::size_t k = 0; k <= rows; ++k)
@@ -45,18 +45,19 @@ class MeshBuilder {
                 quad(index(i, k), index(i + 1, k), index(i + 1, k + 1), index(i, k + 1));
     }
 
-    /// A surface of revolution about the vertical through `foot`: profile(k) gives radius and height, from bottom to top
-    /// for a surface seen from outside.
+    /// A surface of revolution about the vertical through `foot`: profile(k) gives radius and height, from bottom to
+    /// top for a surface seen from outside.
     void revolve(Vec3 foot, std::size_t columns, std::size_t rows,
                  const std::function<std::pair<double, double>(std::size_t)>& profile,
                  const std::function<Rgb(Vec3)>& color) {
-        patch(columns, rows, true,
-              [&](std::size_t i, std::size_t k) {
-                  const auto [radius, height] = profile(k);
-                  const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(columns);
-                  return foot + Vec3{radius * std::sin(angle), height, radius * std::cos(angle)};
-              },
-              color);
+        patch(
+            columns, rows, true,
+            [&](std::size_t i, std::size_t k) {
+                const auto [radius, height] = profile(k);
+                const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(columns);
+                return foot + Vec3{radius * std::sin(angle), height, radius * std::cos(angle)};
+            },
+            color);
     }
 
     Mesh mesh;

@@ -12,10 +12,10 @@ namespace {
 // Lengths in this file are arbitrary (the pumpkin is about one unit in radius); fit_scene gives them their size.
 constexpr double pi = std::numbers::pi;
 constexpr int ribs = 14;
-constexpr double height = 0.78;       // of the body above its middle
+constexpr double height = 0.78;        // of the body above its middle
 constexpr double depth_squash = 0.68;  // pumpkins are rarely round
 constexpr double wall = 0.1;
-constexpr Vec3 flame_tip{0, -0.17, 0.02};
+constexpr Vec3 flame_tip{0.03, -0.27, 0.12};
 
 double square(double x) { return x * x; }
 
@@ -40,7 +40,8 @@ Vec3 body(Parameter at, double thickness) {
 Rgb skin_color(Parameter at) {
     constexpr Rgb orange{0.86f, 0.235f, 0.022f}, dark{0.50f, 0.095f, 0.008f}, yellow{0.93f, 0.33f, 0.035f},
         green{0.20f, 0.24f, 0.04f};
-    Rgb color = mix(orange, yellow, 0.5 + 0.5 * std::sin(9 * at.a + 3 * std::sin(4 * at.b)) * std::sin(6 * at.b + at.a));
+    Rgb color =
+        mix(orange, yellow, 0.5 + 0.5 * std::sin(9 * at.a + 3 * std::sin(4 * at.b)) * std::sin(6 * at.b + at.a));
     color = mix(color, dark, 1.15 * std::sqrt(groove(at.a)) - 0.1);
     const double near_stem = (at.b - 0.95) / 0.45 + 0.25 * groove(at.a);
     color = mix(color, green, 0.75 * near_stem);
@@ -93,7 +94,7 @@ CarvedGrid carved_body() {
     std::vector<double> columns{-pi + 0.13};
     append_steps(columns, -1.9, 6);
     append_steps(columns, -0.92, 11);
-    append_steps(columns, 0.92, 40);
+    append_steps(columns, 0.92, 38);
     append_steps(columns, 1.9, 11);
     append_steps(columns, pi - 0.13, 6);
     std::vector<double> rows{-0.5 * pi};
@@ -137,7 +138,7 @@ Mesh flesh(const CarvedGrid& grid) {
 
 /// A bent, twisted, five-ridged stalk with a flared foot.
 Mesh stem() {
-    constexpr std::size_t columns = 30, rows = 13;
+    constexpr std::size_t columns = 25, rows = 12;
     constexpr Rgb green{0.22f, 0.25f, 0.07f}, brown{0.30f, 0.20f, 0.08f}, cut{0.55f, 0.47f, 0.25f};
     const auto middle = [](double w) {
         return Vec3{0.02 + 0.16 * w * w, 0.44 + 0.46 * w - 0.05 * w * w, -0.04 * w * w};
@@ -165,7 +166,8 @@ Mesh stem() {
             builder.quad(index(i, k), index(i + 1, k), index(i + 1, k + 1), index(i, k + 1));
     const std::uint32_t tip = builder.vertex(middle(1) + Vec3{0.005, 0.012, 0}, cut);
     for (std::size_t i = 0; i < columns; ++i) {
-        const std::uint32_t a = builder.vertex(at(angle(i), 1, 1), cut), b = builder.vertex(at(angle(i + 1), 1, 1), cut);
+        const std::uint32_t a = builder.vertex(at(angle(i), 1, 1), cut),
+                            b = builder.vertex(at(angle(i + 1), 1, 1), cut);
         builder.triangle(a, b, tip);
     }
     builder.mesh.name = "stem";
@@ -174,11 +176,14 @@ Mesh stem() {
 
 Mesh candle() {
     constexpr std::array<std::pair<double, double>, 7> profile{
-        {{0.0, -0.50}, {0.11, -0.50}, {0.11, -0.44}, {0.108, -0.37}, {0.10, -0.35}, {0.05, -0.355}, {0.0, -0.36}}};
+        {{0.0, -0.58}, {0.1, -0.58}, {0.1, -0.52}, {0.098, -0.46}, {0.09, -0.445}, {0.045, -0.45}, {0.0, -0.455}}};
     MeshBuilder builder;
-    builder.revolve({flame_tip.x, 0, flame_tip.z}, 20, profile.size() - 1, [&](std::size_t k) { return profile[k]; },
-                    [](Vec3) { return Rgb{0.85f, 0.75f, 0.55f}; });
-    builder.mesh.material.emission = {0.45f, 0.19f, 0.03f};
+    builder.revolve(
+        {flame_tip.x, 0, flame_tip.z}, 20, profile.size() - 1, [&](std::size_t k) { return profile[k]; },
+        [](Vec3) {
+            return Rgb{0.05f, 0.035f, 0.02f};
+        });
+    builder.mesh.material.emission = {0.55f, 0.24f, 0.05f};
     builder.mesh.name = "candle";
     return std::move(builder.mesh);
 }
@@ -186,12 +191,15 @@ Mesh candle() {
 Mesh flame() {
     constexpr std::size_t rows = 8;
     MeshBuilder builder;
-    builder.revolve({flame_tip.x, flame_tip.y - 0.17, flame_tip.z}, 14, rows,
-                    [](std::size_t k) {
-                        const double w = static_cast<double>(k) / rows;
-                        return std::pair{0.042 * std::sin(pi * std::pow(w, 0.65)) * (1 - 0.35 * w), 0.16 * w};
-                    },
-                    [](Vec3) { return Rgb{0, 0, 0}; });
+    builder.revolve(
+        {flame_tip.x, flame_tip.y - 0.17, flame_tip.z}, 14, rows,
+        [](std::size_t k) {
+            const double w = static_cast<double>(k) / rows;
+            return std::pair{0.042 * std::sin(pi * std::pow(w, 0.65)) * (1 - 0.35 * w), 0.16 * w};
+        },
+        [](Vec3) {
+            return Rgb{0, 0, 0};
+        });
     builder.mesh.material.emission = {1.6f, 1.05f, 0.42f};
     builder.mesh.name = "flame";
     return std::move(builder.mesh);
@@ -199,22 +207,23 @@ Mesh flame() {
 
 /// A round slab of slate. Its vertices crowd where shadow and candlelight fall.
 Mesh ground() {
-    constexpr std::size_t columns = 64, rows = 16;
+    constexpr std::size_t columns = 60, rows = 16;
     constexpr double top = -0.605, radius = 1.09;
     MeshBuilder builder;
-    builder.revolve({0, 0, 0}, columns, rows + 3,
-                    [&](std::size_t k) {
-                        constexpr double h = 0.07;
-                        if (k == 0) return std::pair{0.97 * radius, top - h};
-                        if (k == 1) return std::pair{radius, top - 0.6 * h};
-                        if (k == 2) return std::pair{radius, top - 0.2 * h};
-                        const double w = static_cast<double>(k - 3) / rows;
-                        return std::pair{0.985 * radius * std::pow(1 - w, 0.8), top};
-                    },
-                    [](Vec3 p) {
-                        const double veins = 0.5 + 0.5 * std::sin(7 * p.x + 4 * std::sin(5 * p.z + 3 * p.x));
-                        return mix({0.17f, 0.165f, 0.18f}, {0.27f, 0.25f, 0.25f}, veins);
-                    });
+    builder.revolve(
+        {0, 0, 0}, columns, rows + 3,
+        [&](std::size_t k) {
+            constexpr double h = 0.07;
+            if (k == 0) return std::pair{0.97 * radius, top - h};
+            if (k == 1) return std::pair{radius, top - 0.6 * h};
+            if (k == 2) return std::pair{radius, top - 0.2 * h};
+            const double w = static_cast<double>(k - 3) / rows;
+            return std::pair{0.985 * radius * std::pow(1 - w, 0.8), top};
+        },
+        [](Vec3 p) {
+            const double veins = 0.5 + 0.5 * std::sin(7 * p.x + 4 * std::sin(5 * p.z + 3 * p.x));
+            return mix({0.17f, 0.165f, 0.18f}, {0.27f, 0.25f, 0.25f}, veins);
+        });
     for (Vec3& p : builder.mesh.positions) p.z *= depth_squash;
     builder.mesh.name = "ground";
     return std::move(builder.mesh);
@@ -245,7 +254,7 @@ Scene make_pumpkin(double hologram_size) {
     glow.position = flame_tip;
     glow.intensity = {2.1f, 1.02f, 0.26f};
     Light moon;
-    moon.direction = normalize({0.50, -0.80, -0.70});
+    moon.direction = normalize({0.36, -0.78, -0.70});
     moon.intensity = {2.9f, 2.75f, 2.65f};
     scene.lights = {moon, glow};
     scene.ambient = {0.05f, 0.055f, 0.08f};

@@ -9,10 +9,11 @@
 namespace hogel {
 namespace {
 
-// Lengths in this file are arbitrary (the shaft is 2 wide and the tower about 14 high); fit_scene gives them their size.
+// Lengths in this file are arbitrary (the shaft is 2 wide and the tower about 12 high); fit_scene gives them their
+// size.
 constexpr double pi = std::numbers::pi;
 constexpr double half_width = 1.0;
-constexpr double shaft_top = 8.2, clock_top = 9.9, belfry_top = 12.2, eaves = 12.55, roof_top = 15.6;
+constexpr double shaft_top = 5.0, clock_top = 6.7, belfry_top = 9.0, eaves = 9.35, roof_top = 12.1;
 
 constexpr Rgb stone{0.55f, 0.45f, 0.33f};
 constexpr Rgb trim{0.70f, 0.62f, 0.50f};
@@ -45,7 +46,7 @@ void shaft(Masonry& masonry) {
     constexpr double half_window = 0.13;
     for (int side = 0; side < 4; ++side) {
         const Frame wall = wall_frame(side, half_width);
-        const std::array<double, 4> sills{1.6, 3.2, 4.8, 6.4};
+        const std::array<double, 2> sills{1.5, 3.2};
         double low = 0.55;
         for (double sill : sills) {
             const Opening opening{0, half_window, sill, sill + 0.75, 7};
@@ -63,7 +64,7 @@ void shaft(Masonry& masonry) {
     }
     band(masonry, 0, 0.35, 1.28, shade_stone);
     band(masonry, 0.35, 0.55, 1.18, trim);
-    band(masonry, 4.35, 4.5, 1.14, trim);
+    band(masonry, 2.85, 2.97, 1.12, trim);
     band(masonry, shaft_top - 0.14, shaft_top, 1.16, trim);
     band(masonry, shaft_top, shaft_top + 0.12, 1.24, trim);
 }
@@ -71,14 +72,15 @@ void shaft(Masonry& masonry) {
 void clock(Masonry& masonry, const Frame& wall, double height) {
     const Frame face{wall.at(0, height, 0.03), wall.right, wall.up, wall.out};
     constexpr Rgb dial{0.85f, 0.82f, 0.72f}, dark{0.05f, 0.045f, 0.05f};
-    masonry.ring(face, 0, 0.5, 0.02, dial, 40);
+    masonry.ring(face, 0, 0.06, 0.02, dial, 40);
+    for (int i = 0; i < 8; ++i) masonry.ring(face, 0.06 + 0.055 * i, 0.115 + 0.055 * i, 0.02, dial, 40);
     masonry.ring(face, 0.5, 0.62, 0.09, gold, 40);
     masonry.ring(face, 0.43, 0.455, 0.03, dark, 40);
     for (int hour = 0; hour < 12; ++hour) {
         const double angle = pi / 6 * hour;
         masonry.bar(face, angle, 0.35, 0.425, hour % 3 == 0 ? 0.028 : 0.015, 0.035, dark);
     }
-    masonry.bar(face, 0.3 * pi, -0.08, 0.29, 0.03, 0.05, dark);    // ten to two, near enough: the hour
+    masonry.bar(face, 0.3 * pi, -0.08, 0.29, 0.03, 0.05, dark);     // the hour
     masonry.bar(face, -0.37 * pi, -0.09, 0.42, 0.02, 0.065, dark);  // and the minute
     masonry.ring(face, 0, 0.04, 0.08, gold, 12);
 }
@@ -111,11 +113,12 @@ Mesh bell() {
                                                                  {0.05, 0.90},
                                                                  {0.05, 1.1}}};
     MeshBuilder builder;
-    builder.revolve({0, clock_top + 0.68, 0}, 36, profile.size() - 1, [&](std::size_t k) { return profile[k]; },
-                    [](Vec3 p) {
-                        const double belt = std::sin(24 * p.y);
-                        return mix({0.62f, 0.38f, 0.12f}, {0.80f, 0.52f, 0.18f}, 0.5 + 0.5 * belt);
-                    });
+    builder.revolve(
+        {0, clock_top + 0.68, 0}, 36, profile.size() - 1, [&](std::size_t k) { return profile[k]; },
+        [](Vec3 p) {
+            const double belt = std::sin(24 * p.y);
+            return mix({0.62f, 0.38f, 0.12f}, {0.80f, 0.52f, 0.18f}, 0.5 + 0.5 * belt);
+        });
     builder.mesh.name = "bell";
     return std::move(builder.mesh);
 }
@@ -135,7 +138,7 @@ void belfry(Masonry& masonry) {
             masonry.slab(outside, edge * 0.88 - 0.12, edge * 0.88 + 0.12, clock_top, belfry_top, 0.08, trim);
             masonry.slab(outside, edge * 0.69 - 0.08, edge * 0.69 + 0.08, spring - 0.1, spring + 0.02, 0.10, trim);
         }
-        // A parapet of balusters in the arch.
+        // A balustrade in the arch.
         masonry.slab({outside.at(0, 0, -0.16), outside.right, outside.up, outside.out}, -half, half, clock_top + 0.34,
                      clock_top + 0.42, 0.1, trim);
         for (int i = -3; i <= 3; ++i)
@@ -147,7 +150,7 @@ void belfry(Masonry& masonry) {
     masonry.box({-0.99, clock_top - 0.02, -0.99}, {0.99, clock_top + 0.005, 0.99}, shade_stone, 0.2);
 }
 
-/// Corbels under the eaves, four dormers' worth of hips, a finial.
+/// Corbels under the eaves, tiles, a finial.
 void roof(Masonry& masonry) {
     for (int side = 0; side < 4; ++side) {
         const Frame wall = wall_frame(side, half_width);
@@ -169,10 +172,10 @@ Scene make_tower(double hologram_size) {
     clock_storey(masonry);
     belfry(masonry);
     roof(masonry);
-    masonry.hall({1.0, 0, 0}, 4.2, 1.7, 2.6, 4.1, stone, trim, glass);
-    masonry.lawn({0.95, 0, 0.2}, 4.6, 3.5);
-    for (const Vec3 foot : {Vec3{-2.0, 0, 1.2}, Vec3{-2.6, 0, -0.4}, Vec3{-1.7, 0, -1.9}, Vec3{3.0, 0, 2.6},
-                            Vec3{4.5, 0, 2.3}})
+    masonry.hall({1.0, 0, 0}, 4.6, 1.7, 2.4, 3.7, stone, trim, glass);
+    masonry.lawn({1.5, 0, 0.2}, 5.4, 3.9);
+    for (const Vec3 foot :
+         {Vec3{-2.0, 0, 1.2}, Vec3{-2.6, 0, -0.4}, Vec3{-1.7, 0, -1.9}, Vec3{3.0, 0, 2.6}, Vec3{4.5, 0, 2.3}})
         masonry.tree(foot, 1.7 + 0.9 * hashed(static_cast<std::uint32_t>(100 + 10 * foot.x), 1, 2));
 
     Scene scene;
@@ -184,14 +187,14 @@ Scene make_tower(double hologram_size) {
 
     Light sun;
     sun.direction = normalize({0.78, -0.52, -0.55});
-    sun.intensity = {3.0f, 2.45f, 1.7f};
+    sun.intensity = {4.6f, 3.7f, 2.5f};
     Light sky;
     sky.direction = normalize({-0.5, -0.35, -0.8});
     sky.intensity = {0.28f, 0.36f, 0.55f};
     scene.lights = {sun, sky};
     scene.ambient = {0.10f, 0.12f, 0.18f};
-    scene.background = {0.012f, 0.018f, 0.040f};
-    turn(scene, -0.5, 0.16);
+    scene.background = {0.008f, 0.013f, 0.030f};
+    turn(scene, -0.42, 0.17);
     fit_scene(scene, {hologram_size, hologram_size, 0.9, 0.5});
     return scene;
 }
