@@ -6,13 +6,6 @@
 
 namespace hogel {
 
-Span samples_between(double low, double high, std::size_t n) {
-    const double first = std::max(std::ceil(low - scan_margin), 0.0);
-    const double last = std::min(std::floor(high + scan_margin), static_cast<double>(n) - 1);
-    if (!(first <= last)) return {};
-    return {static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1};
-}
-
 double crossing(const ProjectedPoint& a, const ProjectedPoint& b, double t) {
     const double from_a = t * a[axis::q] - a[axis::t], from_b = t * b[axis::q] - b[axis::t];
     if (from_a == from_b) return a[axis::s] / a[axis::q];

@@ -95,9 +95,10 @@ RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGri
     const auto mix = [](const CameraPoint& p, const CameraPoint& q, double f) {
         return CameraPoint{p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)};
     };
-    // A hogel is the middle of a cell of the region, so that a region of one hogel is not a point.
-    const double right = static_cast<double>(range.ns) - 0.5, bottom = static_cast<double>(range.nt) - 0.5;
-    const std::vector<CameraPoint> all{{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}};
+    // A little beyond the outermost hogels, so that a region of one hogel is more than a point.
+    constexpr double rim = 1e-3;
+    const double right = static_cast<double>(range.ns) - 1 + rim, bottom = static_cast<double>(range.nt) - 1 + rim;
+    const std::vector<CameraPoint> all{{-rim, -rim}, {right, -rim}, {right, bottom}, {-rim, bottom}};
     return {cut(all, front, mix), cut(all, back, mix)};
 }
 
