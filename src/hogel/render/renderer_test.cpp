@@ -181,7 +181,7 @@ bool near_silhouette(const LightField& light_field, std::size_t t, std::size_t s
 TEST_P(EveryRenderer, agrees_with_ray_casting_on_random_scenes) {
     std::mt19937 random(1);
     std::size_t compared = 0, hits = 0;
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < 80; ++round) {
         const bool behind = round % 2 == 0;
         const ShadedScene scene = random_scene(random, 16, behind);
         if (!behind && !straddles(GetParam())) continue;
@@ -210,7 +210,7 @@ TEST_P(EveryRenderer, agrees_with_ray_casting_on_random_scenes) {
 // none, and order, region and the way of finding leave no trace. The grid has its centre on samples, where rays go
 // through vertices and along edges.
 class SampleFindingRenderer : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer, ::testing::Values("simplex"),
+INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer, ::testing::Values("simplex", "oblique"),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangles_finds) {
