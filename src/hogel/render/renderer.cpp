@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "hogel/render/mvr_internal.h"
 #include "hogel/render/oblique_internal.h"
 #include "hogel/render/raytrace_internal.h"
 #include "hogel/render/simplex_internal.h"
@@ -19,6 +20,7 @@ constexpr std::array infos{
     RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
     RendererInfo{"simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false},
     RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
+    RendererInfo{"mvr", "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions"},
 };
 
 }  // namespace
@@ -34,6 +36,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
     if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
     if (name == "simplex") return make_simplex_renderer(std::move(scene), grid);
     if (name == "oblique") return make_oblique_renderer(std::move(scene), grid);
+    if (name == "mvr") return make_mvr_renderer(std::move(scene), grid);
     std::vector<std::string_view> known;
     for (const RendererInfo& info : infos) known.push_back(info.name);
     throw Error(ErrorCode::usage, fmt::format("unknown renderer '{}'; known: {}", name, fmt::join(known, ", ")));
