@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "hogel/render/epi_internal.h"
 #include "hogel/render/raytrace_internal.h"
 #include "hogel/render/zbuffer_internal.h"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr std::array infos{
     RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)"},
     RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
+    RendererInfo{"epi", "epipolar planes: each triangle is set up once for a whole row of hogels"},
 };
 
 }  // namespace
@@ -28,6 +30,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
         throw Error(ErrorCode::usage, fmt::format("a light field has 1 or 3 channels, not {}", grid.channels));
     if (name == "raytrace") return make_raytrace_renderer(std::move(scene), grid);
     if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
+    if (name == "epi") return make_epi_renderer(std::move(scene), grid);
     std::vector<std::string_view> known;
     for (const RendererInfo& info : infos) known.push_back(info.name);
     throw Error(ErrorCode::usage, fmt::format("unknown renderer '{}'; known: {}", name, fmt::join(known, ", ")));
