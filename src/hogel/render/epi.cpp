@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <limits>
 #include <vector>
 
 #include "hogel/render/epi_clusters_internal.h"
@@ -10,10 +12,12 @@
 namespace hogel {
 namespace {
 
-// A strip as shading needs it: its ends in full precision, and where they lie on the triangle. One corner of the
-// triangle is alone on its side of the plane; end 0 lies between it and the next corner, end 1 between it and the last.
+// So many samples of an epipolar plane are drawn at once that their words stay in the second level cache.
+constexpr std::size_t most_words = std::size_t{96} << 10;
+
+// Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
+// it and the next corner, end 1 between it and the last.
 struct StripOrigin {
-    double x0, z0, x1, z1;
     float weight0, weight1;  // of the lone corner, at the two ends
     std::uint32_t triangle;
     std::uint32_t lone;  // 0, 1 or 2
@@ -49,38 +53,46 @@ class EpiRenderer final : public LightFieldSource {
     bool has_depth() const override { return true; }
 
     void read(LightFieldTile& tile) const override {
-        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(tile.range.ns * grid_.directions_u);
-        const EpipolarPlane plane{words.data(), tile.range.ns, grid_.directions_u,
-                                  frame_.first_column + static_cast<std::int32_t>(tile.range.s0),
-                                  frame_.first_direction};
-        Strips strips;
+        const std::size_t columns = std::min(tile.range.ns, std::max<std::size_t>(16, most_words / grid_.directions_u));
+        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * grid_.directions_u);
+        Work work;
         for (std::size_t v = 0; v < grid_.directions_v; ++v)
             for (std::size_t t = 0; t < tile.range.nt; ++t) {
-                cut_triangles(frame_.row(tile.range.t0 + t), frame_.slope(v), strips);
-                std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
-                draw_plain(strips.drawn, plane);
-                for (std::size_t s = 0; s < tile.range.ns; ++s) shade_row(tile, plane, strips.origins, t, s, v);
+                cut_triangles(frame_.row(tile.range.t0 + t), frame_.slope(v), work);
+                for (std::size_t s = 0; s < tile.range.ns; s += columns) {
+                    const EpipolarPlane plane{words.data(), std::min(columns, tile.range.ns - s), grid_.directions_u,
+                                              frame_.first_column + static_cast<std::int32_t>(tile.range.s0 + s),
+                                              frame_.first_direction};
+                    std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
+                    draw(work.strips, plane);
+                    for (std::size_t column = 0; column < plane.columns; ++column)
+                        shade_row(tile, plane, column, work, t, s + column, v);
+                }
             }
     }
 
   private:
-    struct Strips {
-        std::vector<Strip> drawn;
+    // The strips of one epipolar plane, and a row for values that nobody wants.
+    struct Work {
+        std::vector<Strip> strips;
+        std::vector<StripEnds> ends;
         std::vector<StripOrigin> origins;
+        std::vector<float> spare;
     };
 
-    void cut_triangles(double row, double slope, Strips& strips) const {
-        strips.drawn.clear();
-        strips.origins.clear();
+    void cut_triangles(double row, double slope, Work& work) const {
+        work.strips.clear();
+        work.ends.clear();
+        work.origins.clear();
         for (std::size_t cluster = 0; cluster < clusters_.corners.size(); ++cluster) {
             if (!clusters_.may_cross(cluster, row, slope)) continue;
-            std::uint64_t crossed = crossing_plain(clusters_.corners[cluster], row, slope);
+            std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
             for (; crossed != 0; crossed &= crossed - 1)
-                add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, strips);
+                add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, work);
         }
     }
 
-    void add_strip(std::size_t cluster, std::size_t place, double row, double slope, Strips& strips) const {
+    void add_strip(std::size_t cluster, std::size_t place, double row, double slope, Work& work) const {
         const ClusterCorners& all = clusters_.corners[cluster];
         const auto corner = [&](std::size_t i) {
             // As in `crossing`, to the last bit.
@@ -89,38 +101,63 @@ class EpiRenderer final : public LightFieldSource {
         const std::array corners{corner(0), corner(1), corner(2)};
         const auto below = [&](std::size_t i) { return corners[i].height < 0; };
         const std::uint32_t lone = below(1) == below(2) ? 0 : below(2) == below(0) ? 1 : 2;
-        const Cut end0 = cut(corners[lone], corners[(lone + 1) % 3]),
-                  end1 = cut(corners[lone], corners[(lone + 2) % 3]);
-        strips.drawn.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
-                                static_cast<float>(end1.z)});
-        strips.origins.push_back({end0.x, end0.z, end1.x, end1.z, static_cast<float>(end0.weight),
-                                  static_cast<float>(end1.weight), clusters_.triangles[cluster * cluster_size + place],
-                                  lone});
+        const std::uint32_t next = lone < 2 ? lone + 1 : 0, last = lone > 0 ? lone - 1 : 2;
+        const Cut end0 = cut(corners[lone], corners[next]), end1 = cut(corners[lone], corners[last]);
+        work.strips.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
+                               static_cast<float>(end1.z)});
+
+        const std::uint32_t index = clusters_.triangles[cluster * cluster_size + place];
+        const auto& vertices = scene_->triangles[index].vertices;
+        const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
+        const Rgb alone = scene_->radiance[vertices[lone]];
+        StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end0.z, end1.x, end1.z, {}, {}});
+        set_values(ends.value0, w0 * alone + (1 - w0) * scene_->radiance[vertices[next]], end0.z);
+        set_values(ends.value1, w1 * alone + (1 - w1) * scene_->radiance[vertices[last]], end1.z);
+        if (!scene_->textures.empty()) work.origins.push_back({w0, w1, index, lone});
     }
 
-    void shade_row(LightFieldTile& tile, const EpipolarPlane& plane, const std::vector<StripOrigin>& origins,
-                   std::size_t t, std::size_t s, std::size_t v) const {
-        const double n = plane.first_column + static_cast<double>(s);
+    void set_values(float (&values)[4], Rgb radiance, double z) const {
+        values[0] = grid_.channels == 1 ? luminance(radiance) : radiance.r;
+        values[1] = radiance.g;
+        values[2] = radiance.b;
+        values[3] = static_cast<float>(frame_.metres_deep(z));
+    }
+
+    void shade_row(LightFieldTile& tile, const EpipolarPlane& plane, std::size_t column, Work& work, std::size_t t,
+                   std::size_t s, std::size_t v) const {
+        work.spare.resize(plane.directions);
+        float* spare = work.spare.data();
+        const bool colour = grid_.channels == 3;
+        const ShadedRow row{{&tile.radiance(0, t, s, v, 0), colour ? &tile.radiance(1, t, s, v, 0) : spare,
+                             colour ? &tile.radiance(2, t, s, v, 0) : spare,
+                             tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : spare}};
+        const Rgb& b = scene_->background;
+        const float background[4] = {colour ? b.r : luminance(b), b.g, b.b, std::numeric_limits<float>::infinity()};
+        shade(plane, column, work.ends, background, row);
+        if (!scene_->textures.empty()) shade_textured(tile, plane, column, work, t, s, v);
+    }
+
+    // Samples of textured triangles once more, with the texture.
+    void shade_textured(LightFieldTile& tile, const EpipolarPlane& plane, std::size_t column, const Work& work,
+                        std::size_t t, std::size_t s, std::size_t v) const {
+        const double n = plane.first_column + static_cast<double>(column), K = plane.first_direction;
         for (std::size_t u = 0; u < plane.directions; ++u) {
-            const std::uint64_t word = plane.words[s * plane.directions + u];
-            VisiblePoint point;
-            if (word != EpipolarPlane::nothing)
-                point = seen(origins[word & 0xffffffff], n,
-                             static_cast<double>(plane.first_direction) + static_cast<double>(u));
-            store(tile, *scene_, point, t, s, v, u);
+            const std::uint64_t word = plane.words[column * plane.directions + u];
+            if (word == EpipolarPlane::nothing) continue;
+            const std::size_t number = word & 0xffffffff;
+            const StripOrigin& from = work.origins[number];
+            if (scene_->triangles[from.triangle].texture == ShadedScene::no_texture) continue;
+            const StripEnds& strip = work.ends[number];
+            const double part = part_of_strip(strip, n, K + static_cast<double>(u));
+            const auto w = static_cast<float>(part);
+            std::array<float, 3> b;
+            b[from.lone] = (1 - w) * from.weight0 + w * from.weight1;
+            b[(from.lone + 1) % 3] = (1 - w) * (1 - from.weight0);
+            b[(from.lone + 2) % 3] = w * (1 - from.weight1);
+            store(tile, *scene_,
+                  {from.triangle, b[0], b[1], b[2], frame_.metres_deep(strip.z0 + part * (strip.z1 - strip.z0))}, t, s,
+                  v, u);
         }
-    }
-
-    VisiblePoint seen(const StripOrigin& strip, double n, double K) const {
-        const double c0 = strip.x0 - K * strip.z0, c1 = strip.x1 - K * strip.z1;
-        // Single precision decided that the sample is covered, which double precision need not confirm.
-        const double part = c0 == c1 ? 0 : std::clamp((n - c0) / (c1 - c0), 0.0, 1.0);
-        const auto w = static_cast<float>(part);
-        std::array<float, 3> b;
-        b[strip.lone] = (1 - w) * strip.weight0 + w * strip.weight1;
-        b[(strip.lone + 1) % 3] = (1 - w) * (1 - strip.weight0);
-        b[(strip.lone + 2) % 3] = w * (1 - strip.weight1);
-        return {strip.triangle, b[0], b[1], b[2], frame_.metres_deep(strip.z0 + part * (strip.z1 - strip.z0))};
     }
 
     std::shared_ptr<const ShadedScene> scene_;

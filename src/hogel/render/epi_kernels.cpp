@@ -33,4 +33,17 @@ void draw_plain(std::span<const Strip> strips, const EpipolarPlane& plane) {
     }
 }
 
+void shade_plain(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
+                 const float (&background)[4], const ShadedRow& row) {
+    const double n = plane.first_column + static_cast<double>(column);
+    for (std::size_t k = 0; k < plane.directions; ++k) {
+        const std::uint64_t word = plane.words[column * plane.directions + k];
+        const StripEnds* strip = word == EpipolarPlane::nothing ? nullptr : &strips[word & 0xffffffff];
+        const double K = static_cast<double>(plane.first_direction) + static_cast<double>(k);
+        const auto part = strip ? static_cast<float>(part_of_strip(*strip, n, K)) : 0.0f;
+        for (int i = 0; i < 4; ++i)
+            row.values[i][k] = strip ? strip->value0[i] + part * (strip->value1[i] - strip->value0[i]) : background[i];
+    }
+}
+
 }  // namespace hogel

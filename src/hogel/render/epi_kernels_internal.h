@@ -17,6 +17,12 @@ struct Strip {
     float x0, z0, x1, z1;
 };
 
+/// What a strip shows: its ends in full precision, and the values there that are linear along it.
+struct StripEnds {
+    double x0, z0, x1, z1;
+    float value0[4], value1[4];  ///< R, G, B (or the only channel first), depth ζ in metres
+};
+
 /// The samples (n, k) of one epipolar plane, k fastest: in each word what is seen first so far, as its depth and the
 /// number of its strip.
 struct EpipolarPlane {
@@ -34,12 +40,38 @@ inline std::uint32_t ordered_bits(float value) {
     return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
 }
 
+/// Where one row of directions of one hogel goes, for each value of StripEnds. Values that nobody wants may share a
+/// row.
+struct ShadedRow {
+    float* values[4];
+};
+
+/// The inner loops, each plain and as fast as this processor allows. The twins give the same bits: they do the same
+/// operations in the same order, none of them fused, and where vector code finds candidates by a shorter way it finds
+/// too many and puts them to the same test.
+
 /// Which triangles of a cluster the plane y = row + slope z separates: bit i for triangle i. A corner is below if
 /// (y − slope z) − row < 0.
 std::uint64_t crossing_plain(const ClusterCorners& corners, double row, double slope);
+std::uint64_t crossing(const ClusterCorners& corners, double row, double slope);
 
 /// Draws strips into a plane: wherever strip i is nearer than what is there (or as near, with a smaller number), the
 /// word becomes ordered_bits(z) · 2³² + i.
 void draw_plain(std::span<const Strip> strips, const EpipolarPlane& plane);
+void draw(std::span<const Strip> strips, const EpipolarPlane& plane);
+
+/// The values of what a column of the plane sees, by the numbers of the strips; `background` where it sees nothing.
+void shade_plain(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
+                 const float (&background)[4], const ShadedRow& row);
+void shade(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
+           const float (&background)[4], const ShadedRow& row);
+
+/// How far along a strip sample (n, K) lies, from 0 to 1.
+inline double part_of_strip(const StripEnds& strip, double n, double K) {
+    const double c0 = strip.x0 - K * strip.z0, c1 = strip.x1 - K * strip.z1;
+    const double part = (n - c0) / (c1 - c0);
+    // Single precision decided that the sample is covered, which double precision need not confirm.
+    return part > 0 ? part < 1 ? part : 1 : 0;
+}
 
 }  // namespace hogel
