@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hogel/render/epi_clusters_internal.h"
+#include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
 #include "hogel/render/sample_store_internal.h"
@@ -22,27 +23,6 @@ struct StripOrigin {
     std::uint32_t triangle;
     std::uint32_t lone;  // 0, 1 or 2
 };
-
-// A corner of a triangle with its signed distance from the plane.
-struct Corner {
-    double x, z, height;
-};
-
-struct Cut {
-    double x, z, weight;  // weight of the first of the two corners
-};
-
-// Where an edge crosses the plane. Always computed from the lower end to the upper, so that the triangles that share
-// the edge get the same point.
-Cut cut(const Corner& a, const Corner& b) {
-    const auto upwards = [](const Corner& low, const Corner& high) {
-        const double part = low.height / (low.height - high.height);
-        return Cut{low.x + part * (high.x - low.x), low.z + part * (high.z - low.z), part};
-    };
-    if (!(a.height < 0)) return upwards(b, a);
-    const Cut point = upwards(a, b);
-    return {point.x, point.z, 1 - point.weight};
-}
 
 class EpiRenderer final : public LightFieldSource {
   public:

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
 
 namespace hogel {
@@ -118,6 +119,21 @@ TEST(EpipolarKernels, vector_and_plain_drawings_are_the_same) {
     EXPECT_GT(covered, 100000u);
 }
 
+TEST(EpipolarKernels, triangles_that_share_an_edge_are_cut_in_the_same_point) {
+    Places places(6);
+    for (int round = 0; round < 10000; ++round) {
+        const auto height = [&] { return std::abs(places.uniform(1)) * (places.coin() ? 1.0 : 1e-12); };
+        const Corner low{places.uniform(30) / 3.0, places.uniform(3) / 7.0, -1e-15 - height()};
+        const Corner high{places.uniform(30) / 3.0, places.uniform(3) / 7.0, height()};
+        const Cut up = cut(low, high), down = cut(high, low);
+        ASSERT_EQ(up.x, down.x);
+        ASSERT_EQ(up.z, down.z);
+        EXPECT_NEAR(up.weight + down.weight, 1, 1e-15);
+        EXPECT_NEAR(up.weight * low.x + down.weight * high.x, up.x, 1e-13);
+        EXPECT_NEAR(up.weight * low.height + down.weight * high.height, 0, 1e-15);
+    }
+}
+
 class EveryDraw : public ::testing::TestWithParam<Draw> {};
 INSTANTIATE_TEST_SUITE_P(EpipolarKernels, EveryDraw, ::testing::Values(&draw, &draw_plain),
                          [](const auto& parameter) { return parameter.param == &draw ? "vector" : "plain"; });
@@ -129,12 +145,16 @@ TEST_P(EveryDraw, gives_every_sample_to_one_strip_of_a_chain) {
     for (int round = 0; round < 60; ++round) {
         Plane counted(30, 41, -11);
         const float K_most = 20, slack = 1.01f;
-        const float depth = round % 3 == 0 ? 0.0f : places.uniform(3);
+        // A third of the chains lie on the samples themselves.
+        const bool on_samples = round % 3 == 0;
+        const float depth = on_samples ? places.whole_or_half(3) : places.uniform(3);
         std::vector<Strip> chain{{-500, depth, -200, depth}};
         while (chain.back().x1 < 200) {
             const float x = chain.back().x1, z = chain.back().z1;
-            const float step = x < -100 || x > 100 ? 25 : places.coin() ? 0.5f : 0.01f + std::abs(places.uniform(1));
-            const float dz = places.coin() ? 0.0f : places.uniform(step / (slack * K_most));
+            const float step = x < -100 || x > 100           ? 25
+                               : on_samples || places.coin() ? 0.5f
+                                                             : 0.01f + std::abs(places.uniform(1));
+            const float dz = on_samples || places.coin() ? 0.0f : places.uniform(step / (slack * K_most));
             chain.push_back({x, z, x + step, z + dz});
         }
         std::vector<int> owners(counted.words.size());

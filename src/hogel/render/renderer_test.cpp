@@ -190,6 +190,41 @@ TEST(Renderers, agree_on_random_scenes_that_straddle_the_hologram) {
     EXPECT_GT(hits, 150000u);
 }
 
+// Triangles much smaller than the distance between hogels, in front of the hologram, in it and behind it.
+TEST(Renderers, agree_on_a_fine_mesh_around_the_hologram) {
+    ShadedScene scene;
+    scene.background = {0.5f, 0.5f, 0.5f};
+    const std::size_t around = 72, down = 36;
+    for (std::size_t j = 0; j <= down; ++j)
+        for (std::size_t i = 0; i < around; ++i) {
+            const double theta = 3.14159265358979 * double(j) / double(down);
+            const double phi = 6.28318530717959 * double(i) / double(around);
+            const Vec3 n{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
+            const double radius = 2e-3 * (1 + 0.1 * std::sin(5 * phi) * std::sin(4 * theta) * std::sin(theta));
+            add_vertex(scene, radius * n + Vec3{0.3e-3, -0.2e-3, -0.7e-3},
+                       {float(0.5 + 0.5 * n.x), float(0.5 + 0.5 * n.y), float(0.5 + 0.5 * n.z)});
+        }
+    const auto at = [&](std::size_t j, std::size_t i) { return static_cast<std::uint32_t>(j * around + i % around); };
+    for (std::size_t j = 0; j < down; ++j)
+        for (std::size_t i = 0; i < around; ++i) {
+            scene.triangles.push_back({{at(j, i), at(j + 1, i), at(j + 1, i + 1)}, ShadedScene::no_texture, 0});
+            scene.triangles.push_back({{at(j, i), at(j + 1, i + 1), at(j, i + 1)}, ShadedScene::no_texture, 0});
+        }
+    const LightField first = render(names()[0], scene, grid);
+    for (std::size_t other = 1; other < names().size(); ++other) {
+        const LightField second = render(names()[other], scene, grid);
+        std::size_t hits = 0, different = 0;
+        for (std::size_t i = 0; i < first.depth.size(); ++i) {
+            const float a = first.depth.data()[i], b = second.depth.data()[i];
+            hits += std::isfinite(a) ? 1 : 0;
+            if (std::isfinite(a) != std::isfinite(b) || (std::isfinite(a) && std::abs(a - b) > 1e-7f)) ++different;
+        }
+        EXPECT_GT(hits, 5000u);
+        // Only a ray along a silhouette may be seen one way or the other.
+        EXPECT_LE(different, 1u) << names()[other];
+    }
+}
+
 TEST(Renderers, an_unknown_name_is_a_usage_error_that_lists_the_known_ones) {
     try {
         make_renderer("radiosity", std::make_shared<const ShadedScene>(), grid);
