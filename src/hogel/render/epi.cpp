@@ -45,19 +45,17 @@ class EpiRenderer final : public LightFieldSource {
                                               frame_.first_direction};
                     std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
                     draw(work.strips, plane);
-                    for (std::size_t column = 0; column < plane.columns; ++column)
-                        shade_row(tile, plane, column, work, t, s + column, v);
+                    shade_plane(tile, plane, work, t, s, v);
                 }
             }
     }
 
   private:
-    // The strips of one epipolar plane, and a row for values that nobody wants.
+    // The strips of one epipolar plane.
     struct Work {
         std::vector<Strip> strips;
         std::vector<StripEnds> ends;
         std::vector<StripOrigin> origins;
-        std::vector<float> spare;
     };
 
     void cut_triangles(double row, double slope, Work& work) const {
@@ -90,7 +88,7 @@ class EpiRenderer final : public LightFieldSource {
         const auto& vertices = scene_->triangles[index].vertices;
         const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
         const Rgb alone = scene_->radiance[vertices[lone]];
-        StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end0.z, end1.x, end1.z, {}, {}});
+        StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end1.x, end0.z, end1.z, {}, {}});
         set_values(ends.value0, w0 * alone + (1 - w0) * scene_->radiance[vertices[next]], end0.z);
         set_values(ends.value1, w1 * alone + (1 - w1) * scene_->radiance[vertices[last]], end1.z);
         if (!scene_->textures.empty()) work.origins.push_back({w0, w1, index, lone});
@@ -103,18 +101,20 @@ class EpiRenderer final : public LightFieldSource {
         values[3] = static_cast<float>(frame_.metres_deep(z));
     }
 
-    void shade_row(LightFieldTile& tile, const EpipolarPlane& plane, std::size_t column, Work& work, std::size_t t,
-                   std::size_t s, std::size_t v) const {
-        work.spare.resize(plane.directions);
-        float* spare = work.spare.data();
+    void shade_plane(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t t, std::size_t s,
+                     std::size_t v) const {
+        const std::size_t stride = grid_.directions();
         const bool colour = grid_.channels == 3;
-        const ShadedRow row{{&tile.radiance(0, t, s, v, 0), colour ? &tile.radiance(1, t, s, v, 0) : spare,
-                             colour ? &tile.radiance(2, t, s, v, 0) : spare,
-                             tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : spare}};
+        const ShadedPlane out{{&tile.radiance(0, t, s, v, 0), colour ? &tile.radiance(1, t, s, v, 0) : nullptr,
+                               colour ? &tile.radiance(2, t, s, v, 0) : nullptr,
+                               tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : nullptr},
+                              {stride, stride, stride, stride}};
         const Rgb& b = scene_->background;
         const float background[4] = {colour ? b.r : luminance(b), b.g, b.b, std::numeric_limits<float>::infinity()};
-        shade(plane, column, work.ends, background, row);
-        if (!scene_->textures.empty()) shade_textured(tile, plane, column, work, t, s, v);
+        shade(plane, work.ends, background, out);
+        if (!scene_->textures.empty())
+            for (std::size_t column = 0; column < plane.columns; ++column)
+                shade_textured(tile, plane, column, work, t, s + column, v);
     }
 
     // Samples of textured triangles once more, with the texture.
@@ -128,15 +128,13 @@ class EpiRenderer final : public LightFieldSource {
             const StripOrigin& from = work.origins[number];
             if (scene_->triangles[from.triangle].texture == ShadedScene::no_texture) continue;
             const StripEnds& strip = work.ends[number];
-            const double part = part_of_strip(strip, n, K + static_cast<double>(u));
-            const auto w = static_cast<float>(part);
+            const float w = part_of_strip(strip, n, K + static_cast<double>(u));
             std::array<float, 3> b;
             b[from.lone] = (1 - w) * from.weight0 + w * from.weight1;
             b[(from.lone + 1) % 3] = (1 - w) * (1 - from.weight0);
             b[(from.lone + 2) % 3] = w * (1 - from.weight1);
-            store(tile, *scene_,
-                  {from.triangle, b[0], b[1], b[2], frame_.metres_deep(strip.z0 + part * (strip.z1 - strip.z0))}, t, s,
-                  v, u);
+            const float depth = strip.value0[3] + w * (strip.value1[3] - strip.value0[3]);
+            store(tile, *scene_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
         }
     }
 

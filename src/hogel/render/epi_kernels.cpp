@@ -33,17 +33,21 @@ void draw_plain(std::span<const Strip> strips, const EpipolarPlane& plane) {
     }
 }
 
-void shade_plain(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
-                 const float (&background)[4], const ShadedRow& row) {
-    const double n = plane.first_column + static_cast<double>(column);
-    for (std::size_t k = 0; k < plane.directions; ++k) {
-        const std::uint64_t word = plane.words[column * plane.directions + k];
-        const StripEnds* strip = word == EpipolarPlane::nothing ? nullptr : &strips[word & 0xffffffff];
-        const double K = static_cast<double>(plane.first_direction) + static_cast<double>(k);
-        const auto part = strip ? static_cast<float>(part_of_strip(*strip, n, K)) : 0.0f;
-        for (int i = 0; i < 4; ++i)
-            row.values[i][k] = strip ? strip->value0[i] + part * (strip->value1[i] - strip->value0[i]) : background[i];
-    }
+void shade_plain(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
+                 const ShadedPlane& out) {
+    for (std::size_t column = 0; column < plane.columns; ++column)
+        for (std::size_t k = 0; k < plane.directions; ++k) {
+            const double n = plane.first_column + static_cast<double>(column);
+            const double K = static_cast<double>(plane.first_direction) + static_cast<double>(k);
+            const std::uint64_t word = plane.words[column * plane.directions + k];
+            const StripEnds* strip = word == EpipolarPlane::nothing ? nullptr : &strips[word & 0xffffffff];
+            const float part = strip ? part_of_strip(*strip, n, K) : 0;
+            for (int i = 0; i < 4; ++i) {
+                if (!out.values[i]) continue;
+                out.values[i][column * out.strides[i] + k] =
+                    strip ? strip->value0[i] + part * (strip->value1[i] - strip->value0[i]) : background[i];
+            }
+        }
 }
 
 }  // namespace hogel

@@ -19,7 +19,7 @@ struct Strip {
 
 /// What a strip shows: its ends in full precision, and the values there that are linear along it.
 struct StripEnds {
-    double x0, z0, x1, z1;
+    double x0, x1, z0, z1;
     float value0[4], value1[4];  ///< R, G, B (or the only channel first), depth ζ in metres
 };
 
@@ -40,10 +40,11 @@ inline std::uint32_t ordered_bits(float value) {
     return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
 }
 
-/// Where one row of directions of one hogel goes, for each value of StripEnds. Values that nobody wants may share a
-/// row.
-struct ShadedRow {
+/// Where the values of a plane's samples go: the row of directions of column c begins at values[i] + c · strides[i],
+/// for each value i of StripEnds; null for a value that nobody wants.
+struct ShadedPlane {
     float* values[4];
+    std::size_t strides[4];
 };
 
 /// The inner loops, each plain and as fast as this processor allows. The twins give the same bits: they do the same
@@ -60,18 +61,21 @@ std::uint64_t crossing(const ClusterCorners& corners, double row, double slope);
 void draw_plain(std::span<const Strip> strips, const EpipolarPlane& plane);
 void draw(std::span<const Strip> strips, const EpipolarPlane& plane);
 
-/// The values of what a column of the plane sees, by the numbers of the strips; `background` where it sees nothing.
-void shade_plain(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
-                 const float (&background)[4], const ShadedRow& row);
-void shade(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
-           const float (&background)[4], const ShadedRow& row);
+/// The values of what each sample of the plane sees, by the numbers of the strips; `background` where it sees nothing.
+void shade_plain(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
+                 const ShadedPlane& out);
+void shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
+           const ShadedPlane& out);
 
-/// How far along a strip sample (n, K) lies, from 0 to 1.
-inline double part_of_strip(const StripEnds& strip, double n, double K) {
-    const double c0 = strip.x0 - K * strip.z0, c1 = strip.x1 - K * strip.z1;
+/// How far along a strip whose points are seen in c0 and c1 column n lies, from 0 to 1. Single precision decided that
+/// the sample is covered, which double precision need not confirm.
+inline float part_of_strip(double c0, double c1, double n) {
     const double part = (n - c0) / (c1 - c0);
-    // Single precision decided that the sample is covered, which double precision need not confirm.
-    return part > 0 ? part < 1 ? part : 1 : 0;
+    const double positive = part > 0 ? part : 0;
+    return static_cast<float>(positive < 1 ? positive : 1);
+}
+inline float part_of_strip(const StripEnds& strip, double n, double K) {
+    return part_of_strip(strip.x0 - K * strip.z0, strip.x1 - K * strip.z1, n);
 }
 
 }  // namespace hogel

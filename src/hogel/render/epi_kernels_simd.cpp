@@ -3,6 +3,7 @@
 #define HWY_TARGET_INCLUDE "hogel/render/epi_kernels_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -56,30 +57,29 @@ struct Drawing {
     float n_first, n_last, k_first, k_last;  // of the plane
 };
 
-HWY_INLINE Floats c_of(float x, float z, Floats K) {
-    const FloatTag d;
-    return hn::Sub(hn::Set(d, x), hn::Mul(K, hn::Set(d, z)));
-}
+// Where point (x, z) of a strip is seen in direction K.
+HWY_INLINE Floats c_of(Floats x, Floats z, Floats K) { return hn::Sub(x, hn::Mul(K, z)); }
 
-// Puts the hits among the lanes into the words at these offsets.
-HWY_INLINE void put(const Drawing& on, FloatMask hit, Floats n, Floats c0, Floats c1, Ints offset) {
+// Puts a strip's number and its depths, part along it from z0 to z0 + dz, into the words at these offsets, where the
+// lanes are hits.
+HWY_INLINE void put(std::uint64_t* words, std::uint64_t number, Floats z0, Floats dz, FloatMask hit, Floats part,
+                    Ints offset) {
     const FloatTag d;
     const IntTag di;
-    const Floats part = hn::Div(hn::Sub(n, c0), hn::Sub(c1, c0));
-    const Floats z = hn::Add(hn::Set(d, on.strip.z0), hn::Mul(part, hn::Set(d, on.strip.z1 - on.strip.z0)));
-    const Ints bits = hn::BitCast(di, z);
+    const hn::RebindToUnsigned<FloatTag> du;
+    const Ints bits = hn::BitCast(di, hn::Add(z0, hn::Mul(part, dz)));
     const Ints ordered =
         hn::Xor(bits, hn::Or(hn::BroadcastSignBit(bits), hn::Set(di, std::numeric_limits<std::int32_t>::min())));
     HWY_ALIGN std::uint32_t depths[HWY_MAX_BYTES / 4];
     HWY_ALIGN std::uint32_t offsets[HWY_MAX_BYTES / 4];
-    const hn::RebindToUnsigned<FloatTag> du;
     const auto mask = hn::RebindMask(di, hit);
     hn::Store(hn::BitCast(du, hn::Compress(ordered, mask)), du, depths);
     hn::Store(hn::BitCast(du, hn::Compress(offset, mask)), du, offsets);
     const std::size_t hits = hn::CountTrue(d, hit);
     for (std::size_t i = 0; i < hits; ++i) {
-        std::uint64_t& word = on.plane.words[offsets[i]];
-        word = std::min(word, std::uint64_t{depths[i]} << 32 | on.number);
+        std::uint64_t& word = words[offsets[i]];
+        const std::uint64_t seen = std::uint64_t{depths[i]} << 32 | number;
+        if (seen < word) word = seen;
     }
 }
 
@@ -87,18 +87,22 @@ HWY_INLINE void put(const Drawing& on, FloatMask hit, Floats n, Floats c0, Float
 void along_directions(const Drawing& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
+    std::uint64_t* const words = on.plane.words;
+    const std::uint64_t number = on.number;
+    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
+                 z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
     const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.n_first), n_last = hn::Set(d, on.n_last);
-    const Floats none = hn::Set(d, on.n_first - 1), K_last = hn::Set(d, K_end);
+    const Floats none = hn::Set(d, on.n_first - 1), K_last = hn::Set(d, K_end), k_first = hn::Set(d, on.k_first);
     const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
     for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats K = hn::Iota(d, begin);
-        const Floats c0 = c_of(on.strip.x0, on.strip.z0, K), c1 = c_of(on.strip.x1, on.strip.z1, K);
+        const Floats c0 = c_of(x0, z0, K), c1 = c_of(x1, z1, K), width = hn::Sub(c1, c0);
         const Floats end = hn::IfThenElse(hn::Le(K, K_last), hn::Min(n_last, hn::Floor(hn::Max(c0, c1))), none);
-        const Ints k = hn::ConvertTo(di, hn::Sub(K, hn::Set(d, on.k_first)));
+        const Ints k = hn::ConvertTo(di, hn::Sub(K, k_first));
         Floats n = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
         for (FloatMask hit = hn::Le(n, end); !hn::AllFalse(d, hit); hit = hn::Le(n, end)) {
             const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
-            put(on, hit, n, c0, c1, hn::Add(hn::Mul(column, directions), k));
+            put(words, number, z0, dz, hit, hn::Div(hn::Sub(n, c0), width), hn::Add(hn::Mul(column, directions), k));
             n = hn::Add(n, one);
         }
     }
@@ -108,23 +112,28 @@ void along_directions(const Drawing& on, float K_begin, float K_end) {
 void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, float per_z1, float margin) {
     const FloatTag d;
     const IntTag di;
-    const Floats one = hn::Set(d, 1.0f), k_first = hn::Set(d, on.k_first), margins = hn::Set(d, margin);
+    std::uint64_t* const words = on.plane.words;
+    const std::uint64_t number = on.number;
+    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
+                 z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
+    const Floats steep0 = hn::Set(d, per_z0), steep1 = hn::Set(d, per_z1), margins = hn::Set(d, margin);
+    const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.n_first), k_first = hn::Set(d, on.k_first);
     const Floats k_last = hn::Set(d, on.k_last - on.k_first), none = hn::Set(d, -1.0f), columns_end = hn::Set(d, n_end);
     const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
     for (float begin = n_begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats n = hn::Iota(d, begin);
-        const Floats K0 = hn::Mul(hn::Sub(hn::Set(d, on.strip.x0), n), hn::Set(d, per_z0));
-        const Floats K1 = hn::Mul(hn::Sub(hn::Set(d, on.strip.x1), n), hn::Set(d, per_z1));
+        const Floats K0 = hn::Mul(hn::Sub(x0, n), steep0), K1 = hn::Mul(hn::Sub(x1, n), steep1);
         const Floats low = hn::Sub(hn::Sub(hn::Min(K0, K1), margins), k_first);
         const Floats high = hn::Sub(hn::Add(hn::Max(K0, K1), margins), k_first);
         const Floats end = hn::IfThenElse(hn::Le(n, columns_end), hn::Min(k_last, high), none);
-        const Ints row = hn::Mul(hn::ConvertTo(di, hn::Sub(n, hn::Set(d, on.n_first))), directions);
+        const Ints row = hn::Mul(hn::ConvertTo(di, hn::Sub(n, n_first)), directions);
         Floats k = hn::Max(hn::Zero(d), hn::Ceil(low));
         for (FloatMask candidate = hn::Le(k, end); !hn::AllFalse(d, candidate); candidate = hn::Le(k, end)) {
             const Floats K = hn::Add(k, k_first);
-            const Floats c0 = c_of(on.strip.x0, on.strip.z0, K), c1 = c_of(on.strip.x1, on.strip.z1, K);
+            const Floats c0 = c_of(x0, z0, K), c1 = c_of(x1, z1, K);
             const FloatMask hit = hn::And(candidate, hn::Xor(hn::Lt(c0, n), hn::Lt(c1, n)));
-            put(on, hit, n, c0, c1, hn::Add(row, hn::ConvertTo(di, k)));
+            put(words, number, z0, dz, hit, hn::Div(hn::Sub(n, c0), hn::Sub(c1, c0)),
+                hn::Add(row, hn::ConvertTo(di, k)));
             k = hn::Add(k, one);
         }
     }
@@ -173,32 +182,83 @@ void Draw(std::span<const Strip> strips, const EpipolarPlane& plane) {
         draw_strip({strips[i], i, plane, n_first, n_last, plane.first_direction, k_last});
 }
 
-void Shade(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
-           const float (&background)[4], const ShadedRow& row) {
-    const hn::ScalableTag<std::uint64_t> d;
-    const hn::Rebind<float, decltype(d)> df;
-    const std::size_t lanes = hn::Lanes(d);
-    const std::uint64_t* words = plane.words + column * plane.directions;
-    const double n = plane.first_column + static_cast<double>(column), k_first = plane.first_direction;
-    const auto shade_sample = [&](std::size_t k) HWY_ATTR {
-        const StripEnds& strip = strips[words[k] & 0xffffffff];
-        const auto part = static_cast<float>(part_of_strip(strip, n, k_first + static_cast<double>(k)));
-        for (int i = 0; i < 4; ++i) row.values[i][k] = strip.value0[i] + part * (strip.value1[i] - strip.value0[i]);
-    };
-    const auto nothing = hn::Set(d, EpipolarPlane::nothing);
-    std::size_t k = 0;
-    for (; k + lanes <= plane.directions; k += lanes) {
-        for (int i = 0; i < 4; ++i) hn::StoreU(hn::Set(df, background[i]), df, row.values[i] + k);
-        std::uint64_t covered = bits_of(d, hn::Ne(hn::LoadU(d, words + k), nothing));
-        for (; covered != 0; covered &= covered - 1)
-            shade_sample(k + static_cast<std::size_t>(std::countr_zero(covered)));
-    }
-    for (; k < plane.directions; ++k)
-        if (words[k] != EpipolarPlane::nothing)
-            shade_sample(k);
-        else
-            for (int i = 0; i < 4; ++i) row.values[i][k] = background[i];
+#if HWY_TARGET == HWY_SCALAR
+// A single lane holds no four values.
+void Shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
+           const ShadedPlane& out) {
+    shade_plain(plane, strips, background, out);
 }
+#else
+// Which of up to 64 words are not `nothing`.
+HWY_INLINE std::uint64_t covered_words(const std::uint64_t* words, std::size_t count) {
+    const hn::ScalableTag<std::uint64_t> d;
+    const auto nothing = hn::Set(d, EpipolarPlane::nothing);
+    std::uint64_t covered = 0;
+    std::size_t i = 0;
+    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
+        covered |= bits_of(d, hn::Ne(hn::LoadU(d, words + i), nothing)) << i;
+    for (; i < count; ++i) covered |= std::uint64_t{words[i] != EpipolarPlane::nothing} << i;
+    return covered;
+}
+
+// Shades up to 64 samples of a column from direction k on; `aligned` says that whole vectors fit the rows' places.
+HWY_INLINE void shade_block(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
+                            const ShadedPlane& out, std::size_t column, std::size_t k, std::size_t count,
+                            bool aligned) {
+    const FloatTag d;
+    const hn::Full128<float> d4;
+    const hn::Full128<double> d2;
+    const std::uint64_t* words = plane.words + column * plane.directions + k;
+    const double n = plane.first_column + static_cast<double>(column);
+    const double K = static_cast<double>(plane.first_direction) + static_cast<double>(k);
+
+    HWY_ALIGN float samples[64][4];
+    const std::uint64_t covered = covered_words(words, count);
+    if (covered != 0) {
+        const auto behind = hn::LoadU(d4, background);
+        for (std::size_t i = 0; i < count; ++i) hn::Store(behind, d4, samples[i]);
+        for (std::uint64_t left = covered; left != 0; left &= left - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(left));
+            const StripEnds& strip = strips[words[i] & 0xffffffff];
+            const auto c = hn::Sub(hn::LoadU(d2, &strip.x0),
+                                   hn::Mul(hn::Set(d2, K + static_cast<double>(i)), hn::LoadU(d2, &strip.z0)));
+            const float part = part_of_strip(hn::GetLane(c), hn::GetLane(hn::Shuffle01(c)), n);
+            const auto value0 = hn::LoadU(d4, strip.value0), value1 = hn::LoadU(d4, strip.value1);
+            hn::Store(hn::Add(value0, hn::Mul(hn::Set(d4, part), hn::Sub(value1, value0))), d4, samples[i]);
+        }
+    }
+
+    if (!aligned) {
+        for (int i = 0; i < 4; ++i)
+            for (std::size_t j = 0; j < count && out.values[i]; ++j)
+                out.values[i][column * out.strides[i] + k + j] = covered != 0 ? samples[j][i] : background[i];
+        return;
+    }
+    Floats values[4];
+    for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, background[i]);
+    for (std::size_t j = 0; j < count; j += hn::Lanes(d)) {
+        if (covered != 0) hn::LoadInterleaved4(d, samples[j], values[0], values[1], values[2], values[3]);
+        for (int i = 0; i < 4; ++i)
+            if (out.values[i])
+                // Past the caches: nobody reads a sample soon after.
+                hn::Stream(values[i], d, out.values[i] + column * out.strides[i] + k + j);
+    }
+}
+
+void Shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
+           const ShadedPlane& out) {
+    const std::size_t vector = hn::Lanes(FloatTag()) * sizeof(float);
+    bool aligned = plane.directions * sizeof(float) % vector == 0;
+    for (int i = 0; i < 4; ++i)
+        aligned = aligned && reinterpret_cast<std::uintptr_t>(out.values[i]) % vector == 0 &&
+                  out.strides[i] * sizeof(float) % vector == 0;
+    for (std::size_t column = 0; column < plane.columns; ++column)
+        for (std::size_t k = 0; k < plane.directions; k += 64)
+            shade_block(plane, strips, background, out, column, k, std::min<std::size_t>(64, plane.directions - k),
+                        aligned);
+    hwy::FlushStream();
+}
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel
@@ -217,9 +277,9 @@ std::uint64_t crossing(const ClusterCorners& corners, double row, double slope) 
 
 void draw(std::span<const Strip> strips, const EpipolarPlane& plane) { HWY_DYNAMIC_DISPATCH(Draw)(strips, plane); }
 
-void shade(const EpipolarPlane& plane, std::size_t column, std::span<const StripEnds> strips,
-           const float (&background)[4], const ShadedRow& row) {
-    HWY_DYNAMIC_DISPATCH(Shade)(plane, column, strips, background, row);
+void shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
+           const ShadedPlane& out) {
+    HWY_DYNAMIC_DISPATCH(Shade)(plane, strips, background, out);
 }
 
 }  // namespace hogel
