@@ -16,6 +16,9 @@ namespace {
 // So many samples of an epipolar plane are drawn at once that their words stay in the second level cache.
 constexpr std::size_t most_words = std::size_t{96} << 10;
 
+// A thread that copies a light field holds one tile.
+constexpr std::size_t most_tile_bytes = std::size_t{96} << 20;
+
 // Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
 // it and the next corner, end 1 between it and the last.
 struct StripOrigin {
@@ -31,6 +34,15 @@ class EpiRenderer final : public LightFieldSource {
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
+
+    // Whole rows if they are not too large, or else parts of equal length; several rows if they are small.
+    HogelRange preferred_tile() const override {
+        const std::size_t hogel_bytes = (grid_.channels + 1) * grid_.directions() * sizeof(float);
+        const std::size_t most = std::max<std::size_t>(1, most_tile_bytes / hogel_bytes);
+        const std::size_t parts = (grid_.hogels_s + most - 1) / most, ns = (grid_.hogels_s + parts - 1) / parts;
+        const std::size_t rows = std::max<std::size_t>(1, default_tile(grid_).hogels() / ns);
+        return {0, 0, ns, std::min(grid_.hogels_t, rows)};
+    }
 
     void read(LightFieldTile& tile) const override {
         const std::size_t columns = std::min(tile.range.ns, std::max<std::size_t>(16, most_words / grid_.directions_u));
