@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "hogel/render/epi_internal.h"
 #include "hogel/render/mvr_internal.h"
 #include "hogel/render/oblique_internal.h"
 #include "hogel/render/raytrace_internal.h"
@@ -21,6 +22,7 @@ constexpr std::array infos{
     RendererInfo{"simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false},
     RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
     RendererInfo{"mvr", "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions"},
+    RendererInfo{"epi", "epipolar planes: each triangle is set up once for a whole row of hogels"},
 };
 
 }  // namespace
@@ -37,6 +39,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
     if (name == "simplex") return make_simplex_renderer(std::move(scene), grid);
     if (name == "oblique") return make_oblique_renderer(std::move(scene), grid);
     if (name == "mvr") return make_mvr_renderer(std::move(scene), grid);
+    if (name == "epi") return make_epi_renderer(std::move(scene), grid);
     std::vector<std::string_view> known;
     for (const RendererInfo& info : infos) known.push_back(info.name);
     throw Error(ErrorCode::usage, fmt::format("unknown renderer '{}'; known: {}", name, fmt::join(known, ", ")));
