@@ -55,6 +55,9 @@ class Import : public testing::Test {
     fs::path folder_;
 };
 
+/// How a list of n vertices begins in a PLY file.
+std::string face_of(int n) { return std::string(1, static_cast<char>(n)); }
+
 std::string base64(const std::string& bytes) {
     constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -175,7 +178,7 @@ TEST_F(Import, coordinates_that_are_no_numbers_are_refused) {
     const std::string header =
         "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
-    const std::string faces = "\x03" + raw<std::int32_t>({0, 1, 2}) + "\x03" + raw<std::int32_t>({0, 1, 3});
+    const std::string faces = face_of(3) + raw<std::int32_t>({0, 1, 2}) + face_of(3) + raw<std::int32_t>({0, 1, 3});
     for (const float wrong : {std::nanf(""), INFINITY})
         expect_refusal("nan.ply", header + raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, wrong, 0, 0}) + faces, "not finite");
     EXPECT_EQ(triangle_count(
@@ -233,7 +236,7 @@ TEST_F(Import, sizes_that_a_gltf_file_cannot_hold_are_refused) {
     json.append(3 - (json.size() + 3) % 4, ' ');  // chunks are whole words
     const auto size = static_cast<std::uint32_t>(json.size());
     const auto glb = [&](std::uint32_t json_length, std::uint32_t data_length = 72) {
-        return "glTF" + raw<std::uint32_t>({2, 28 + size + 72, json_length}) + "JSON" + json +
+        return std::string("glTF") + raw<std::uint32_t>({2, 28 + size + 72, json_length}) + "JSON" + json +
                raw<std::uint32_t>({data_length}) + std::string("BIN\0", 4) + raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) +
                std::string(36, '\0');
     };
