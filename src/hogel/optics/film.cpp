@@ -15,30 +15,39 @@ namespace {
 using Complex = std::complex<float>;
 
 // LowPass as an interpolation kernel, tabulated by the fraction of a sample: ten taps around the place between two
-// samples. A band-limited signal moves by less than 1e-3 of itself over half a table step.
+// samples, each twice, for the real and the imaginary part. A band-limited signal moves by less than 1e-3 of itself
+// over half a table step.
 class InterpolationTable {
   public:
-    static constexpr std::size_t taps = 10, phases = 1024;
+    static constexpr std::ptrdiff_t taps = 10;
+    static constexpr std::size_t phases = 1024;
 
-    InterpolationTable() : weights_((phases + 1) * taps) {
+    InterpolationTable() {
         for (std::size_t phase = 0; phase <= phases; ++phase)
-            for (std::size_t k = 0; k < taps; ++k)
-                weights_[phase * taps + k] = static_cast<float>(
-                    LowPass::at(static_cast<double>(k) - 4 - static_cast<double>(phase) / static_cast<double>(phases)));
+            for (std::ptrdiff_t k = 0; k < taps; ++k) {
+                const double distance =
+                    static_cast<double>(k) - 4 - static_cast<double>(phase) / static_cast<double>(phases);
+                weights_.insert(weights_.end(), 2, static_cast<float>(LowPass::at(distance)));
+            }
     }
 
     // The value of line[...] (count values, zero outside) at a place between samples.
     Complex at(const Complex* line, std::size_t count, double place) const {
         const double whole = std::floor(place);
         const auto first = static_cast<std::ptrdiff_t>(whole) - 4;
-        if (first <= -static_cast<std::ptrdiff_t>(taps) || first >= static_cast<std::ptrdiff_t>(count)) return 0;
-        const float* w = &weights_[static_cast<std::size_t>(std::lround((place - whole) * phases)) * taps];
-        const auto begin = std::max<std::ptrdiff_t>(0, -first);
-        const auto end = std::min<std::ptrdiff_t>(taps, static_cast<std::ptrdiff_t>(count) - first);
+        const float* w = &weights_[static_cast<std::size_t>((place - whole) * phases + 0.5) * 2 * taps];
+        if (first >= 0 && first + taps <= static_cast<std::ptrdiff_t>(count)) {
+            const auto* z = reinterpret_cast<const float*>(line + first);
+            float sum[4] = {0, 0, 0, 0};
+            for (std::ptrdiff_t k = 0; k < 2 * taps; k += 4)
+                for (std::ptrdiff_t i = 0; i < 4; ++i) sum[i] += w[k + i] * z[k + i];
+            return {sum[0] + sum[2], sum[1] + sum[3]};
+        }
         float re = 0, im = 0;
-        for (std::ptrdiff_t k = begin; k < end; ++k) {
-            re += w[k] * line[first + k].real();
-            im += w[k] * line[first + k].imag();
+        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, -first);
+             k < std::min(taps, static_cast<std::ptrdiff_t>(count) - first); ++k) {
+            re += w[2 * k] * line[first + k].real();
+            im += w[2 * k] * line[first + k].imag();
         }
         return {re, im};
     }
@@ -223,21 +232,27 @@ Array<Complex, 2> Film::resample(View<const Complex, 2> band) const {
     // Two passes, each along one axis: first to uniform n_x on the band's own rows; then down the columns, on which n_x
     // is constant, to uniform n_y. Stored transposed in between, so that both passes run along memory.
     Array<Complex, 2> columns({sines_.size_x, plane.height});
+    const Vec3 eye = geometry.eye();
+    // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
+    std::vector<double> slopes(sines_.size_x);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        const double nx = sines_.first_x + static_cast<double>(i) * sines_.step;
+        slopes[i] = nx / std::sqrt(1 - nx * nx);
+    }
     for (std::size_t row = 0; row < plane.height; ++row) {
-        const double y = plane.y(static_cast<double>(row));
-        for (std::size_t i = 0; i < sines_.size_x; ++i) {
-            const double x = geometry.x_of_sine(sines_.first_x + static_cast<double>(i) * sines_.step, y);
-            columns(i, row) = table.at(&band(row, 0), plane.width, plane.column(x));
-        }
+        const double reach = std::hypot(plane.y(static_cast<double>(row)) - eye.y, eye.z) / plane.pitch_x;
+        const double middle = plane.column(eye.x);
+        for (std::size_t i = 0; i < sines_.size_x; ++i)
+            columns(i, row) = table.at(&band(row, 0), plane.width, middle + slopes[i] * reach);
     }
     Array<Complex, 2> result({sines_.size_y, sines_.size_x});
-    const Vec3 eye = geometry.eye();
+    const double middle = plane.row(eye.y), reach = eye.z / plane.pitch_y;
     for (std::size_t i = 0; i < sines_.size_x; ++i) {
         const double nx = sines_.first_x + static_cast<double>(i) * sines_.step;
         for (std::size_t j = 0; j < sines_.size_y; ++j) {
             const double ny = sines_.first_y + static_cast<double>(j) * sines_.step;
-            const double y = eye.y + ny * eye.z / std::sqrt(1 - nx * nx - ny * ny);
-            result(j, i) = table.at(&columns(i, 0), plane.height, plane.row(y));
+            result(j, i) =
+                table.at(&columns(i, 0), plane.height, middle - reach * ny / std::sqrt(1 - nx * nx - ny * ny));
         }
     }
     return result;
@@ -279,10 +294,10 @@ Image Film::develop(std::size_t index, View<const float, 2> intensity) const {
     const Grid& picture = lens.camera.picture;
     const ViewGeometry& geometry = band_.geometry;
     Image image(picture.width, picture.height, 1);
-    // Enough points a pixel to meet every sample of the film.
+    // About a point a pixel for every sample of the film.
     const double film_pitch = sines_.step * geometry.eye().z;
-    const auto sub_x = static_cast<std::size_t>(std::ceil(picture.pitch_x / film_pitch)) + 1;
-    const auto sub_y = static_cast<std::size_t>(std::ceil(picture.pitch_y / film_pitch)) + 1;
+    const auto sub_x = static_cast<std::size_t>(std::max(2.0, std::ceil(picture.pitch_x / film_pitch)));
+    const auto sub_y = static_cast<std::size_t>(std::max(2.0, std::ceil(picture.pitch_y / film_pitch)));
     const Grid& plane = hologram_.plane;
     parallel_for(picture.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < picture.width; ++column) {

@@ -25,13 +25,6 @@ class ViewGeometry {
     double cosine(double x, double y) const { return eye_.z / distance(x, y); }
     double sine_x(double x, double y) const { return (x - eye_.x) / distance(x, y); }
     double sine_y(double x, double y) const { return (y - eye_.y) / distance(x, y); }
-    /// The x at which the direction has a given sine n_x, for a given y; and the y for a given n_y and x.
-    double x_of_sine(double sine, double y) const {
-        return eye_.x + sine * std::sqrt(((y - eye_.y) * (y - eye_.y) + eye_.z * eye_.z) / (1 - sine * sine));
-    }
-    double y_of_sine(double sine, double x) const {
-        return eye_.y + sine * std::sqrt(((x - eye_.x) * (x - eye_.x) + eye_.z * eye_.z) / (1 - sine * sine));
-    }
 
   private:
     Vec3 eye_;
