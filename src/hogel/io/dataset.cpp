@@ -48,9 +48,9 @@ std::size_t samples_of(const std::vector<std::size_t>& shape) {
 Handle open_dataset(hid_t file, const char* name, const std::filesystem::path& path) {
     const std::string whole = name;
     for (std::size_t slash = whole.find('/'); slash != std::string::npos; slash = whole.find('/', slash + 1))
-        if (!hdf5::has_member(file, whole.substr(0, slash).c_str()))
+        if (!hdf5::has_member(file, whole.substr(0, slash).c_str(), path))
             hdf5::fail(path, fmt::format("it has no group '{}'", whole.substr(0, slash)));
-    if (!hdf5::has_member(file, name)) hdf5::fail(path, fmt::format("it has no dataset '{}'", name));
+    if (!hdf5::has_member(file, name, path)) hdf5::fail(path, fmt::format("it has no dataset '{}'", name));
     Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
     if (!dataset.valid()) hdf5::fail(path, fmt::format("its dataset '{}' is damaged: {}", name, hdf5::reason()));
     return dataset;
