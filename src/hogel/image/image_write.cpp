@@ -113,6 +113,8 @@ void write_image(const std::filesystem::path& path, const Image& image, double e
     }
 }
 
+void require_picture_name(const std::filesystem::path& path) { format_of(path); }
+
 std::vector<unsigned char> encode_png(const Image& image, double exposure) {
     check_writable(image, exposure, "PNG");
     return encode_to_memory(image, exposure, "png", {}, "PNG");
