@@ -48,9 +48,9 @@ std::size_t samples_of(const std::vector<std::size_t>& shape) {
 Handle open_dataset(hid_t file, const char* name, const std::filesystem::path& path) {
     const std::string whole = name;
     for (std::size_t slash = whole.find('/'); slash != std::string::npos; slash = whole.find('/', slash + 1))
-        if (!hdf5::has_member(file, whole.substr(0, slash).c_str()))
+        if (!hdf5::has_member(file, whole.substr(0, slash).c_str(), path))
             hdf5::fail(path, fmt::format("it has no group '{}'", whole.substr(0, slash)));
-    if (!hdf5::has_member(file, name)) hdf5::fail(path, fmt::format("it has no dataset '{}'", name));
+    if (!hdf5::has_member(file, name, path)) hdf5::fail(path, fmt::format("it has no dataset '{}'", name));
     Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
     if (!dataset.valid()) hdf5::fail(path, fmt::format("its dataset '{}' is damaged: {}", name, hdf5::reason()));
     return dataset;
@@ -184,29 +184,26 @@ DatasetFile::DatasetFile(const std::filesystem::path& path, const hdf5::Attribut
     raw_.reserve(raw_.size());  // HDF5 leaves a hole where the samples go: fill it with room on the disk
 }
 
-void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) {
+// The system lets one thread at a time write to a file. Threads that wait for it call by call, thousands of times for
+// each box, spend more time waiting than writing; here they wait once.
+void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* from) {
     const hdf5::NewDataset& to = datasets_[dataset];
-    const std::uint64_t offset = offsets_[dataset];
-    if (to.element == Element::half) {
-        std::vector<std::uint16_t> halves(std::min(piece, samples_of(box.extent)));
-        for_each_run(to.shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-            for (std::size_t done = 0, some = 0; done < n; done += some) {
-                some = std::min(halves.size(), n - done);
-                to_half(from + here + done, halves.data(), some);
-                raw_.write(offset + 2 * (there + done), halves.data(), 2 * some);
-            }
-        });
-    } else {
-        for_each_run(to.shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-            raw_.write(offset + sizeof(float) * there, from + here, sizeof(float) * n);
-        });
-    }
+    const std::size_t bytes = hdf5::bytes_of(to.element);
+    const std::lock_guard lock(writing_);
+    for_each_run(to.shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
+        raw_.write(offsets_[dataset] + bytes * there, static_cast<const char*>(from) + bytes * here, bytes * n);
+    });
+}
+
+void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) {
+    if (datasets_[dataset].element != Element::half) return write_bytes(dataset, box, from);
+    std::vector<std::uint16_t> halves(samples_of(box.extent));
+    to_half(from, halves.data(), halves.size());
+    write_bytes(dataset, box, halves.data());
 }
 
 void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<float>* from) {
-    for_each_run(datasets_[dataset].shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-        raw_.write(offsets_[dataset] + sizeof(*from) * there, from + here, sizeof(*from) * n);
-    });
+    write_bytes(dataset, box, from);
 }
 
 void DatasetFile::finish() {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <complex>
 #include <memory>
-#include <span>
+#include <mutex>
 
 #include "hogel/core/output_file.h"
 #include "hogel/io/hdf5_internal.h"
@@ -61,10 +61,13 @@ class DatasetFile {
     const std::filesystem::path& path() const { return output_.target(); }
 
   private:
+    void write_bytes(std::size_t dataset, const Box& box, const void* from);
+
     OutputFile output_;
     std::vector<hdf5::NewDataset> datasets_;
     std::vector<std::uint64_t> offsets_;
     RawFile raw_;
+    std::mutex writing_;
 };
 
 }  // namespace hogel

@@ -17,7 +17,7 @@ struct Attribute {
 
 // An attribute of one value, which may be written as a scalar or as an array of one.
 Attribute open_attribute(hid_t object, const char* name, const std::filesystem::path& path) {
-    if (!has_attribute(object, name)) fail(path, fmt::format("its attribute '{}' is missing", name));
+    if (!has_attribute(object, name, path)) fail(path, fmt::format("its attribute '{}' is missing", name));
     Attribute attribute;
     attribute.id = Handle(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
     attribute.type = Handle(H5Aget_type(attribute.id.id()), H5Tclose);
@@ -55,12 +55,17 @@ std::string text_of(const Attribute& attribute, const char* name, const std::fil
 
 }  // namespace
 
-bool has_attribute(hid_t object, const char* name) { return H5Aexists(object, name) > 0; }
+bool has_attribute(hid_t object, const char* name, const std::filesystem::path& path) {
+    const htri_t there = H5Aexists(object, name);
+    if (there < 0) fail(path, "it is damaged: " + reason());
+    return there > 0;
+}
 
-bool has_member(hid_t group, const char* name) {
+bool has_member(hid_t group, const char* name, const std::filesystem::path& path) {
+    const htri_t there = H5Lexists(group, name, H5P_DEFAULT);
+    if (there < 0) fail(path, "it is damaged: " + reason());
     H5L_info_t link;
-    return H5Lexists(group, name, H5P_DEFAULT) > 0 && H5Lget_info(group, name, &link, H5P_DEFAULT) >= 0 &&
-           link.type == H5L_TYPE_HARD;
+    return there > 0 && H5Lget_info(group, name, &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
 }
 
 double read_number(hid_t object, const char* name, const std::filesystem::path& path) {
@@ -87,7 +92,7 @@ std::string read_text(hid_t object, const char* name, const std::filesystem::pat
 }
 
 void check_format(hid_t file, const char* format, const char* dataset, const std::filesystem::path& path) {
-    if (!has_attribute(file, "format"))
+    if (!has_attribute(file, "format", path))
         fail(path, fmt::format("it is an HDF5 file, but not a {0}: an attribute \"format\" = \"{0}\" and a dataset "
                                "\"{1}\" were expected",
                                format, dataset));

@@ -78,9 +78,9 @@ double read_number(hid_t object, const char* name, const std::filesystem::path& 
 std::uint64_t read_count(hid_t object, const char* name, const std::filesystem::path& path);
 std::string read_text(hid_t object, const char* name, const std::filesystem::path& path);
 /// True when the object has the attribute.
-bool has_attribute(hid_t object, const char* name);
+bool has_attribute(hid_t object, const char* name, const std::filesystem::path& path);
 /// True when the group has a link of that name to something in the same file.
-bool has_member(hid_t group, const char* name);
+bool has_member(hid_t group, const char* name, const std::filesystem::path& path);
 
 /// What both kinds of files say about themselves: attributes "format" and "format_version", metadata beside them.
 inline constexpr std::uint64_t format_version = 1;

@@ -68,10 +68,12 @@ std::uint64_t total_bytes(const std::vector<NewDataset>& datasets) {
 std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const Attributes& attributes, const std::vector<NewDataset>& datasets) {
     {
-        // HDF5 does not come to rest when it cannot close a file, so find out first what would be in its way.
+        // HDF5 does not come to rest when it cannot close a file, so find out first what would be in its way: a full
+        // disk, or a limit on the size of files.
         RawFile room(path, RawFile::Mode::create, target);
-        room.reserve(total_bytes(datasets));
-        room.truncate();
+        room.reserve(header_bytes);
+        room.resize(total_bytes(datasets));
+        room.resize(0);
     }
     const Session session;
     const Writer writer(target);

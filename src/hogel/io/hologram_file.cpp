@@ -93,7 +93,7 @@ std::vector<FieldGrid> read_hologram_grids(hid_t file, const std::filesystem::pa
     std::vector<FieldGrid> grids;
     do {
         grids.push_back(read_field_grid(file, grids.size(), path));
-    } while (grids.size() < most_fields && hdf5::has_member(file, fmt::format("field{}", grids.size()).c_str()));
+    } while (grids.size() < most_fields && hdf5::has_member(file, fmt::format("field{}", grids.size()).c_str(), path));
     return grids;
 }
 

@@ -37,7 +37,7 @@ class LightFieldReader final : public LightFieldSource {
         grid_ = read_light_field_grid(file.id(), path);
         const Box all = radiance_box(grid_, {0, 0, grid_.hogels_s, grid_.hogels_t});
         radiance_.emplace(file.id(), "radiance", all.extent, false, raw);
-        if (hdf5::has_member(file.id(), "depth"))
+        if (hdf5::has_member(file.id(), "depth", path))
             depth_.emplace(file.id(), "depth", depth_box(grid_, {0, 0, grid_.hogels_s, grid_.hogels_t}).extent, false,
                            raw);
     }

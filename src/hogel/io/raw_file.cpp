@@ -87,16 +87,17 @@ void RawFile::write(std::uint64_t offset, const void* from, std::size_t bytes) {
 }
 
 void RawFile::reserve(std::uint64_t bytes) {
-    if (bytes > most_bytes) fail(EFBIG);
 #ifdef __linux__
+    if (bytes > most_bytes) fail(EFBIG);
     if (::fallocate(file_, 0, 0, static_cast<off_t>(bytes)) == 0) return;
     if (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINTR) fail(errno);
 #endif
-    if (::ftruncate(file_, static_cast<off_t>(std::max(bytes, size()))) != 0) fail(errno);
+    resize(std::max(bytes, size()));
 }
 
-void RawFile::truncate() {
-    if (::ftruncate(file_, 0) != 0) fail(errno);
+void RawFile::resize(std::uint64_t bytes) {
+    if (bytes > most_bytes) fail(EFBIG);
+    if (::ftruncate(file_, static_cast<off_t>(bytes)) != 0) fail(errno);
 }
 
 void RawFile::close() {

@@ -22,9 +22,10 @@ class RawFile {
     void read(std::uint64_t offset, void* to, std::size_t bytes) const;
     /// Throws Error(cannot_write).
     void write(std::uint64_t offset, const void* from, std::size_t bytes);
-    /// Makes the file this long, with room for it on the disk where the file system can promise that.
+    /// Makes the file at least this long, with room for it on the disk where the file system can promise that.
     void reserve(std::uint64_t bytes);
-    void truncate();
+    /// Makes the file this long; what is added is a hole. Throws Error(cannot_write) beyond what a file may have.
+    void resize(std::uint64_t bytes);
     /// Throws Error(cannot_write) when the system reports a late failure.
     void close();
 

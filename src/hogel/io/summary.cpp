@@ -60,7 +60,7 @@ void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary) {
 }
 
 FileKind kind_of(hid_t file, const std::filesystem::path& path) {
-    if (!hdf5::has_attribute(file, "format")) return FileKind::unknown;
+    if (!hdf5::has_attribute(file, "format", path)) return FileKind::unknown;
     const std::string format = hdf5::read_text(file, "format", path);
     if (format == hdf5::light_field_format) return FileKind::light_field;
     return format == hdf5::hologram_format ? FileKind::hologram : FileKind::unknown;
@@ -93,7 +93,7 @@ FileSummary summarize(const std::filesystem::path& path) {
                                              grid.directions_u};
         const DatasetReader radiance(file.id(), "radiance", shape, false, raw);
         summary.text.emplace_back("samples", radiance.element() == hdf5::Element::half ? "half" : "single");
-        summary.text.emplace_back("depth", hdf5::has_member(file.id(), "depth") ? "yes" : "no");
+        summary.text.emplace_back("depth", hdf5::has_member(file.id(), "depth", path) ? "yes" : "no");
     } else {
         const std::vector<FieldGrid> grids = read_hologram_grids(file.id(), path);
         summary.numbers.emplace_back("fields", static_cast<double>(grids.size()));
