@@ -32,12 +32,11 @@ struct Focus {
     double depth;
 };
 
-// The hologram plane, and the end of the scene that lies farther from it.
+// A sixth of the scene's depth from its nearest point, and as much from its farthest.
 std::array<Focus, 2> focuses(const Scene& scene, double eye_distance) {
     const Bounds box = bounds(scene);
-    const double front = -box.high.z, back = -box.low.z;
-    const Focus far = std::abs(back) >= std::abs(front) ? Focus{"back", back} : Focus{"front", front};
-    return {Focus{"plane", 0.0}, Focus{far.name, std::max(far.depth, -0.5 * eye_distance)}};
+    const double front = -box.high.z, back = -box.low.z, sixth = (back - front) / 6;
+    return {Focus{"near", std::max(front + sixth, -0.5 * eye_distance)}, Focus{"far", back - sixth}};
 }
 
 // Left, high and right, as far from the middle as every hogel still sends rays to the whole lens.
@@ -150,7 +149,7 @@ int make(const Options& options, const Session& session) {
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
     });
 
-    // One exposure for all, from the view from above on the hologram plane.
+    // One exposure for all, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
     for (PhotographPair& pair : report.pairs) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
     write_pictures(folder.path(), report);
