@@ -54,7 +54,8 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-    const std::string shown = option->get_default_str(), words = option->get_description();
+    const std::string shown = option->get_default_str();
+    std::string words = option->get_description();
     if (shown.empty()) return words;
     // The default belongs to the first line, what follows explains the choices.
     const std::size_t line = std::min(words.find('\n'), words.size());
