@@ -210,7 +210,7 @@ TEST_P(EveryRenderer, agrees_with_ray_casting_on_random_scenes) {
 // none, and order, region and the way of finding leave no trace. The grid has its centre on samples, where rays go
 // through vertices and along edges.
 class SampleFindingRenderer : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer, ::testing::Values("simplex", "oblique", "mvr"),
+INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer, ::testing::Values("simplex", "simplex3d", "oblique", "mvr"),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangles_finds) {
