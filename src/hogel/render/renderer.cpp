@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "hogel/render/epi_internal.h"
 #include "hogel/render/mvr_internal.h"
 #include "hogel/render/oblique_internal.h"
 #include "hogel/render/raytrace_internal.h"
@@ -23,6 +24,7 @@ constexpr std::array infos{
     RendererInfo{"simplex3d", "the same in three dimensions, for one row of hogels after the other", false},
     RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
     RendererInfo{"mvr", "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions"},
+    RendererInfo{"epi", "epipolar planes: each triangle is set up once for a whole row of hogels"},
 };
 
 }  // namespace
@@ -40,6 +42,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
     if (name == "simplex3d") return make_simplex3d_renderer(std::move(scene), grid);
     if (name == "oblique") return make_oblique_renderer(std::move(scene), grid);
     if (name == "mvr") return make_mvr_renderer(std::move(scene), grid);
+    if (name == "epi") return make_epi_renderer(std::move(scene), grid);
     std::vector<std::string_view> known;
     for (const RendererInfo& info : infos) known.push_back(info.name);
     throw Error(ErrorCode::usage, fmt::format("unknown renderer '{}'; known: {}", name, fmt::join(known, ", ")));
