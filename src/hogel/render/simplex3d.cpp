@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hogel/render/oblique_triangle_internal.h"
+#include "hogel/render/row_tile_internal.h"
 #include "hogel/render/simplex_slice_internal.h"
 #include "hogel/render/simplex_volume_internal.h"
 #include "hogel/render/span_internal.h"
@@ -19,6 +20,7 @@ class Simplex3dRenderer final : public LightFieldSource {
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
+    HogelRange preferred_tile() const override { return row_tile(grid_); }
 
     void read(LightFieldTile& tile) const override {
         Array<NearestTriangle, 3> buffer({grid_.directions_v, grid_.directions_u, tile.range.ns});
