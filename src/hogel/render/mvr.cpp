@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hogel/render/oblique_triangle_internal.h"
+#include "hogel/render/row_tile_internal.h"
 #include "hogel/render/span_internal.h"
 
 namespace hogel {
@@ -39,6 +40,7 @@ class MvrRenderer final : public LightFieldSource {
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
+    HogelRange preferred_tile() const override { return row_tile(grid_); }
 
     // Source: [K] fig. 5.8.
     void read(LightFieldTile& tile) const override {

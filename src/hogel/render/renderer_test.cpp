@@ -210,7 +210,7 @@ TEST_P(EveryRenderer, agrees_with_ray_casting_on_random_scenes) {
 // none, and order, region and the way of finding leave no trace. The grid has its centre on samples, where rays go
 // through vertices and along edges.
 class SampleFindingRenderer : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer, ::testing::Values("simplex", "oblique", "mvr"),
+INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer, ::testing::Values("simplex", "simplex3d", "oblique", "mvr"),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangles_finds) {
@@ -262,6 +262,30 @@ TEST(Renderers, that_need_the_scene_behind_the_plane_say_so_and_name_one_that_do
     }
     EXPECT_GT(refused, 0u);
     EXPECT_TRUE(straddles("raytrace"));
+}
+
+// A flake in front of the middle of a hogel, at twice and at half of a millionth of the scene's size.
+TEST(Renderers, that_need_the_scene_behind_the_plane_see_up_to_their_near_plane) {
+    const double size = 8e-3, near = 1e-6 * size;
+    for (double depth : {2 * near, 0.5 * near}) {
+        const Vec3 p{grid.s(1), grid.t(2), -depth};
+        ShadedScene scene;
+        add_triangle(scene, {-1e-3, 0, -size}, {1e-3, 0, -size}, {0, 1e-6, -size}, [](Vec3) { return Rgb{1, 1, 1}; });
+        add_triangle(scene, p + Vec3{-100e-9, -80e-9, 0}, p + Vec3{100e-9, -80e-9, 0}, p + Vec3{0, 90e-9, 0}, [](Vec3) {
+            return Rgb{1, 1, 1};
+        });
+        for (const RendererInfo& info : renderers()) {
+            if (info.straddles) continue;
+            const LightField seen = render(std::string(info.name), scene, grid);
+            for (float value : seen.depth[2][1].elements()) {
+                if (depth > near) {
+                    ASSERT_NEAR(value, depth, 1e-12) << info.name;
+                } else {
+                    ASSERT_NE(value, static_cast<float>(depth)) << info.name;
+                }
+            }
+        }
+    }
 }
 
 // Triangles much smaller than the distance between hogels, in front of the hologram, in it and behind it.

@@ -2,9 +2,10 @@
 
 namespace hogel {
 
-void clip(std::vector<Simplex<4>>& simplices, std::size_t axis, double bound, bool keep_above) {
-    std::vector<Simplex<4>> kept;
-    for (Simplex<4> simplex : simplices) {
+template <std::size_t N>
+void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axis, double bound, bool keep_above) {
+    std::vector<std::array<ProjectedPoint, N>> kept;
+    for (std::array<ProjectedPoint, N> simplex : simplices) {
         sort_along(axis, simplex);
         const auto first_above = std::find_if(simplex.begin(), simplex.end(),
                                               [&](const ProjectedPoint& corner) { return corner[axis] >= bound; });
@@ -18,8 +19,8 @@ void clip(std::vector<Simplex<4>>& simplices, std::size_t axis, double bound, bo
         // Corner (i, 0) is the i-th corner inside, corner (i, 1 + j) the point on its edge to the j-th corner outside:
         // an (inside − 1, outside)-simploid.
         const std::size_t in = keep_above ? below : 0, out = keep_above ? 0 : below;
-        for (const auto& path : product_paths<5>(inside - 1)) {
-            Simplex<4>& piece = kept.emplace_back();
+        for (const auto& path : product_paths<N>(inside - 1)) {
+            std::array<ProjectedPoint, N>& piece = kept.emplace_back();
             for (std::size_t k = 0; k < piece.size(); ++k) {
                 const ProjectedPoint& corner = simplex[in + path[k].first];
                 if (path[k].second == 0) {
@@ -35,11 +36,17 @@ void clip(std::vector<Simplex<4>>& simplices, std::size_t axis, double bound, bo
     simplices.swap(kept);
 }
 
-void clip_to_view(std::vector<Simplex<4>>& simplices, const LightFieldGrid& grid) {
+template <std::size_t N>
+void clip_to_view(std::vector<std::array<ProjectedPoint, N>>& simplices, const LightFieldGrid& grid) {
     clip(simplices, axis::u, static_cast<double>(grid.directions_u) - 0.5, false);
     clip(simplices, axis::u, -0.5, true);
     clip(simplices, axis::v, static_cast<double>(grid.directions_v) - 0.5, false);
     clip(simplices, axis::v, -0.5, true);
 }
+
+template void clip(std::vector<Simplex<3>>&, std::size_t, double, bool);
+template void clip(std::vector<Simplex<4>>&, std::size_t, double, bool);
+template void clip_to_view(std::vector<Simplex<3>>&, const LightFieldGrid&);
+template void clip_to_view(std::vector<Simplex<4>>&, const LightFieldGrid&);
 
 }  // namespace hogel

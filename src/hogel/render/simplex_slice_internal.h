@@ -55,11 +55,13 @@ void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, c
         slice(simplex, axis, value, [&](const std::array<ProjectedPoint, N - 1>& piece) { use(value, piece); });
 }
 
-/// Replaces 4-simplices by what is left of them where axis >= bound (keep_above) or axis < bound (otherwise).
-/// Source: [K] 5.6.2, fig. 5.18.
-void clip(std::vector<Simplex<4>>& simplices, std::size_t axis, double bound, bool keep_above);
+/// Replaces simplices of four or five corners by what is left of them where axis >= bound (keep_above) or axis < bound
+/// (otherwise). Source: [K] 5.6.2, fig. 5.18.
+template <std::size_t N>
+void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axis, double bound, bool keep_above);
 
 /// Clips to the field of view, whose edges lie half a sample outside the first and the last sample. Source: [K] 5.7.2.
-void clip_to_view(std::vector<Simplex<4>>& simplices, const LightFieldGrid& grid);
+template <std::size_t N>
+void clip_to_view(std::vector<std::array<ProjectedPoint, N>>& simplices, const LightFieldGrid& grid);
 
 }  // namespace hogel

@@ -210,6 +210,46 @@ TEST(BackFace, cuts_the_region_in_one_of_five_ways) {
     EXPECT_EQ(cases, (std::set<std::size_t>{0, 3, 4, 5}));  // 4: a quadrilateral, or everything
 }
 
+// Where both faces are seen the volume folds through itself; the lobes of the two sides still fill it once.
+TEST(ProjectedVolume, with_two_lobes_is_filled_once) {
+    const LightFieldGrid grid{8, 8, 1_mm, 32, 32, 0.5, 0.5, 1};
+    const HogelRange range{2, 2, 4, 4};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-3e-3, 3e-3), deep(1e-3, 9e-3), column(0, 3);
+    int folded = 0, folded_rows = 0;
+    for (int round = 0; round < 300; ++round) {
+        DeepTriangle triangle;
+        for (auto& p : triangle) p = {place(random), place(random), deep(random)};
+        std::vector<Simplex<4>> simplices;
+        const RegionSides sides = split_at_back_face(triangle, grid, range);
+        append_projected_volume(triangle, sides.one, grid, range, simplices);
+        append_projected_volume(triangle, sides.other, grid, range, simplices);
+        folded += sides.one.size() >= 3 && sides.other.size() >= 3 ? 1 : 0;
+        std::vector<Simplex<3>> of_row;
+        const std::vector<CameraLine> lines = split_row_at_back_face(triangle, 1, grid, range);
+        for (const CameraLine& line : lines) append_projected_volume(triangle, line, grid, range, of_row);
+        folded_rows += lines.size() == 2 ? 1 : 0;
+        ASSERT_EQ(of_row.size(), 3 * lines.size());
+        for (int i = 0; i < 20; ++i) {
+            const std::vector<double> weights = random_weights(random, 3);
+            DeepTriangle point{};
+            for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t j = 0; j < 3; ++j) point[0][j] += weights[k] * triangle[k][j];
+            point[1] = point[2] = point[0];
+            const double s = column(random), t = column(random);
+            const ProjectedPoint seen = project(point, {s, t}, grid, range)[0];
+            const ProjectedPoint from_row = project(point, {s, 1}, grid, range)[0];
+            int within = 0, within_row = 0;
+            for (const Simplex<4>& simplex : simplices) within += contains<4>(simplex, seen) ? 1 : 0;
+            for (const Simplex<3>& simplex : of_row) within_row += contains<3>(simplex, from_row) ? 1 : 0;
+            ASSERT_EQ(within, 1) << round;
+            ASSERT_EQ(within_row, 1) << round;
+        }
+    }
+    EXPECT_GT(folded, 50);
+    EXPECT_GT(folded_rows, 50);
+}
+
 TEST(NearPlane, keeps_what_lies_behind_it) {
     const DeepTriangle triangle{{{0, 0, 1}, {4, 0, 1}, {0, 4, 3}}};
     const auto height_along_depth = [](const DeepTriangle& t) {

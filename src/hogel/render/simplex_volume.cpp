@@ -28,6 +28,36 @@ std::vector<Point> cut(const std::vector<Point>& polygon, const Side& side, cons
     return kept;
 }
 
+CameraPoint point_on_line(const CameraPoint& p, const CameraPoint& q, double f) {
+    return {p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)};
+}
+
+// Regions go this far, in hogels, beyond the outermost hogels, so that a region of one hogel is more than a point.
+constexpr double rim = 1e-3;
+
+// N·(P − (s, t, 0)): which face of a triangle is seen from a camera point, by its sign.
+class Facing {
+  public:
+    Facing(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range)
+        : a_(triangle[0]), grid_(grid), range_(range) {
+        const auto& [a, b, c] = triangle;
+        const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+        const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+        normal_ = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+    }
+
+    double operator()(const CameraPoint& p) const {
+        const double s = grid_.s(static_cast<double>(range_.s0) + p.s);
+        const double t = grid_.t(static_cast<double>(range_.t0) + p.t);
+        return normal_[0] * (a_[0] - s) + normal_[1] * (a_[1] - t) + normal_[2] * a_[2];
+    }
+
+  private:
+    std::array<double, 3> a_, normal_;
+    const LightFieldGrid& grid_;
+    const HogelRange& range_;
+};
+
 }  // namespace
 
 DeepTriangle deep_triangle(const ShadedScene& scene, std::size_t index) {
@@ -83,23 +113,22 @@ std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint 
 }
 
 RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range) {
-    const auto& [a, b, c] = triangle;
-    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    const auto front = [&](const CameraPoint& p) {
-        const double s = grid.s(static_cast<double>(range.s0) + p.s), t = grid.t(static_cast<double>(range.t0) + p.t);
-        return nx * (a[0] - s) + ny * (a[1] - t) + nz * a[2];
-    };
+    const Facing front(triangle, grid, range);
     const auto back = [&](const CameraPoint& p) { return -front(p); };
-    const auto mix = [](const CameraPoint& p, const CameraPoint& q, double f) {
-        return CameraPoint{p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)};
-    };
-    // A little beyond the outermost hogels, so that a region of one hogel is more than a point.
-    constexpr double rim = 1e-3;
     const double right = static_cast<double>(range.ns) - 1 + rim, bottom = static_cast<double>(range.nt) - 1 + rim;
     const std::vector<CameraPoint> all{{-rim, -rim}, {right, -rim}, {right, bottom}, {-rim, bottom}};
-    return {cut(all, front, mix), cut(all, back, mix)};
+    return {cut(all, front, point_on_line), cut(all, back, point_on_line)};
+}
+
+std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std::size_t row,
+                                               const LightFieldGrid& grid, const HogelRange& range) {
+    const Facing facing(triangle, grid, range);
+    const CameraPoint first{-rim, static_cast<double>(row)};
+    const CameraPoint last{static_cast<double>(range.ns) - 1 + rim, first.t};
+    const double a = facing(first), b = facing(last);
+    if (!(a < 0 && b > 0) && !(a > 0 && b < 0)) return {{first, last}};
+    const CameraPoint between = point_on_line(first, last, a / (a - b));
+    return {{first, between}, {between, last}};
 }
 
 void append_projected_volume(const DeepTriangle& triangle, const std::vector<CameraPoint>& region,
@@ -113,6 +142,15 @@ void append_projected_volume(const DeepTriangle& triangle, const std::vector<Cam
             Simplex<4>& simplex = simplices.emplace_back();
             for (std::size_t k = 0; k < 5; ++k) simplex[k] = seen_from[corners[path[k].first]][path[k].second];
         }
+    }
+}
+
+void append_projected_volume(const DeepTriangle& triangle, const CameraLine& line, const LightFieldGrid& grid,
+                             const HogelRange& range, std::vector<Simplex<3>>& simplices) {
+    const std::array seen_from{project(triangle, line.first, grid, range), project(triangle, line.last, grid, range)};
+    for (const auto& path : product_paths<4>(1)) {
+        Simplex<3>& simplex = simplices.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) simplex[k] = seen_from[path[k].first][path[k].second];
     }
 }
 

@@ -55,11 +55,23 @@ struct RegionSides {
 };
 RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range);
 
+/// The same for a row of hogels: one or two lines of camera points.
+struct CameraLine {
+    CameraPoint first, last;
+};
+std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std::size_t row,
+                                               const LightFieldGrid& grid, const HogelRange& range);
+
 /// Appends the volume of a triangle seen from a convex region of camera points, all on one side of it. A region of
 /// three corners gives a (2,2)-simploid and 6 simplices, four corners a (2,1,1)-simploid and 12, five corners both and
 /// 18. Source: [K] 5.7.1, fig. 5.17 and 5.22. Differs: a quadrilateral is taken as the two triangles that its twelve
 /// simplices form anyway.
 void append_projected_volume(const DeepTriangle& triangle, const std::vector<CameraPoint>& region,
                              const LightFieldGrid& grid, const HogelRange& range, std::vector<Simplex<4>>& simplices);
+
+/// Appends the volume in (S, U, V) of a triangle seen from a line of camera points of one t: a (2,1)-simploid, 3
+/// simplices. Source: [K] fig. 5.17c.
+void append_projected_volume(const DeepTriangle& triangle, const CameraLine& line, const LightFieldGrid& grid,
+                             const HogelRange& range, std::vector<Simplex<3>>& simplices);
 
 }  // namespace hogel
