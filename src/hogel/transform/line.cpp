@@ -4,8 +4,8 @@
 
 namespace hogel {
 
-WaveletLine::WaveletLine(const Wavelet& wavelet, std::size_t length, int level)
-    : length_(length), coarse_count_((length + 1) / 2), scale_(wavelet.scale(level)) {
+WaveletLine::WaveletLine(const Wavelet& wavelet, std::size_t length)
+    : length_(length), coarse_count_((length + 1) / 2), before_(length), after_(length) {
     const std::size_t detail_count = length / 2;
     for (const LiftingStep& step : wavelet.steps) {
         const bool to_detail = step.target == Half::detail;
@@ -65,28 +65,38 @@ void WaveletLine::apply(const Row& row, std::size_t count, float sign, float* ro
     }
 }
 
-void WaveletLine::scale(float coarse, float detail, float* rows) const {
-    const std::size_t middle = coarse_count_ * lane_count, end = length_ * lane_count;
-    for (std::size_t i = 0; i < middle; ++i) rows[i] *= coarse;
-    for (std::size_t i = middle; i < end; ++i) rows[i] *= detail;
+void WaveletLine::set_scales(const std::vector<double>& before, const std::vector<double>& after) {
+    for (std::size_t row = 0; row < length_; ++row) {
+        const double in = before[sample_of_row(row)], out = after[row];
+        before_[row] = {static_cast<float>(1 / in), static_cast<float>(in)};
+        after_[row] = {static_cast<float>(out), static_cast<float>(1 / out)};
+    }
 }
 
 void WaveletLine::forward(float* rows) const {
-    if (length_ < 2) return;
+    const auto scale = [&](const std::vector<Scale>& scales) {
+        for (std::size_t row = 0; row < length_; ++row)
+            for (std::size_t lane = 0; lane < lane_count; ++lane) rows[row * lane_count + lane] *= scales[row].forward;
+    };
+    scale(before_);
     for (const Step& step : steps_) {
         apply(step.inner, step.count, 1, rows);
         for (const Row& edge : step.edges) apply(edge, 1, 1, rows);
     }
-    scale(static_cast<float>(scale_.coarse), static_cast<float>(scale_.detail), rows);
+    scale(after_);
 }
 
 void WaveletLine::inverse(float* rows) const {
-    if (length_ < 2) return;
-    scale(static_cast<float>(1 / scale_.coarse), static_cast<float>(1 / scale_.detail), rows);
+    const auto scale = [&](const std::vector<Scale>& scales) {
+        for (std::size_t row = 0; row < length_; ++row)
+            for (std::size_t lane = 0; lane < lane_count; ++lane) rows[row * lane_count + lane] *= scales[row].inverse;
+    };
+    scale(after_);
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
         apply(step->inner, step->count, -1, rows);
         for (const Row& edge : step->edges) apply(edge, 1, -1, rows);
     }
+    scale(before_);
 }
 
 }  // namespace hogel

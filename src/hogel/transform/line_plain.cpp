@@ -42,25 +42,19 @@ std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t at) {
     return weights;
 }
 
-void forward_line_plain(const Wavelet& wavelet, int level, std::span<double> line) {
-    if (line.size() < 2) return;
+void forward_line_plain(const Wavelet& wavelet, std::span<double> line) {
     Halves halves;
     for (std::size_t k = 0; k < line.size(); ++k) (k % 2 == 0 ? halves.coarse : halves.detail).push_back(line[k]);
     for (const LiftingStep& step : wavelet.steps) lift(step, 1, halves);
     auto out = line.begin();
-    for (double value : halves.coarse) *out++ = value * wavelet.scale(level).coarse;
-    for (double value : halves.detail) *out++ = value * wavelet.scale(level).detail;
+    for (double value : halves.coarse) *out++ = value;
+    for (double value : halves.detail) *out++ = value;
 }
 
-void inverse_line_plain(const Wavelet& wavelet, int level, std::span<double> line) {
-    if (line.size() < 2) return;
+void inverse_line_plain(const Wavelet& wavelet, std::span<double> line) {
     Halves halves;
     const std::size_t middle = (line.size() + 1) / 2;
-    for (std::size_t k = 0; k < line.size(); ++k)
-        if (k < middle)
-            halves.coarse.push_back(line[k] / wavelet.scale(level).coarse);
-        else
-            halves.detail.push_back(line[k] / wavelet.scale(level).detail);
+    for (std::size_t k = 0; k < line.size(); ++k) (k < middle ? halves.coarse : halves.detail).push_back(line[k]);
     for (auto step = wavelet.steps.rbegin(); step != wavelet.steps.rend(); ++step) lift(*step, -1, halves);
     for (std::size_t k = 0; k < line.size(); ++k) line[k] = (k % 2 == 0 ? halves.coarse : halves.detail)[k / 2];
 }

@@ -90,17 +90,20 @@ void transform_lines(const Plan& plan, Direction direction, const Lines& lines, 
     });
 }
 
-// One level of one group: its axes one after the other, in what is coarse after the level before.
-void transform_level(const Wavelet& wavelet, const Pyramid& pyramid, const AxisGroup& group, int level,
-                     Direction direction, std::span<float> elements) {
-    std::vector<std::size_t> box = pyramid.shape();
-    for (std::size_t axis : group.axes) box[axis] = pyramid.coarse_extent(axis, level - 1);
-    std::vector<std::size_t> order = group.axes;
-    if (direction == Direction::inverse) std::reverse(order.begin(), order.end());
-    for (std::size_t axis : order)
-        if (box[axis] > 1)
-            transform_lines(WaveletLine(wavelet, box[axis], level), direction, Lines(box, pyramid.strides(), axis),
-                            elements);
+// The axes of a group, level by level, each in what is coarse after the level before. The axes of a level commute.
+void transform_group(const Wavelet& wavelet, const Pyramid& pyramid, const AxisGroup& group, Direction direction,
+                     std::span<float> elements) {
+    std::vector<std::vector<WaveletLine>> lines;
+    for (std::size_t axis : group.axes) lines.push_back(wavelet_levels(wavelet, pyramid.shape()[axis], group.levels));
+    for (int i = 0; i < group.levels; ++i) {
+        const int level = direction == Direction::forward ? i : group.levels - 1 - i;
+        std::vector<std::size_t> box = pyramid.shape();
+        for (std::size_t axis : group.axes) box[axis] = pyramid.coarse_extent(axis, level);
+        for (std::size_t a = 0; a < group.axes.size(); ++a)
+            if (static_cast<std::size_t>(level) < lines[a].size())
+                transform_lines(lines[a][static_cast<std::size_t>(level)], direction,
+                                Lines(box, pyramid.strides(), group.axes[a]), elements);
+    }
 }
 
 void transform_blocks(const Pyramid& pyramid, Direction direction, std::span<float> elements) {
@@ -122,16 +125,14 @@ void Transform::forward(const Pyramid& pyramid, std::span<float> elements) const
     check_size(pyramid, elements);
     if (!is_wavelet()) return transform_blocks(pyramid, Direction::forward, elements);
     for (const AxisGroup& group : pyramid.groups())
-        for (int level = 1; level <= group.levels; ++level)
-            transform_level(*wavelet_, pyramid, group, level, Direction::forward, elements);
+        transform_group(*wavelet_, pyramid, group, Direction::forward, elements);
 }
 
 void Transform::inverse(const Pyramid& pyramid, std::span<float> elements) const {
     check_size(pyramid, elements);
     if (!is_wavelet()) return transform_blocks(pyramid, Direction::inverse, elements);
     for (const AxisGroup& group : pyramid.groups())
-        for (int level = group.levels; level >= 1; --level)
-            transform_level(*wavelet_, pyramid, group, level, Direction::inverse, elements);
+        transform_group(*wavelet_, pyramid, group, Direction::inverse, elements);
 }
 
 std::vector<std::string_view> transform_names() {

@@ -29,7 +29,13 @@ double largest_difference(std::span<const float> a, std::span<const float> b) {
     return most;
 }
 
-// All levels of one line by the plain twin.
+// The coefficients of one level and of all levels of a line by the plain twin, each divided by the norm of what it
+// stands for, measured.
+std::vector<double> plain_inverse(const Wavelet& wavelet, int levels, std::vector<double> line) {
+    for (int level = levels - 1; level >= 0; --level)
+        inverse_line_plain(wavelet, std::span(line).first(((line.size() - 1) >> level) + 1));
+    return line;
+}
 void forward_plain(const Transform& chosen, int levels, std::span<double> line) {
     if (!chosen.is_wavelet()) {
         const std::vector<double> in(line.begin(), line.end());
@@ -40,10 +46,14 @@ void forward_plain(const Transform& chosen, int levels, std::span<double> line) 
         }
         return;
     }
-    std::size_t coarse = line.size();
-    for (int level = 1; level <= levels; ++level) {
-        forward_line_plain(chosen.wavelet(), level, line.first(coarse));
-        coarse = (coarse + 1) / 2;
+    for (int level = 0; level < levels; ++level)
+        forward_line_plain(chosen.wavelet(), line.first(((line.size() - 1) >> level) + 1));
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        std::vector<double> impulse(line.size());
+        impulse[at] = 1;
+        double squares = 0;
+        for (double value : plain_inverse(chosen.wavelet(), levels, impulse)) squares += value * value;
+        line[at] *= std::sqrt(squares);
     }
 }
 
@@ -88,26 +98,42 @@ TEST(Transform, of_a_product_is_the_product) {
     }
 }
 
-// Interleaved by hand in 2D: rows and columns level by level, in what is still coarse.
-TEST(Transform, interleaves_levels_in_the_coarse_corner) {
-    const std::size_t rows = 13, columns = 22;
+// Interleaved in 2D: what a coefficient stands for is the product of two functions of the same level.
+TEST(Transform, interleaved_basis_functions_are_products_of_one_level) {
     const Transform chosen = transform("ai33");
-    const Pyramid pyramid(Extents{rows, columns}, {{{0, 1}, 3}});
-    std::vector<float> values = noise(rows * columns);
-    std::vector<double> plain(values.begin(), values.end());
-    for (int level = 1; level <= 3; ++level) {
-        const std::size_t r = pyramid.coarse_extent(0, level - 1), c = pyramid.coarse_extent(1, level - 1);
-        for (std::size_t x = 0; x < c; ++x) {
-            std::vector<double> line;
-            for (std::size_t y = 0; y < r; ++y) line.push_back(plain[y * columns + x]);
-            forward_line_plain(chosen.wavelet(), level, line);
-            for (std::size_t y = 0; y < r; ++y) plain[y * columns + x] = line[y];
+    const Pyramid pyramid(Extents{13, 22}, {{{0, 1}, 3}});
+    const auto response = [&](const Pyramid& of, std::size_t at) {
+        std::vector<float> values(of.size());
+        values[at] = 1;
+        chosen.inverse(of, values);
+        return values;
+    };
+    for (std::size_t y = 0; y < 13; ++y)
+        for (std::size_t x = 0; x < 22; ++x) {
+            int level = 3;  // of the band, by either axis that has details
+            while (level > 1 && (y >= pyramid.coarse_extent(0, level - 1) || x >= pyramid.coarse_extent(1, level - 1)))
+                --level;
+            const std::vector<float> both = response(pyramid, y * 22 + x),
+                                     down = response(Pyramid(Extents{13}, {{{0}, level}}), y),
+                                     along = response(Pyramid(Extents{22}, {{{0}, level}}), x);
+            for (std::size_t i = 0; i < both.size(); ++i)
+                ASSERT_NEAR(both[i], down[i / 22] * along[i % 22], 1e-5) << y << " " << x << " " << i;
         }
-        for (std::size_t y = 0; y < r; ++y)
-            forward_line_plain(chosen.wavelet(), level, std::span(plain).subspan(y * columns, c));
-    }
-    chosen.forward(pyramid, values);
-    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], plain[i], 1e-5) << i;
+}
+
+// At the ends too, and in bands of all levels: the error of a quantised coefficient has the same energy in the array.
+TEST(Transform, every_basis_function_has_unit_norm) {
+    for (std::string_view name : transform_names())
+        for (const Pyramid& pyramid : {Pyramid::interleaved({150}), Pyramid::interleaved({9, 14}),
+                                       Pyramid::separate({3, 5, 6}, {{0, 1}, {2}}), Pyramid(Extents{6, 7}, {{{1}, 2}})})
+            for (std::size_t at = 0; at < pyramid.size(); ++at) {
+                std::vector<float> values(pyramid.size());
+                values[at] = 1;
+                transform(name).inverse(pyramid, values);
+                double squares = 0;
+                for (float value : values) squares += static_cast<double>(value) * value;
+                EXPECT_NEAR(squares, 1, 1e-4) << name << " " << at << " of " << pyramid.size();
+            }
 }
 
 TEST(Transform, every_length_comes_back) {

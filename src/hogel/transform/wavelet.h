@@ -32,17 +32,8 @@ struct Wavelet {
     std::string_view name;
     int reproduction;  // N
     int moments;       // Ñ
+    int edge_order;
     std::vector<LiftingStep> steps;
-
-    /// What the coarse samples and the details of one level are multiplied by after the steps. Chosen so that every
-    /// synthesis basis function has norm 1 away from the ends, at every level and in every dimension: an error of a
-    /// coefficient is then an error of the same energy in the signal, nearly (exactly, for orthonormal wavelets).
-    struct Scale {
-        double coarse, detail;
-    };
-    Scale scale(int level) const;  ///< level 1 is the finest
-
-    std::vector<Scale> scales;
 };
 
 /// All wavelets: haar d4 d6 ai13 ai31 ai33 i22 i24 i42 i44 cdf31 cdf33 cdf42 cdf44 cdf97.
