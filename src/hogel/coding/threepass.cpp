@@ -20,13 +20,16 @@ constexpr std::size_t header = 5;
 struct Models {
     explicit Models(int planes) {
         for (int bits = 0; bits <= planes; ++bits) {
-            inner_tree.emplace_back(static_cast<std::size_t>(bits) + 1);
-            leaf_tree.emplace_back(static_cast<std::size_t>(bits) + 1);
+            for (auto& by_leaf : trees)
+                for (auto& by_previous : by_leaf) by_previous.emplace_back(static_cast<std::size_t>(bits) + 1);
             node.emplace_back(static_cast<std::size_t>(bits) + 1);
         }
     }
-    SymbolModel& tree(int above, bool leaf) { return (leaf ? leaf_tree : inner_tree)[static_cast<std::size_t>(above)]; }
-    std::vector<SymbolModel> inner_tree, leaf_tree, node;
+    SymbolModel& tree(int above, bool leaf) { return trees[leaf][after_zerotree][static_cast<std::size_t>(above)]; }
+    bool after_zerotree = false;  // the tree symbol before this one was −1
+    std::array<std::array<std::vector<SymbolModel>, 2>, 2>
+        trees;  // [leaf][after_zerotree][bits of the parent's subtree]
+    std::vector<SymbolModel> node;
     std::array<std::array<BitModel, most_planes>, most_planes + 1> magnitude;  // [bits of the level][which bit]
 };
 
@@ -36,6 +39,7 @@ struct Encoding {
 
     void tree(int symbol, int above, bool leaf) {
         encoder.symbol(models.tree(above, leaf), static_cast<std::size_t>(symbol + 1));
+        models.after_zerotree = symbol < 0;
     }
     void node(int symbol, int tree_bits) {
         encoder.symbol(models.node[static_cast<std::size_t>(tree_bits)], static_cast<std::size_t>(symbol + 1));
@@ -55,7 +59,9 @@ struct Decoding {
     int tree(int above, bool leaf) {
         // What lies past the end of a cut stream is read as zerotrees, which ends soon.
         if (decoder.ended()) return -1;
-        return static_cast<int>(decoder.symbol(models.tree(above, leaf))) - 1;
+        const int symbol = static_cast<int>(decoder.symbol(models.tree(above, leaf))) - 1;
+        models.after_zerotree = symbol < 0;
+        return symbol;
     }
     int node(int tree_bits) {
         return static_cast<int>(decoder.symbol(models.node[static_cast<std::size_t>(tree_bits)])) - 1;

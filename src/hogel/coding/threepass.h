@@ -18,7 +18,8 @@ namespace hogel {
 ///   Δp_n = p_n − p_t, or −1 when p_n >= b_max: an isolated zero; not for leaves, where it is 0;
 ///   its sign, and the b_max − p_n − 1 bits of its level below the leading one.
 /// Differs: here T may be any number from the largest magnitude up to twice of it, so that the step and not its power
-/// of two is free; the arithmetic coder learns Δp_t for each p_t(parent) and Δp_n for each p_t apart.
+/// of two is free; the arithmetic coder learns Δp_t apart for each p_t(parent), leaves or not, and after zerotrees or
+/// not, and Δp_n for each p_t.
 ///
 /// Stream: the step as a float32, little-endian; b_max, one byte; the arithmetic code.
 ///
