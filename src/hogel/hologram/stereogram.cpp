@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <list>
 #include <mutex>
 #include <numbers>
 
-#include "hogel/core/random.h"
 #include "hogel/core/units.h"
 #include "hogel/hologram/frequency_grid.h"
+#include "hogel/hologram/random_phase.h"
 #include "hogel/math/fft.h"
 
 namespace hogel {
@@ -21,18 +20,6 @@ using Complex = std::complex<float>;
 
 std::size_t samples_per_hogel(const LightFieldGrid& light_field, const StereogramOptions& options) {
     return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / options.pitch)));
-}
-
-// e^{2πi b/256} for every byte b. A phase drawn from 256 equal steps is as good as a continuous one: its first 255
-// circular moments vanish exactly, and the speckle it makes depends on the first few alone.
-const std::array<Complex, 256>& roots_of_unity() {
-    static const auto table = [] {
-        std::array<Complex, 256> roots;
-        for (std::size_t b = 0; b < roots.size(); ++b)
-            roots[b] = Complex(std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(b) / 256));
-        return roots;
-    }();
-    return table;
 }
 
 // The moduli of the DFT coefficients of a range of hogels, [nt][ns][n²]: the same for every look.
@@ -64,7 +51,8 @@ class Stereogram final : public FieldSource {
         Array<Complex, 2> hogel({n_, n_});
         for (std::size_t t = hogels.t0; t < hogels.t0 + hogels.nt; ++t)
             for (std::size_t s = hogels.s0; s < hogels.s0 + hogels.ns; ++s) {
-                spread_phases(moduli->values[t - hogels.t0][s - hogels.s0], s, t, look, hogel.elements());
+                spread_random_phases(phases(s, t, look), moduli->values[t - hogels.t0][s - hogels.s0].elements(),
+                                     hogel.elements());
                 fft_.backward(hogel);
                 // The part of the hogel that the region asks for.
                 const std::size_t x0 = std::max(s * n_, region.x0),
@@ -78,25 +66,11 @@ class Stereogram final : public FieldSource {
     }
 
   private:
-    // Gives each coefficient its random phase, counted from the hogel's first sample. The factor i of [K] (4.2) is part
-    // of the random phase.
-    void spread_phases(View<const float, 1> moduli, std::size_t s, std::size_t t, std::size_t look,
-                       std::span<Complex> coefficients) const {
-        const std::array<Complex, 256>& roots = roots_of_unity();
-        const std::array<std::uint32_t, 2> key{static_cast<std::uint32_t>(options_.seed),
-                                               static_cast<std::uint32_t>(options_.seed >> 32)};
-        const std::size_t count = coefficients.size();
-        // The counter names hogel, look, colour and direction; one draw has sixteen bytes for sixteen directions.
-        const auto series = static_cast<std::uint32_t>(look * 4 + options_.channel);
-        for (std::size_t i = 0; i < count; i += 16) {
-            const auto words = philox({static_cast<std::uint32_t>(i / 16), series, static_cast<std::uint32_t>(s),
-                                       static_cast<std::uint32_t>(t)},
-                                      key);
-            const std::size_t end = std::min<std::size_t>(16, count - i);
-            for (std::size_t j = 0; j < end; ++j) {
-                coefficients[i + j] = moduli.data()[i + j] * roots[words[j / 4] >> (8 * (j % 4)) & 0xff];
-            }
-        }
+    // Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.
+    PhaseSeries phases(std::size_t s, std::size_t t, std::size_t look) const {
+        return {{static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)},
+                {static_cast<std::uint32_t>(look * 4 + options_.channel), static_cast<std::uint32_t>(s),
+                 static_cast<std::uint32_t>(t)}};
     }
 
     std::shared_ptr<const Moduli> moduli_of(const HogelRange& hogels) const {

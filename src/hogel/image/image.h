@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +35,9 @@ float srgb_decode(float display);
 void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
                  const Metadata& metadata = {});
 
+/// Throws Error(usage) for a name that write_image() would refuse, before there is a picture to lose.
+void require_picture_name(const std::filesystem::path& path);
+
 /// Encodes a picture as the bytes of an 8-bit sRGB PNG file, for pages that carry their pictures inside.
 std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
@@ -44,6 +49,10 @@ Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std
 /// The same for the bytes of a picture file in memory (a texture inside a glTF file, say).
 Image decode_image(std::span<const unsigned char> bytes, const std::string& name,
                    std::size_t max_pixels = std::size_t{1} << 28);
+
+/// The words that a picture file carries, those of write_image() and of other programs; a TIFF file keeps them as lines
+/// of its "ImageDescription". Throws as read_image() does.
+Metadata read_metadata(const std::filesystem::path& path);
 
 /// The exposure that brings the brightest parts (the 99.5th percentile of the largest channel) to display white.
 double automatic_exposure(const Image& image);

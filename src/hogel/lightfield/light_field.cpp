@@ -127,7 +127,7 @@ HogelRange default_tile(const LightFieldGrid& grid) {
 
 void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress) {
     const LightFieldGrid& grid = source.grid();
-    const HogelRange size = default_tile(grid);
+    const HogelRange size = source.preferred_tile();
     const std::size_t across = (grid.hogels_s + size.ns - 1) / size.ns;
     const std::size_t down = (grid.hogels_t + size.nt - 1) / size.nt;
     std::mutex reporting;

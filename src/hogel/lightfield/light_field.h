@@ -57,6 +57,9 @@ struct LightFieldTile {
 /// Throws Error(usage) when a tile's range is empty or leaves the grid, or its arrays do not have the range's shapes.
 void validate(const LightFieldTile& tile, const LightFieldGrid& grid);
 
+/// The size of tile that suits most sources: as many hogels as about 16 MiB of samples hold, 1×1 at least.
+HogelRange default_tile(const LightFieldGrid& grid);
+
 /// Where light fields come from: memory, a file, a decoder, a renderer working on demand. read() may be called from
 /// several threads at once and gives the same values for a hogel whatever the range it is asked for in.
 class LightFieldSource {
@@ -64,6 +67,8 @@ class LightFieldSource {
     virtual ~LightFieldSource() = default;
     virtual const LightFieldGrid& grid() const = 0;
     virtual bool has_depth() const { return false; }
+    /// The size of tile (s0 = t0 = 0) that this source reads at the least cost per hogel; any other works too.
+    virtual HogelRange preferred_tile() const { return default_tile(grid()); }
     /// Fills the tile's radiance for tile.range, and its depth where the tile has room for it and has_depth().
     virtual void read(LightFieldTile& tile) const = 0;
 };
@@ -93,10 +98,8 @@ class LightField final : public LightFieldSource, public LightFieldSink {
     LightFieldGrid grid_;
 };
 
-/// The tiles that `copy` and other streaming loops use: as many hogels as about 16 MiB of samples hold, 1×1 at least.
-HogelRange default_tile(const LightFieldGrid& grid);
-
-/// Streams a light field from a source to a sink tile by tile on all threads; memory: a few tiles. Calls finish().
+/// Streams a light field from a source to a sink in the source's preferred tiles on all threads; memory: a tile a
+/// thread. Calls finish().
 void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
 
 }  // namespace hogel

@@ -119,6 +119,25 @@ TEST(LightField, copy_carries_everything_over_many_tiles) {
     EXPECT_TRUE(std::ranges::equal(to.depth.elements(), from.depth.elements()));
 }
 
+TEST(LightField, copy_asks_for_the_tiles_that_the_source_prefers) {
+    struct Rows final : LightFieldSource {
+        LightField whole = numbered(small_grid(), false);
+        const LightFieldGrid& grid() const override { return whole.grid(); }
+        HogelRange preferred_tile() const override { return {0, 0, 3, 2}; }
+        void read(LightFieldTile& tile) const override {
+            EXPECT_EQ(tile.range.s0 % 3, 0u);
+            EXPECT_EQ(tile.range.t0 % 2, 0u);
+            EXPECT_EQ(tile.range.ns, std::min<std::size_t>(3, grid().hogels_s - tile.range.s0));
+            EXPECT_EQ(tile.range.nt, std::min<std::size_t>(2, grid().hogels_t - tile.range.t0));
+            whole.read(tile);
+        }
+    } from;
+    ASSERT_GT(from.grid().hogels_s, 3u);
+    LightField to(from.grid());
+    copy(from, to);
+    EXPECT_TRUE(std::ranges::equal(to.radiance.elements(), from.whole.radiance.elements()));
+}
+
 TEST(LightField, copy_stops_when_asked_to) {
     const LightField from = numbered(small_grid(), false);
     LightField to(small_grid());

@@ -9,6 +9,9 @@
 namespace hogel {
 namespace {
 
+// std::lerp would check for infinities.
+float mix(float a, float b, float weight) { return a + (b - a) * weight; }
+
 struct LensPoint {
     double x, y;              // metres from the centre of the lens
     double pixel_x, pixel_y;  // where in the pixel this ray lands, −½..½
@@ -96,9 +99,9 @@ class Exposure {
                 const std::size_t u1 = u.high(grid_.directions_u), v1 = v.high(grid_.directions_v);
                 for (std::size_t c = 0; c < grid_.channels; ++c) {
                     const View<const float, 2> hogel = tile.radiance.view()[c][t][s];
-                    const float top = std::lerp(hogel(v.low, u.low), hogel(v.low, u1), u.high_weight);
-                    const float bottom = std::lerp(hogel(v1, u.low), hogel(v1, u1), u.high_weight);
-                    seen(t, s, c) = std::lerp(top, bottom, v.high_weight);
+                    const float top = mix(hogel(v.low, u.low), hogel(v.low, u1), u.high_weight);
+                    const float bottom = mix(hogel(v1, u.low), hogel(v1, u1), u.high_weight);
+                    seen(t, s, c) = mix(top, bottom, v.high_weight);
                 }
             }
         }
@@ -128,9 +131,9 @@ class Exposure {
             if (s.outside || s.low < cells.s0 || s.low >= cells.s0 + cells.ns) continue;
             const std::size_t s0 = s.low - held.s0, s1 = s.high(grid_.hogels_s) - held.s0;
             for (std::size_t c = 0; c < grid_.channels; ++c) {
-                const float top = std::lerp(seen(t0, s0, c), seen(t0, s1, c), s.high_weight);
-                const float bottom = std::lerp(seen(t1, s0, c), seen(t1, s1, c), s.high_weight);
-                image_.pixels(row, static_cast<std::size_t>(column), c) += std::lerp(top, bottom, t.high_weight);
+                const float top = mix(seen(t0, s0, c), seen(t0, s1, c), s.high_weight);
+                const float bottom = mix(seen(t1, s0, c), seen(t1, s1, c), s.high_weight);
+                image_.pixels(row, static_cast<std::size_t>(column), c) += mix(top, bottom, t.high_weight);
             }
         }
     }

@@ -80,10 +80,10 @@ std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camer
 
     std::vector<Image> images(cameras.size());
     for (std::size_t e = 0; e < eyes.size(); ++e)
-        parallel_for(eyes[e].members.size(), [&](std::size_t c) {
+        for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
             for (float& value : intensities[e][c].elements()) value /= static_cast<float>(looks);
             images[eyes[e].members[c]] = films[e].develop(c, intensities[e][c]);
-        });
+        }
     return images;
 }
 

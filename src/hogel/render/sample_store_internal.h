@@ -16,6 +16,9 @@ struct VisiblePoint {
     double depth = std::numeric_limits<double>::infinity();  ///< ζ, metres
 };
 
+/// By the weights of Rec. ITU-R BT.709: what a light field with one channel holds.
+inline float luminance(Rgb radiance) { return 0.2126f * radiance.r + 0.7152f * radiance.g + 0.0722f * radiance.b; }
+
 /// Shades a visible point and stores it as sample (t, s, v, u) of a tile; t and s count from the tile's corner.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const VisiblePoint& point, std::size_t t,
                   std::size_t s, std::size_t v, std::size_t u) {
@@ -27,8 +30,7 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const VisibleP
         tile.radiance(1, t, s, v, u) = radiance.g;
         tile.radiance(2, t, s, v, u) = radiance.b;
     } else {
-        // Luminance by the weights of Rec. ITU-R BT.709.
-        tile.radiance(0, t, s, v, u) = 0.2126f * radiance.r + 0.7152f * radiance.g + 0.0722f * radiance.b;
+        tile.radiance(0, t, s, v, u) = luminance(radiance);
     }
     if (tile.depth.size() > 0) tile.depth(t, s, v, u) = static_cast<float>(point.depth);
 }

@@ -1,0 +1,111 @@
+#include "arguments.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "defaults.h"
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+
+namespace hogel::cli {
+namespace {
+
+constexpr std::size_t largest_count = std::size_t{1} << 24;  // more along one side is a slip of the finger
+
+std::size_t parse_count(const std::string& text, const std::string& what, const char* hint) {
+    const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+    if (digits && text.size() < 10) {
+        const std::size_t count = std::stoul(text);
+        if (count > 0 && count <= largest_count) return count;
+    }
+    throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a positive whole number{}", what, text, hint));
+}
+
+Counts parse_counts(const std::string& text, const std::string& what) {
+    constexpr const char* hint = "; write e.g. 256x256";
+    const std::size_t cross = text.find('x');
+    if (cross == std::string::npos) {
+        const std::size_t side = parse_count(text, what, hint);
+        return {side, side};
+    }
+    return {parse_count(text.substr(0, cross), what, hint), parse_count(text.substr(cross + 1), what, hint)};
+}
+
+Vec3 parse_point(const std::string& text, const std::string& what) {
+    const std::size_t first = text.find(','), second = text.find(',', first + 1);
+    if (first == std::string::npos || second == std::string::npos || text.find(',', second + 1) != std::string::npos)
+        throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not x,y,z; write e.g. 0,0,300mm", what, text));
+    const std::string z = text.substr(second + 1);
+    const std::size_t number = z.find_first_not_of("+-.0123456789");
+    const std::string unit = number == std::string::npos ? "" : z.substr(number);
+    const auto component = [&](const std::string& part) {
+        const bool bare = part.find_first_not_of("+-.0123456789") == std::string::npos;
+        return parse_length(bare ? part + unit : part, what);
+    };
+    return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
+}
+
+// An option that is read by a function of its text and its name.
+template <class Value, class Parse>
+CLI::Option* add_parsed(CLI::App* command, const std::string& name, Value& value, const std::string& help,
+                        const char* type, const std::string& shown, Parse parse) {
+    return command
+        ->add_option_function<std::string>(
+            name, [&value, name, parse](const std::string& text) { value = parse(text, name); }, help)
+        ->type_name(type)
+        ->default_str(shown);
+}
+
+// Without the space that format_length puts before the unit: as one types it.
+std::string typed(double metres) {
+    std::string text = format_length(metres);
+    std::erase(text, ' ');
+    return text;
+}
+
+}  // namespace
+
+CLI::Option* add_length(CLI::App* command, const std::string& name, double& metres, const std::string& help) {
+    return add_parsed(command, name, metres, help, "LENGTH", typed(metres),
+                      [](const std::string& text, const std::string& what) { return parse_length(text, what); });
+}
+
+CLI::Option* add_angle(CLI::App* command, const std::string& name, double& radians, const std::string& help) {
+    return add_parsed(command, name, radians, help, "ANGLE", fmt::format("{:.6g}deg", radians * 180 / std::numbers::pi),
+                      [](const std::string& text, const std::string& what) { return parse_angle(text, what); });
+}
+
+CLI::Option* add_counts(CLI::App* command, const std::string& name, Counts& counts, const std::string& help) {
+    return add_parsed(command, name, counts, help, "WxH", fmt::format("{}x{}", counts.columns, counts.rows),
+                      parse_counts);
+}
+
+CLI::Option* add_point(CLI::App* command, const std::string& name, Vec3& point, const std::string& help) {
+    return add_parsed(command, name, point, help, "X,Y,Z",
+                      fmt::format("{:.6g},{:.6g},{:.6g}mm", point.x * 1e3, point.y * 1e3, point.z * 1e3), parse_point);
+}
+
+CLI::Option* add_count(CLI::App* command, const std::string& name, std::size_t& count, const std::string& help) {
+    return add_parsed(command, name, count, help, "N", fmt::format("{}", count),
+                      [](const std::string& text, const std::string& what) { return parse_count(text, what, ""); });
+}
+
+CLI::Option* add_wavelengths(CLI::App* command, std::vector<double>& wavelengths) {
+    wavelengths = {defaults.red, defaults.green, defaults.blue};
+    return add_parsed(command, "--wavelength", wavelengths,
+                      fmt::format("Wavelength, or rgb for {}, {} and {}", format_length(defaults.red),
+                                  format_length(defaults.green), format_length(defaults.blue)),
+                      "LENGTH|rgb", "rgb", [](const std::string& text, const std::string& what) {
+                          if (text == "rgb") return std::vector{defaults.red, defaults.green, defaults.blue};
+                          return std::vector{parse_length(text, what)};
+                      });
+}
+
+std::size_t colour_of(double wavelength) {
+    if (wavelength >= 580_nm) return 0;
+    return wavelength >= 490_nm ? 1 : 2;
+}
+
+}  // namespace hogel::cli

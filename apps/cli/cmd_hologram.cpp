@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "inputs.h"
+#include "outputs.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string input, output;
+    RenderOptions render;
+    HologramOptions hologram;
+};
+
+int hologram(const Options& options, const Session& session) {
+    const InputKind kind = input_kind(options.input);
+    if (kind == InputKind::hologram)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
+    require_writable(options.output);
+    if (kind == InputKind::scene) require_holograms(options.render.grid(), options.hologram);
+    const auto light_field =
+        open_or_render(session, options.input, options.render, options.hologram.wavelengths.size() > 1);
+    const auto sources = make_holograms(session, *light_field, options.hologram, 1);
+
+    std::vector<FieldGrid> grids;
+    for (const auto& source : sources) grids.push_back(source->grid());
+    const auto sinks = create_hologram(options.output, grids, describe_run(session));
+    Stage stage(session, "hologram");
+    for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
+    session.say(fmt::format("{}: {}x{} samples at {}, {} wavelength{}, {}", options.output, grids[0].plane.width,
+                            grids[0].plane.height, format_length(grids[0].plane.pitch_x), grids.size(),
+                            grids.size() == 1 ? "" : "s",
+                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    return 0;
+}
+
+}  // namespace
+
+void add_hologram(CLI::App& app, Session& session) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = add_command(app, session, "hologram", "Turn a light field or a scene into a hologram",
+                                    "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
+                                    "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm",
+                                    [options, &session] { return hologram(*options, session); });
+    command->add_option("input", options->input, "Light field, mesh file or built-in scene")
+        ->type_name("X.h5|SCENE")
+        ->required();
+    command->add_option("-o,--output", options->output, "Hologram to write, HDF5")->type_name("FILE")->required();
+    add_hologram_options(command, options->hologram);
+    add_render_options(command, options->render);
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "hogel/image/image.h"
+#include "hogel/io/files.h"
+#include "hogel/scene/import.h"
+
+namespace hogel::cli {
+namespace {
+
+FileSummary summarize_picture(const std::string& path) {
+    const Image image = read_image(path);
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (const float value : image.pixels.elements()) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    FileSummary summary;
+    summary.kind = FileKind::picture;
+    summary.text = {{"kind", "picture"}};
+    for (const auto& entry : read_metadata(path)) summary.text.push_back(entry);
+    summary.numbers = {{"width", static_cast<double>(image.width())},
+                       {"height", static_cast<double>(image.height())},
+                       {"channels", static_cast<double>(image.channels())},
+                       {"lowest_linear_value", low},
+                       {"highest_linear_value", high}};
+    return summary;
+}
+
+FileSummary summarize_mesh(const std::string& path) {
+    const Scene scene = import_scene(path);
+    const Bounds box = bounds(scene);
+    FileSummary summary;
+    summary.kind = FileKind::mesh;
+    summary.text = {{"kind", "mesh"}};
+    summary.numbers = {{"meshes", static_cast<double>(scene.meshes.size())},
+                       {"triangles", static_cast<double>(triangle_count(scene))},
+                       {"lights", static_cast<double>(scene.lights.size())},
+                       {"low_x", box.low.x},
+                       {"low_y", box.low.y},
+                       {"low_z", box.low.z},
+                       {"high_x", box.high.x},
+                       {"high_y", box.high.y},
+                       {"high_z", box.high.z}};
+    return summary;
+}
+
+FileSummary summarize_any(const std::string& path) {
+    switch (file_kind(path)) {
+        case FileKind::light_field:
+        case FileKind::hologram:
+            return summarize(path);
+        case FileKind::picture:
+            return summarize_picture(path);
+        case FileKind::mesh:
+            return summarize_mesh(path);
+        case FileKind::unknown:
+            break;
+    }
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: is neither a light field, a hologram, a picture nor a mesh", path));
+}
+
+int info(const std::string& path, bool as_json) {
+    const FileSummary summary = summarize_any(path);
+    if (as_json) {
+        nlohmann::ordered_json json;
+        for (const auto& [name, value] : summary.text) json[name] = value;
+        for (const auto& [name, value] : summary.numbers) json[name] = value;
+        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+        for (const auto& [name, value] : summary.text) fmt::print("{:<24} {}\n", name, value);
+        for (const auto& [name, value] : summary.numbers) fmt::print("{:<24} {:.9g}\n", name, value);
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Session& session) {
+    auto path = std::make_shared<std::string>();
+    auto as_json = std::make_shared<bool>(false);
+    CLI::App* command =
+        add_command(app, session, "info", "Say what a file is and what made it, in SI units",
+                    "  hogel info pumpkin.h5\n  hogel info hologram.h5 --json", [=] { return info(*path, *as_json); });
+    command->add_option("file", *path, "Light field, hologram, picture or mesh")->type_name("FILE")->required();
+    command->add_flag("--json", *as_json, "As a JSON object");
+}
+
+}  // namespace hogel::cli

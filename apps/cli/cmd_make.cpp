@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "commands.h"
+#include "hogel/core/output_file.h"
+#include "hogel/core/parallel.h"
+#include "hogel/lightfield/photograph.h"
+#include "inputs.h"
+#include "outputs.h"
+#include "report.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string scene, output;
+    RenderOptions render;
+    HologramOptions hologram;
+    double eye_distance = defaults.eye_distance;
+    double pupil = defaults.pupil;
+    std::size_t resolution = defaults.resolution;
+    std::size_t looks = defaults.looks;
+    std::size_t pupil_samples = defaults.pupil_samples;
+    bool store_hologram = false;
+};
+
+struct Focus {
+    std::string name;
+    double depth;
+};
+
+// A sixth of the scene's depth from its nearest point, and as much from its farthest.
+std::array<Focus, 2> focuses(const Scene& scene, double eye_distance) {
+    const Bounds box = bounds(scene);
+    const double front = -box.high.z, back = -box.low.z, sixth = (back - front) / 6;
+    return {Focus{"near", std::max(front + sixth, -0.5 * eye_distance)}, Focus{"far", back - sixth}};
+}
+
+// Left, high and right, as far from the middle as every hogel still sends rays to the whole lens.
+std::array<std::pair<std::string, Vec3>, 3> eyes(const Options& options, const LightFieldGrid& grid) {
+    const double half_width = 0.5 * grid.pitch * static_cast<double>(std::max(grid.hogels_s, grid.hogels_t));
+    const double margin = half_width + 0.5 * options.pupil, tangent = std::min(grid.tan_half_u, grid.tan_half_v);
+    const double reach = options.eye_distance * tangent - margin;
+    if (!(reach > 0))
+        throw Error(ErrorCode::usage,
+                    fmt::format("--eye-distance: at {} the field of view does not cover the whole hologram; it does "
+                                "beyond {}",
+                                format_length(options.eye_distance), format_length(margin / tangent)));
+    const double aside = 0.7 * reach, z = options.eye_distance;
+    return {{{"left", {-aside, 0, z}}, {"high", {0, aside, z}}, {"right", {aside, 0, z}}}};
+}
+
+std::vector<PhotographPair> plan_photographs(const Options& options, const Scene& scene, const LightFieldGrid& grid) {
+    std::vector<PhotographPair> pairs;
+    for (const Focus& focus : focuses(scene, options.eye_distance))
+        for (const auto& [eye_name, eye] : eyes(options, grid)) {
+            PhotographPair pair;
+            pair.eye_name = eye_name;
+            pair.focus_name = focus.name;
+            pair.camera = camera_for(grid.pitch * static_cast<double>(grid.hogels_s),
+                                     grid.pitch * static_cast<double>(grid.hogels_t), options.resolution);
+            pair.camera.eye = eye;
+            pair.camera.focus_depth = focus.depth;
+            pair.camera.pupil = options.pupil;
+            validate(pair.camera);
+            pair.wave_file = fmt::format("photo_{}_{}", eye_name, focus.name);
+            pair.geometric_file = pair.wave_file + "_geometric";
+            pairs.push_back(pair);
+        }
+    return pairs;
+}
+
+// Runs a stage of the work, tells how long it took, and keeps the time for the report.
+template <class Work>
+void timed(const Session& session, Report& report, const std::string& name, Work work) {
+    Stage stage(session, name);
+    work(stage);
+    report.stages.emplace_back(name, stage.seconds());
+    session.say(fmt::format("{:<24} {:8.1f} s", name, stage.seconds()));
+}
+
+void store(const std::vector<std::unique_ptr<FieldSource>>& holograms, const std::filesystem::path& path,
+           const Metadata& metadata, Stage& stage) {
+    std::vector<FieldGrid> grids;
+    for (const auto& hologram : holograms) grids.push_back(hologram->grid());
+    const auto sinks = create_hologram(path, grids, metadata);
+    for (std::size_t i = 0; i < sinks.size(); ++i) copy(*holograms[i], *sinks[i], 0, stage.progress(i, sinks.size()));
+}
+
+void write_pictures(const std::filesystem::path& folder, const Report& report) {
+    for (const PhotographPair& pair : report.pairs) {
+        Metadata metadata = report.run;
+        metadata.emplace_back("exposure", fmt::format("{:.9g}", report.exposure));
+        for (const char* extension : {".png", ".exr"}) {
+            write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, metadata);
+            write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, metadata);
+        }
+    }
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    write_file(path, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
+int make(const Options& options, const Session& session) {
+    if (input_kind(options.scene) != InputKind::scene)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
+    Report report;
+    report.scene = options.scene;
+    report.algorithm = options.render.algorithm;
+    report.light_field = options.render.grid();
+    report.looks = options.looks;
+    report.pupil_samples = options.pupil_samples;
+    report.threads = thread_count();
+    report.run = describe_run(session);
+
+    require_holograms(report.light_field, options.hologram);
+    const Scene scene = load_scene(options.scene, options.render);
+    report.triangles = triangle_count(scene);
+    report.pairs = plan_photographs(options, scene, report.light_field);
+    std::vector<Camera> cameras;
+    for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
+
+    const OutputFolder folder(options.output);
+    const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
+
+    timed(session, report, "light field", [&](Stage& stage) {
+        const auto renderer = render_on_demand(scene, options.render);
+        const auto sink = create_light_field(light_field_file, report.light_field, {.metadata = report.run});
+        copy(*renderer, *sink, stage.progress());
+    });
+    report.light_field_bytes = static_cast<double>(std::filesystem::file_size(light_field_file));
+    const auto light_field = open_light_field(light_field_file);
+    const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
+    for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
+
+    timed(session, report, "photographs by rays", [&](Stage& stage) {
+        std::vector<Image> pictures = photograph(*light_field, cameras, options.pupil_samples, stage.progress());
+        for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].geometric = std::move(pictures[i]);
+    });
+    if (options.store_hologram)
+        timed(session, report, "hologram file",
+              [&](Stage& stage) { store(holograms, folder.path() / "hologram.h5", report.run, stage); });
+    timed(session, report, "photographs by waves", [&](Stage& stage) {
+        std::vector<Image> pictures = photograph_colours(stage, holograms, cameras);
+        for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
+    });
+
+    // One exposure for all, from the view from above.
+    report.exposure = automatic_exposure(report.pairs[1].geometric);
+    for (PhotographPair& pair : report.pairs) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
+    write_pictures(folder.path(), report);
+    write_text(folder.path() / "report.json", report_json(report));
+    write_text(folder.path() / "report.html", report_html(report));
+    session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
+    return 0;
+}
+
+}  // namespace
+
+void add_make(CLI::App& app, Session& session) {
+    auto options = std::make_shared<Options>();
+    options->hologram.wavelengths = {defaults.red, defaults.green, defaults.blue};
+    CLI::App* command = add_command(app, session, "make", "From a scene to photographs of its hologram, with a report",
+                                    "  hogel make pumpkin -o pumpkin\n"
+                                    "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4",
+                                    [options, &session] { return make(*options, session); });
+    command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
+    command->add_option("-o,--output", options->output, "Folder for everything that is made")
+        ->type_name("DIR")
+        ->required();
+    command->add_flag("--store-hologram", options->store_hologram,
+                      "Keep hologram.h5 too; otherwise it streams through and is never stored");
+    const auto hologram = [](CLI::Option* option) { option->group("Hologram"); };
+    const auto camera = [](CLI::Option* option) { option->group("Camera"); };
+    hologram(add_length(command, "--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel"));
+    camera(add_length(command, "--eye-distance", options->eye_distance, "Of the lens from the hologram's plane"));
+    camera(add_length(command, "--pupil", options->pupil, "Diameter of the lens"));
+    camera(add_count(command, "--resolution", options->resolution, "Pixels across a photograph"));
+    camera(add_count(command, "--looks", options->looks, "Photographs averaged against speckle"));
+    camera(
+        add_count(command, "--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays"));
+    add_render_options(command, options->render);
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,15 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "hogel/scene/builtin.h"
+
+namespace hogel::cli {
+
+void add_scenes(CLI::App& app, Session& session) {
+    add_command(app, session, "scenes", "List the built-in scenes", "  hogel scenes", [] {
+        for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<16} {}\n", scene.name, scene.description);
+        return 0;
+    });
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,187 @@
+#include "inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/optics/photograph.h"
+#include "hogel/render/renderer.h"
+#include "hogel/scene/builtin.h"
+#include "hogel/scene/import.h"
+#include "hogel/shading/shaded_scene.h"
+
+namespace hogel::cli {
+namespace {
+
+// A light field up to this size is kept in memory rather than rendered again for each colour.
+constexpr double kept_bytes = 2e9;
+
+bool is_builtin(const std::string& name) {
+    return std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
+}
+
+StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
+                                     double wavelength) {
+    StereogramOptions stereogram;
+    stereogram.wavelength = wavelength;
+    stereogram.pitch = options.pitch;
+    stereogram.channel = light_field.channels == 1 ? 0 : colour_of(wavelength);
+    return stereogram;
+}
+
+}  // namespace
+
+LightFieldGrid RenderOptions::grid() const {
+    if (!(size > 0)) throw Error(ErrorCode::usage, "--size: the hologram's side must be positive");
+    if (!(field_of_view > 0 && field_of_view < std::numbers::pi))
+        throw Error(ErrorCode::usage, "--fov: the full angle must lie between 0 and 180 degrees");
+    LightFieldGrid grid;
+    grid.hogels_s = hogels.columns;
+    grid.hogels_t = hogels.rows;
+    grid.pitch = size / static_cast<double>(hogels.columns);
+    grid.directions_u = directions.columns;
+    grid.directions_v = directions.rows;
+    grid.tan_half_u = std::tan(field_of_view / 2);
+    grid.tan_half_v = grid.tan_half_u;
+    grid.channels = 3;
+    validate(grid, ErrorCode::usage, "light field");
+    return grid;
+}
+
+void add_render_options(CLI::App* command, RenderOptions& options) {
+    const auto group = [](CLI::Option* option) { option->group("Light field of a scene"); };
+    std::string algorithms;
+    for (const RendererInfo& renderer : renderers()) {
+        if (options.algorithm.empty()) options.algorithm = renderer.name;
+        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.description);
+    }
+    group(command->add_option("--algorithm", options.algorithm, "Renderer:" + algorithms)
+              ->type_name("NAME")
+              ->capture_default_str());
+    group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
+    group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
+    group(add_length(command, "--size", options.size, "Width of the hologram"));
+    group(add_angle(command, "--fov", options.field_of_view, "Field of view, the full angle"));
+    group(command
+              ->add_option("--front", options.front,
+                           "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all")
+              ->type_name("0..1")
+              ->check(CLI::Range(0.0, 1.0).description(""))
+              ->capture_default_str());
+    CLI::Option* as_is = command->add_flag("--as-is", options.as_is,
+                                           "Take a mesh file where it is, its numbers as metres, z towards the viewer");
+    group(as_is);
+    group(command
+              ->add_flag_function(
+                  "--fit", [](std::int64_t) {}, "Scale and move a mesh file to fill the hologram (default)")
+              ->excludes(as_is));
+}
+
+void add_hologram_options(CLI::App* command, HologramOptions& options) {
+    const auto group = [](CLI::Option* option) { option->group("Hologram"); };
+    group(add_wavelengths(command, options.wavelengths));
+    group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
+    group(command->add_option("--phase", options.phase, "Phase of each hogel's directions")
+              ->type_name("random")
+              ->check(CLI::IsMember({"random"}).description(""))
+              ->capture_default_str());
+}
+
+InputKind input_kind(const std::string& name) {
+    if (is_builtin(name)) return InputKind::scene;
+    if (!std::filesystem::exists(name)) {
+        if (name.find_first_of("./") != std::string::npos)
+            throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
+        make_builtin_scene(name, defaults.size);  // knows the names that exist, and says so
+    }
+    switch (file_kind(name)) {
+        case FileKind::light_field:
+            return InputKind::light_field;
+        case FileKind::hologram:
+            return InputKind::hologram;
+        case FileKind::mesh:
+            return InputKind::scene;
+        case FileKind::picture:
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is a picture; expected a scene, a light field or a hologram", name));
+        case FileKind::unknown:
+            break;
+    }
+    throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
+}
+
+Scene load_scene(const std::string& name, const RenderOptions& options) {
+    if (is_builtin(name)) return make_builtin_scene(name, options.size);
+    Scene scene = import_scene(name);
+    if (!options.as_is) {
+        Fit fit;
+        fit.width = options.size;
+        fit.height =
+            options.size * static_cast<double>(options.hogels.rows) / static_cast<double>(options.hogels.columns);
+        fit.front = options.front;
+        fit_scene(scene, fit);
+    }
+    if (scene.lights.empty()) add_default_lights(scene);
+    return scene;
+}
+
+std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const RenderOptions& options) {
+    return make_renderer(options.algorithm, std::make_shared<ShadedScene>(shade_vertices(scene)), options.grid());
+}
+
+std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                 const RenderOptions& options, bool read_often) {
+    if (input_kind(name) == InputKind::light_field) return open_light_field(name);
+    std::unique_ptr<LightFieldSource> renderer = render_on_demand(load_scene(name, options), options);
+    if (!read_often || renderer->grid().samples() * sizeof(float) > kept_bytes) return renderer;
+    Stage stage(session, "rendering");
+    auto light_field = std::make_unique<LightField>(renderer->grid());
+    copy(*renderer, *light_field, stage.progress());
+    return light_field;
+}
+
+void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options) {
+    const double shortest = *std::ranges::min_element(options.wavelengths);  // is diffracted least
+    stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
+}
+
+std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
+                                                         const HologramOptions& options, std::size_t looks) {
+    std::vector<std::unique_ptr<FieldSource>> holograms;
+    for (const double wavelength : options.wavelengths) {
+        StereogramOptions stereogram = stereogram_options(light_field.grid(), options, wavelength);
+        stereogram.looks = looks;
+        stereogram.seed = session.seed;
+        holograms.push_back(make_stereogram(light_field, stereogram));
+    }
+    return holograms;
+}
+
+std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
+                                      std::span<const Camera> cameras) {
+    const std::size_t colours = holograms.size();
+    std::vector<Image> pictures(cameras.size());
+    for (std::size_t c = 0; c < colours; ++c) {
+        const std::vector<Image> seen = photograph(*holograms[c], cameras, stage.progress(c, colours));
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
+            for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
+                pictures[i].pixels.data()[pixel * colours + c] = seen[i].pixels.data()[pixel];
+        }
+    }
+    return pictures;
+}
+
+Camera camera_for(double width, double height, std::size_t resolution) {
+    const double pixel = width / static_cast<double>(resolution);
+    const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(height / pixel)));
+    Camera camera;
+    camera.eye = {0, 0, defaults.eye_distance};
+    camera.pupil = defaults.pupil;
+    camera.picture = {resolution, rows, pixel, pixel, 0, 0};
+    return camera;
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "defaults.h"
+#include "hogel/hologram/stereogram.h"
+#include "hogel/image/camera.h"
+#include "hogel/image/image.h"
+#include "hogel/io/files.h"
+#include "hogel/lightfield/light_field.h"
+#include "hogel/scene/scene.h"
+#include "session.h"
+
+namespace hogel::cli {
+
+/// How a scene becomes a light field.
+struct RenderOptions {
+    std::string algorithm;
+    Counts hogels{defaults.hogels, defaults.hogels};
+    Counts directions{defaults.directions, defaults.directions};
+    double size = defaults.size;
+    double field_of_view = defaults.field_of_view;
+    bool as_is = false;
+    double front = defaults.front;
+
+    LightFieldGrid grid() const;
+};
+void add_render_options(CLI::App* command, RenderOptions& options);
+
+/// How a light field becomes a hologram.
+struct HologramOptions {
+    std::vector<double> wavelengths;
+    double pitch = defaults.pitch;
+    std::string phase = "random";
+};
+void add_hologram_options(CLI::App* command, HologramOptions& options);
+
+/// What the user may name as the input of a command: a light field, a hologram, or a scene (a built-in one or a mesh
+/// file). Throws Error(usage) for an unknown scene and Error(bad_input) for a file that is missing or none of these.
+enum class InputKind { scene, light_field, hologram };
+InputKind input_kind(const std::string& name);
+
+/// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), lit.
+Scene load_scene(const std::string& name, const RenderOptions& options);
+
+/// The light field of a scene, rendered where it is read.
+std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const RenderOptions& options);
+
+/// The light field that a name stands for: the file's, or the scene's. Where it will be read more than once, a scene's
+/// is rendered once and kept, provided that it fits into a modest part of memory.
+std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                 const RenderOptions& options, bool read_often);
+
+/// Throws Error(usage) where a light field sampled like this cannot become such holograms: too coarse a pitch, say.
+void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options);
+
+/// One hologram a wavelength, made from the light field where it is read.
+std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
+                                                         const HologramOptions& options, std::size_t looks);
+
+/// Photographs holograms of one or three wavelengths by wave optics and joins the colours.
+std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
+                                      std::span<const Camera> cameras);
+
+/// A camera that frames a hologram of this size with so many pixels across.
+Camera camera_for(double width, double height, std::size_t resolution);
+
+}  // namespace hogel::cli

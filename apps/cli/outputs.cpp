@@ -1,0 +1,32 @@
+#include "outputs.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "hogel/core/error.h"
+#include "hogel/core/output_file.h"
+
+namespace hogel::cli {
+namespace fs = std::filesystem;
+
+void require_writable(const fs::path& file) {
+    const OutputFile output(file);  // complains about a missing folder, or a folder in the file's place
+    if (access(output.temporary().parent_path().c_str(), W_OK) != 0)
+        throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
+}
+
+OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
+    std::error_code error;
+    created_ = fs::create_directories(path_, error);
+    if (error || !fs::is_directory(path_))
+        throw Error(ErrorCode::cannot_write, fmt::format("{}: cannot create this folder: {}", path_.string(),
+                                                         error ? error.message() : "a file has its name"));
+    require_writable(path_ / "report.html");
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code ignored;
+    if (created_) fs::remove(path_, ignored);  // succeeds for an empty folder alone
+}
+
+}  // namespace hogel::cli

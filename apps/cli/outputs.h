@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+namespace hogel::cli {
+
+/// Complains now, not after an hour of work, about an output whose folder is missing or not writable.
+void require_writable(const std::filesystem::path& file);
+
+/// Creates a folder and those above it, and removes it again when the work failed before anything was put into it.
+class OutputFolder {
+  public:
+    explicit OutputFolder(std::filesystem::path path);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    bool created_;
+};
+
+}  // namespace hogel::cli

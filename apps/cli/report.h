@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hogel/image/camera.h"
+#include "hogel/image/compare.h"
+#include "hogel/image/image.h"
+#include "hogel/lightfield/light_field.h"
+#include "hogel/optics/field.h"
+
+namespace hogel::cli {
+
+/// One view of the hologram, photographed by waves and, as its truth, by rays.
+struct PhotographPair {
+    std::string eye_name, focus_name;  ///< "left", "plane": parts of the file names
+    Camera camera;
+    Image wave, geometric;
+    std::string wave_file, geometric_file;  ///< names in the report's folder, without extension
+    ImageComparison comparison;
+};
+
+/// All that `hogel make` tells about its run, for people and for programs.
+struct Report {
+    std::string scene;
+    std::size_t triangles = 0;
+    std::string algorithm;
+    LightFieldGrid light_field;
+    double light_field_bytes = 0;  ///< of the file
+    std::vector<FieldGrid> holograms;
+    std::size_t looks = 0;
+    std::size_t pupil_samples = 0;
+    double exposure = 1;  ///< of every picture
+    std::vector<PhotographPair> pairs;
+    std::vector<std::pair<std::string, double>> stages;  ///< name, seconds
+    std::size_t threads = 0;
+    Metadata run;
+};
+
+/// A page that stands alone, its pictures inside.
+std::string report_html(const Report& report);
+/// The same numbers in SI units.
+std::string report_json(const Report& report);
+
+}  // namespace hogel::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace hogel {
+
+/// A file that appears under its own name only when it is complete: it is written as a temporary beside the target,
+/// which commit() renames and the destructor removes. A symbolic link is followed, so that its target is replaced.
+class OutputFile {
+  public:
+    /// Throws Error(cannot_write) when the directory does not exist, or the target is there and is not a plain file.
+    explicit OutputFile(const std::filesystem::path& target);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    const std::filesystem::path& target() const { return target_; }        ///< as it was asked for
+    const std::filesystem::path& temporary() const { return temporary_; }  ///< where to write
+    /// Throws Error(cannot_write) when the temporary cannot be renamed.
+    void commit();
+
+  private:
+    std::filesystem::path target_, final_name_, temporary_;
+    bool committed_ = false;
+};
+
+/// Writes a whole file that way. Throws Error(cannot_write).
+void write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
+
+}  // namespace hogel

@@ -1,0 +1,58 @@
+#include "hogel/hologram/random_phase.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "hogel/core/random.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+TEST(RandomPhase, keeps_moduli_and_takes_phases_from_the_bytes_of_the_draws) {
+    std::vector<float> moduli(40);
+    for (std::size_t i = 0; i < moduli.size(); ++i) moduli[i] = float(i);
+    std::vector<Complex> values(40);
+    const PhaseSeries series{{77, 3}, {5, 11, 13}};
+    spread_random_phases(series, moduli, values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto draw = philox({static_cast<std::uint32_t>(i / 16), 5, 11, 13}, {77, 3});
+        const double byte = draw[i % 16 / 4] >> (8 * (i % 4)) & 0xff;
+        const auto expected = std::polar(double(i), 2 * std::numbers::pi * byte / 256);
+        EXPECT_LT(std::abs(std::complex<double>(values[i]) - expected), 1e-6 * double(i) + 1e-12) << i;
+    }
+}
+
+// Uniform over the circle: the moments e^{ikφ}, k = 1..3, average to zero as fast as independent phases do, and phases
+// of neighbouring coefficients, hogels and looks do not know of each other.
+TEST(RandomPhase, is_uniform_and_independent) {
+    const std::size_t count = 4096;
+    const std::vector<float> ones(count, 1);
+    const auto draw = [&](std::uint32_t look, std::uint32_t s) {
+        std::vector<Complex> values(count);
+        spread_random_phases({{1, 0}, {look, s, 9}}, ones, values);
+        return values;
+    };
+    const auto a = draw(0, 0), other_look = draw(1, 0), other_hogel = draw(0, 1);
+    std::complex<double> moments[3]{}, with_look = 0, with_hogel = 0, with_next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::complex<double> z(a[i]);
+        moments[0] += z;
+        moments[1] += z * z;
+        moments[2] += z * z * z;
+        with_look += z * std::conj(std::complex<double>(other_look[i]));
+        with_hogel += z * std::conj(std::complex<double>(other_hogel[i]));
+        with_next += z * std::conj(std::complex<double>(a[(i + 1) % count]));
+    }
+    // A sum of n independent unit vectors is about √n long; 3.5 √n is passed about once in 200,000 draws.
+    const double bound = 3.5 * std::sqrt(double(count));
+    for (const auto& sum : {moments[0], moments[1], moments[2], with_look, with_hogel, with_next})
+        EXPECT_LT(std::abs(sum), bound);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,43 @@
+#include "hogel/image/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+std::string refusal(void (*change)(Camera&)) {
+    Camera camera;
+    camera.picture = {64, 48, 1e-4, 1e-4, 0, 0};
+    change(camera);
+    try {
+        validate(camera);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Camera, validate_names_what_is_wrong) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(refusal([](Camera&) {}), "");
+    EXPECT_EQ(refusal([](Camera& c) { c.focus_depth = -0.29; }), "");
+    EXPECT_NE(refusal([](Camera& c) { c.eye.z = 0; }).find("eye"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.eye.x = nan; }).find("eye"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.focus_depth = -0.3; }).find("focus"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.focus_depth = nan; }).find("focus"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.pupil = 0; }).find("pupil"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.picture.height = 0; }).find("64x0"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.picture.width = c.picture.height = std::size_t{1} << 32; }).find("addressed"),
+              std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.picture.pitch_y = -1; }).find("pitch"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.picture.center_y = nan; }).find("centre"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,43 @@
+#include "hogel/image/image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hogel {
+
+// IEC 61966-2-1, with the constants as published there.
+float srgb_encode(float linear) {
+    if (!(linear > 0)) return 0;  // NaN too
+    if (linear >= 1) return 1;
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+float srgb_decode(float display) {
+    if (!(display > 0)) return 0;
+    if (display >= 1) return 1;
+    return display <= 0.04045f ? display / 12.92f : std::pow((display + 0.055f) / 1.055f, 2.4f);
+}
+
+double automatic_exposure(const Image& image) {
+    std::vector<float> largest;
+    largest.reserve(image.width() * image.height());
+    for (std::size_t y = 0; y < image.height(); ++y)
+        for (std::size_t x = 0; x < image.width(); ++x) {
+            float value = 0;
+            for (std::size_t c = 0; c < image.channels(); ++c) {
+                const float sample = image.pixels(y, x, c);
+                if (std::isfinite(sample)) value = std::max(value, sample);
+            }
+            largest.push_back(value);
+        }
+    if (largest.empty()) return 1;
+    const auto rank = static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(largest.size() - 1));
+    std::nth_element(largest.begin(), largest.begin() + rank, largest.end());
+    float white = largest[static_cast<std::size_t>(rank)];
+    // A few bright points on black: they are all there is to see.
+    if (!(white > 0)) white = *std::max_element(largest.begin(), largest.end());
+    return white > 0 ? 1 / static_cast<double>(white) : 1;
+}
+
+}  // namespace hogel

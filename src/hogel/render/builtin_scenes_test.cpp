@@ -1,0 +1,141 @@
+// Every renderer on the built-in scenes: against closed forms, and against each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "hogel/core/units.h"
+#include "hogel/render/renderer.h"
+#include "hogel/scene/analytic.h"
+#include "hogel/scene/builtin.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+constexpr double size = 20_mm;
+
+// The scene as it is made, or pushed back behind the hologram for a renderer that needs that.
+LightField render(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid, bool behind = false) {
+    LightField light_field(grid, true);
+    Scene scene = make_builtin_scene(name, size);
+    const double back = behind ? bounds(scene).high.z + 1_mm : 0;
+    for (Mesh& mesh : scene.meshes)
+        for (Vec3& position : mesh.positions) position.z -= back;
+    for (Light& light : scene.lights) light.position.z -= back;
+    const auto shaded = std::make_shared<const ShadedScene>(shade_vertices(scene));
+    copy(*make_renderer(algorithm, shaded, grid), light_field);
+    return light_field;
+}
+
+struct Case {
+    std::string algorithm, scene;
+};
+
+std::vector<Case> analytic_cases() {
+    std::vector<Case> list;
+    for (const RendererInfo& renderer : renderers())
+        for (const BuiltinScene& scene : builtin_scenes())
+            if (has_analytic_radiance(scene.name) &&
+                (renderer.straddles || bounds(make_builtin_scene(scene.name, size)).high.z < 0))
+                list.push_back({std::string(renderer.name), std::string(scene.name)});
+    return list;
+}
+
+std::string name_of(const ::testing::TestParamInfo<Case>& info) {
+    std::string name = info.param.algorithm + "_" + info.param.scene;
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+class ClosedForm : public ::testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(RenderersAndScenes, ClosedForm, ::testing::ValuesIn(analytic_cases()), name_of);
+
+TEST_P(ClosedForm, is_what_the_renderer_sees) {
+    const auto& [algorithm, scene] = GetParam();
+    const LightFieldGrid grid{16, 16, size / 16, 40, 40, 0.4, 0.4, 3};
+    const LightField seen = render(algorithm, scene, grid);
+    std::size_t compared = 0, hits = 0;
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s)
+            for (std::size_t v = 0; v < grid.directions_v; ++v)
+                for (std::size_t u = 0; u < grid.directions_u; ++u) {
+                    const AnalyticSample expected = analytic_radiance(scene, size, grid.s(double(s)), grid.t(double(t)),
+                                                                      grid.u(double(u)), grid.v(double(v)));
+                    if (expected.clearance < size / 1000) continue;
+                    ++compared;
+                    const float depth = seen.depth(t, s, v, u);
+                    ASSERT_EQ(std::isfinite(depth), std::isfinite(expected.depth));
+                    if (std::isfinite(depth)) {
+                        ++hits;
+                        ASSERT_NEAR(depth, expected.depth, 1e-3 * size);
+                    }
+                    ASSERT_NEAR(seen.radiance(0, t, s, v, u), expected.radiance.r, 1e-3);
+                    ASSERT_NEAR(seen.radiance(1, t, s, v, u), expected.radiance.g, 1e-3);
+                    ASSERT_NEAR(seen.radiance(2, t, s, v, u), expected.radiance.b, 1e-3);
+                }
+    EXPECT_GT(compared, grid.hogels() * grid.directions() * 9 / 10);
+    EXPECT_GT(hits, 0u);
+}
+
+// Whether the depths around a sample jump, as they do at a silhouette.
+bool near_silhouette(const LightField& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+    const LightFieldGrid& grid = light_field.grid();
+    float low = light_field.depth(t, s, v, u), high = low;
+    for (std::size_t l = v > 0 ? v - 1 : 0; l < std::min(v + 2, grid.directions_v); ++l)
+        for (std::size_t k = u > 0 ? u - 1 : 0; k < std::min(u + 2, grid.directions_u); ++k) {
+            low = std::min(low, light_field.depth(t, s, l, k));
+            high = std::max(high, light_field.depth(t, s, l, k));
+        }
+    return low != high && !(high - low < 0.02 * size);
+}
+
+std::vector<Case> showpieces() {
+    std::vector<Case> list;
+    for (const RendererInfo& renderer : renderers())
+        for (const char* scene : {"pumpkin", "tower"})
+            if (renderer.name != "raytrace") list.push_back({std::string(renderer.name), scene});
+    return list;
+}
+
+bool straddles(std::string_view algorithm) {
+    return std::ranges::find(renderers(), algorithm, &RendererInfo::name)->straddles;
+}
+
+class TwoWitnesses : public ::testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Showpieces, TwoWitnesses, ::testing::ValuesIn(showpieces()), name_of);
+
+// What rays see any other renderer must see.
+TEST_P(TwoWitnesses, agree_away_from_silhouettes) {
+    const auto& [algorithm, scene] = GetParam();
+    // The plain algorithms for whole tiles take their time over few hogels.
+    const LightFieldGrid grid = algorithm.starts_with("simplex")
+                                    ? LightFieldGrid{3, 3, size / 30, 32, 32, 0.12, 0.12, 3}
+                                    : LightFieldGrid{6, 6, size / 6, 96, 96, 0.15, 0.15, 3};
+    const bool behind = !straddles(algorithm);
+    const LightField rays = render("raytrace", scene, grid, behind), other = render(algorithm, scene, grid, behind);
+    std::size_t compared = 0, hits = 0, different = 0;
+    double worst = 0;
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s)
+            for (std::size_t v = 0; v < grid.directions_v; ++v)
+                for (std::size_t u = 0; u < grid.directions_u; ++u) {
+                    if (near_silhouette(rays, t, s, v, u)) continue;
+                    ++compared;
+                    hits += std::isfinite(rays.depth(t, s, v, u)) ? 1 : 0;
+                    double difference = 0;
+                    for (std::size_t c = 0; c < 3; ++c)
+                        difference = std::max(
+                            difference, double(std::abs(rays.radiance(c, t, s, v, u) - other.radiance(c, t, s, v, u))));
+                    worst = std::max(worst, difference);
+                    different += difference > 1e-3;
+                }
+    EXPECT_EQ(different, 0u) << "of " << compared << ", the worst by " << worst;
+    EXPECT_GT(hits, compared / 10);
+    EXPECT_GT(compared, grid.hogels() * grid.directions() / 2);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hogel/core/array.h"
+#include "hogel/render/epi_frame_internal.h"
+#include "hogel/shading/shaded_scene.h"
+
+namespace hogel {
+
+/// So many triangles of a cluster fit the bits of one word.
+constexpr std::size_t cluster_size = 64;
+
+/// The corners of a cluster's triangles, corner by corner and coordinate by coordinate.
+struct ClusterCorners {
+    alignas(64) double x[3][cluster_size], y[3][cluster_size], z[3][cluster_size];
+};
+
+/// The triangles of a scene in the units of an EpipolarFrame, neighbours together. The last cluster is filled up with
+/// triangles that are a single point, which no ray meets.
+struct TriangleClusters {
+    std::vector<ClusterCorners, CacheLineAllocator<ClusterCorners>> corners;
+    std::vector<std::uint32_t> triangles;              ///< which triangle of the scene stands in each place
+    std::vector<double> y_low, y_high, z_low, z_high;  ///< bounds of each cluster
+
+    TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame);
+
+    /// Whether the plane y = row + slope z may meet the cluster. Exact about rounding: it is never false for a cluster
+    /// one of whose triangles `crossing` reports.
+    bool may_cross(std::size_t cluster, double row, double slope) const {
+        const double a = slope * z_low[cluster], b = slope * z_high[cluster];
+        const double least = a < b ? a : b, most = a < b ? b : a;
+        return (y_low[cluster] - most) - row < 0 && (y_high[cluster] - least) - row >= 0;
+    }
+};
+
+}  // namespace hogel

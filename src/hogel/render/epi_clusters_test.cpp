@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "hogel/render/epi_clusters_internal.h"
+#include "hogel/render/epi_kernels_internal.h"
+
+namespace hogel {
+namespace {
+
+const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
+
+ShadedScene scattered_triangles(std::size_t count) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> place(-4e-3, 4e-3), size(-0.1e-3, 0.1e-3);
+    ShadedScene scene;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3 middle{place(random), place(random), place(random)};
+        for (int corner = 0; corner < 3; ++corner)
+            scene.positions.push_back(middle + Vec3{size(random), size(random), size(random)});
+        scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
+    }
+    return scene;
+}
+
+TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
+    const ShadedScene scene = scattered_triangles(1000);
+    const EpipolarFrame frame(grid);
+    const TriangleClusters clusters(scene, frame);
+    ASSERT_EQ(clusters.triangles.size(), 1000u);
+    std::vector<std::uint32_t> sorted = clusters.triangles;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        EXPECT_EQ(sorted[i], i);
+        const Vec3 first = frame.in_samples(scene.positions[3 * clusters.triangles[i]]);
+        EXPECT_EQ(clusters.corners[i / cluster_size].x[0][i % cluster_size], first.x);
+        EXPECT_EQ(clusters.corners[i / cluster_size].y[0][i % cluster_size], first.y);
+        EXPECT_EQ(clusters.corners[i / cluster_size].z[0][i % cluster_size], first.z);
+    }
+}
+
+TEST(TriangleClusters, are_passed_over_only_if_no_triangle_is_crossed_and_mostly_then) {
+    const EpipolarFrame frame(grid);
+    const TriangleClusters clusters(scattered_triangles(6000), frame);
+    std::size_t crossed = 0, passed_over = 0, in_vain = 0;
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t v = 0; v < grid.directions_v; ++v)
+            for (std::size_t i = 0; i < clusters.corners.size(); ++i) {
+                const bool meets = crossing_plain(clusters.corners[i], frame.row(t), frame.slope(v)) != 0;
+                const bool may = clusters.may_cross(i, frame.row(t), frame.slope(v));
+                ASSERT_TRUE(may || !meets) << t << " " << v << " " << i;
+                (meets ? crossed : may ? in_vain : passed_over) += 1;
+            }
+    EXPECT_GT(crossed, 1000u);
+    EXPECT_GT(passed_over, 2 * crossed);
+    EXPECT_LT(in_vain, crossed);
+}
+
+// A ray runs through (s, t) in the plane z = 0 and on to x = s + Uζ: in samples too.
+TEST(EpipolarFrame, counts_in_samples) {
+    for (const LightFieldGrid& g : {grid, LightFieldGrid{8, 9, 0.5e-3, 21, 30, 0.5, 0.4, 3}}) {
+        const EpipolarFrame frame(g);
+        for (std::size_t i = 0; i < g.hogels_s; ++i)
+            for (std::size_t k = 0; k < g.directions_u; ++k) {
+                const double depth = 3e-3, S = g.s(double(i)), T = g.t(2), U = g.u(double(k)), V = g.v(5);
+                const Vec3 p = frame.in_samples({S + U * depth, T + V * depth, -depth});
+                EXPECT_NEAR(p.x - (frame.first_direction + double(k)) * p.z, frame.first_column + double(i), 1e-12);
+                EXPECT_NEAR(p.y - frame.slope(5) * p.z, frame.row(2), 1e-12);
+                EXPECT_NEAR(frame.metres_deep(p.z), depth, 1e-15);
+            }
+    }
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,247 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "hogel/render/epi_cut_internal.h"
+#include "hogel/render/epi_kernels_internal.h"
+
+namespace hogel {
+namespace {
+
+struct Plane {
+    std::vector<std::uint64_t> words;
+    EpipolarPlane plane;
+
+    Plane(std::size_t columns, std::size_t directions, std::int32_t first_column)
+        : words(columns * directions, EpipolarPlane::nothing),
+          plane{words.data(), columns, directions, first_column, 0.5f - 0.5f * float(directions)} {}
+};
+
+using Draw = void (*)(std::span<const Strip>, const EpipolarPlane&);
+
+// Coordinates of all kinds: on samples, between them, on both sides of the hologram and in it, near and far.
+class Places {
+  public:
+    explicit Places(unsigned seed) : random_(seed) {}
+
+    float whole_or_half(int most) { return 0.5f * float(int(random_() % unsigned(4 * most + 1)) - 2 * most); }
+    float uniform(float most) { return std::uniform_real_distribution<float>(-most, most)(random_); }
+    float x() { return random_() % 3 == 0 ? whole_or_half(20) : uniform(25); }
+    float z() {
+        switch (random_() % 6) {
+            case 0:
+                return 0;
+            case 1:
+                return whole_or_half(3);
+            case 2:
+                return uniform(1e-4f);
+            case 3:
+                return uniform(0.2f);
+            default:
+                return uniform(4);
+        }
+    }
+    std::size_t between(std::size_t low, std::size_t high) { return low + random_() % (high - low + 1); }
+    bool coin() { return random_() % 2 == 0; }
+
+  private:
+    std::mt19937 random_;
+};
+
+TEST(EpipolarKernels, ordered_bits_are_in_the_order_of_the_floats) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    const float values[] = {-infinity, -1e30f, -2, -1, -1e-30f, 0, 1e-30f, 1, 1.0000001f, 1e30f, infinity};
+    for (std::size_t i = 1; i < std::size(values); ++i) EXPECT_LT(ordered_bits(values[i - 1]), ordered_bits(values[i]));
+}
+
+TEST(EpipolarKernels, vector_and_plain_crossings_are_the_same) {
+    Places places(1);
+    const auto corners = std::make_unique<ClusterCorners>();
+    std::size_t crossed = 0;
+    for (int round = 0; round < 200; ++round) {
+        for (int corner = 0; corner < 3; ++corner)
+            for (std::size_t i = 0; i < cluster_size; ++i) {
+                corners->y[corner][i] = places.x();
+                corners->z[corner][i] = places.z();
+            }
+        const double row = places.whole_or_half(10), slope = places.whole_or_half(10);
+        const std::uint64_t bits = crossing(*corners, row, slope);
+        EXPECT_EQ(bits, crossing_plain(*corners, row, slope)) << round;
+        crossed += std::size_t(std::popcount(bits));
+    }
+    EXPECT_GT(crossed, 1000u);
+}
+
+TEST(EpipolarKernels, a_plane_crosses_the_triangles_with_corners_on_both_sides_and_a_corner_in_it_is_above) {
+    const auto corners = std::make_unique<ClusterCorners>();
+    const auto triangle = [&](std::size_t i, double a, double b, double c) {
+        const double heights[] = {a, b, c};
+        for (int corner = 0; corner < 3; ++corner) {
+            corners->z[corner][i] = corner + 1.0;
+            corners->y[corner][i] = heights[corner] + 3 + 2 * (corner + 1.0);
+        }
+    };
+    for (std::size_t i = 0; i < cluster_size; ++i) triangle(i, 1, 2, 3);
+    triangle(0, -1, -2, -3);
+    triangle(5, -1, 0, 1);
+    triangle(17, 0, 0, -1);
+    triangle(62, 0, 1, 0);
+    triangle(63, 1, -1, 1);
+    const std::uint64_t expected = std::uint64_t{1} << 5 | std::uint64_t{1} << 17 | std::uint64_t{1} << 63;
+    EXPECT_EQ(crossing_plain(*corners, 3, 2), expected);
+    EXPECT_EQ(crossing(*corners, 3, 2), expected);
+}
+
+TEST(EpipolarKernels, vector_and_plain_drawings_are_the_same) {
+    Places places(2);
+    std::size_t covered = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::vector<Strip> strips(places.between(0, 12));
+        for (Strip& strip : strips) {
+            strip = {places.x(), places.z(), places.x(), places.z()};
+            // Half of them small, as in a fine mesh.
+            if (places.coin()) {
+                strip.x1 = strip.x0 + places.uniform(0.5f);
+                strip.z1 = strip.z0 + places.uniform(0.05f);
+            }
+        }
+        const std::size_t columns = places.between(1, 45), directions = places.between(1, 80);
+        const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
+        Plane fast(columns, directions, first), plain(columns, directions, first);
+        draw(strips, fast.plane);
+        draw_plain(strips, plain.plane);
+        ASSERT_EQ(fast.words, plain.words) << round;
+        for (std::uint64_t word : plain.words) covered += word != EpipolarPlane::nothing ? 1 : 0;
+    }
+    EXPECT_GT(covered, 100000u);
+}
+
+TEST(EpipolarKernels, triangles_that_share_an_edge_are_cut_in_the_same_point) {
+    Places places(6);
+    for (int round = 0; round < 10000; ++round) {
+        const auto height = [&] { return std::abs(places.uniform(1)) * (places.coin() ? 1.0 : 1e-12); };
+        const Corner low{places.uniform(30) / 3.0, places.uniform(3) / 7.0, -1e-15 - height()};
+        const Corner high{places.uniform(30) / 3.0, places.uniform(3) / 7.0, height()};
+        const Cut up = cut(low, high), down = cut(high, low);
+        ASSERT_EQ(up.x, down.x);
+        ASSERT_EQ(up.z, down.z);
+        EXPECT_NEAR(up.weight + down.weight, 1, 1e-15);
+        EXPECT_NEAR(up.weight * low.x + down.weight * high.x, up.x, 1e-13);
+        EXPECT_NEAR(up.weight * low.height + down.weight * high.height, 0, 1e-15);
+    }
+}
+
+class EveryDraw : public ::testing::TestWithParam<Draw> {};
+INSTANTIATE_TEST_SUITE_P(EpipolarKernels, EveryDraw, ::testing::Values(&draw, &draw_plain),
+                         [](const auto& parameter) { return parameter.param == &draw ? "vector" : "plain"; });
+
+// Points whose lines of sight never overtake each other, from beyond the left of the plane to beyond its right: the
+// strips between them share out the samples.
+TEST_P(EveryDraw, gives_every_sample_to_one_strip_of_a_chain) {
+    Places places(3);
+    for (int round = 0; round < 60; ++round) {
+        Plane counted(30, 41, -11);
+        const float K_most = 20, slack = 1.01f;
+        // A third of the chains lie on the samples themselves.
+        const bool on_samples = round % 3 == 0;
+        const float depth = on_samples ? places.whole_or_half(3) : places.uniform(3);
+        std::vector<Strip> chain{{-500, depth, -200, depth}};
+        while (chain.back().x1 < 200) {
+            const float x = chain.back().x1, z = chain.back().z1;
+            const float step = x < -100 || x > 100           ? 25
+                               : on_samples || places.coin() ? 0.5f
+                                                             : 0.01f + std::abs(places.uniform(1));
+            const float dz = on_samples || places.coin() ? 0.0f : places.uniform(step / (slack * K_most));
+            chain.push_back({x, z, x + step, z + dz});
+        }
+        std::vector<int> owners(counted.words.size());
+        for (const Strip& strip : chain) {
+            std::fill(counted.words.begin(), counted.words.end(), EpipolarPlane::nothing);
+            // Either end may come first.
+            const Strip drawn = places.coin() ? strip : Strip{strip.x1, strip.z1, strip.x0, strip.z0};
+            GetParam()({&drawn, 1}, counted.plane);
+            for (std::size_t i = 0; i < owners.size(); ++i)
+                owners[i] += counted.words[i] != EpipolarPlane::nothing ? 1 : 0;
+        }
+        for (std::size_t i = 0; i < owners.size(); ++i) ASSERT_EQ(owners[i], 1) << round << " " << i;
+    }
+}
+
+TEST_P(EveryDraw, puts_the_depth_where_the_line_of_sight_meets_the_segment) {
+    Places places(4);
+    std::size_t covered = 0;
+    for (int round = 0; round < 300; ++round) {
+        Plane seen(20, 31, -9);
+        const Strip strip{places.x(), places.z(), places.x(), places.z()};
+        GetParam()({&strip, 1}, seen.plane);
+        for (std::size_t i = 0; i < seen.words.size(); ++i) {
+            const double n = -9 + double(i / 31), K = double(i % 31) - 15;
+            // x = n + K z along the ray, so the segment is met where x − n − K z changes its sign.
+            const double a = strip.x0 - n - K * strip.z0, b = strip.x1 - n - K * strip.z1;
+            if (std::abs(a) < 1e-3 || std::abs(b) < 1e-3) continue;
+            ASSERT_EQ(seen.words[i] != EpipolarPlane::nothing, (a < 0) != (b < 0)) << round;
+            if (seen.words[i] == EpipolarPlane::nothing) continue;
+            ++covered;
+            const double z = strip.z0 + a / (a - b) * (strip.z1 - strip.z0);
+            ASSERT_EQ(seen.words[i] & 0xffffffff, 0u);
+            const auto bits = static_cast<std::uint32_t>(seen.words[i] >> 32);
+            EXPECT_GE(bits, ordered_bits(float(z - 2e-3)));
+            EXPECT_LE(bits, ordered_bits(float(z + 2e-3)));
+        }
+    }
+    EXPECT_GT(covered, 10000u);
+}
+
+TEST(EpipolarKernels, vector_and_plain_shadings_are_the_same) {
+    Places places(5);
+    std::vector<StripEnds> strips(20);
+    for (StripEnds& strip : strips) {
+        strip = {places.x(), places.z(), places.x(), places.z(), {}, {}};
+        for (int i = 0; i < 4; ++i) {
+            strip.value0[i] = places.uniform(1);
+            strip.value1[i] = places.uniform(1);
+        }
+    }
+    strips[7] = {3, 3, 1, 1, {1, 2, 3, 4}, {5, 6, 7, 8}};  // a point
+    const float background[4] = {10, 20, 30, 40};
+    for (std::size_t directions = 1; directions < 150; directions = directions < 40 ? directions + 1 : directions + 8) {
+        const std::size_t columns = 3, size = columns * directions;
+        Plane plane(columns, directions, -3);
+        for (std::uint64_t& word : plane.words)
+            if (places.coin()) word = std::uint64_t{12345} << 32 | places.between(0, 19);
+        // A column that sees nothing.
+        if (directions % 3 == 0) std::fill_n(plane.words.begin(), directions, EpipolarPlane::nothing);
+        // On cache lines, and off them.
+        for (const std::size_t offset : {0, 1}) {
+            using Row = std::vector<float, CacheLineAllocator<float>>;
+            std::vector<Row> fast(4, Row(size + 2, -1)), plain = fast;
+            const auto out = [&](std::vector<Row>& rows) {
+                return ShadedPlane{{&rows[0][offset], &rows[1][offset], &rows[2][offset], &rows[3][offset]},
+                                   {directions, directions, directions, directions}};
+            };
+            shade(plane.plane, strips, background, out(fast));
+            shade_plain(plane.plane, strips, background, out(plain));
+            ASSERT_EQ(fast, plain) << directions;
+            for (std::size_t i = 0; i < 4; ++i) {
+                if (i == 1 && directions % 5 == 0) continue;
+                EXPECT_EQ(plain[i][size + 1], -1);
+                for (std::size_t k = 0; k < size; ++k) {
+                    const float value = plain[i][k + offset];
+                    if (plane.words[k] == EpipolarPlane::nothing) {
+                        EXPECT_EQ(value, background[i]);
+                        continue;
+                    }
+                    const StripEnds& strip = strips[plane.words[k] & 0xffffffff];
+                    EXPECT_GE(value, std::min(strip.value0[i], strip.value1[i]) - 1e-6f);
+                    EXPECT_LE(value, std::max(strip.value0[i], strip.value1[i]) + 1e-6f);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <assimp/DefaultIOSystem.h>
+
+#include <filesystem>
+
+namespace hogel {
+
+/// Lets assimp open regular files in one folder and below, and nothing else: what a mesh file names is not trusted.
+class FolderFiles final : public Assimp::DefaultIOSystem {
+  public:
+    explicit FolderFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    bool Exists(const char* file) const override;
+    Assimp::IOStream* Open(const char* file, const char* mode) override;
+
+    /// Whether a path, symbolic links followed, is a regular file inside the folder.
+    bool contains(const std::filesystem::path& path) const;
+
+  private:
+    std::filesystem::path folder_;  // canonical
+};
+
+}  // namespace hogel
