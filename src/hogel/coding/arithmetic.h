@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hogel {
+
+/// Adaptive arithmetic coding: a range coder with carry propagation, and models that learn as they code. Encoder and
+/// decoder have to be given the same models in the same order.
+/// Source: Witten, Neal and Cleary, CACM 30 (1987), [K] 4.3's [127]; range coding after Martin 1979.
+
+/// The probability of a bit, learnt at two speeds.
+class BitModel {
+  public:
+    /// Of a zero, as a fraction of 2¹⁶; never 0 or 1.
+    std::uint32_t zero() const { return (std::uint32_t{fast_} + slow_) / 2; }
+    void learn(bool bit) {
+        fast_ = static_cast<std::uint16_t>(bit ? fast_ - (fast_ >> 4) : fast_ + ((65536 - fast_) >> 4));
+        slow_ = static_cast<std::uint16_t>(bit ? slow_ - (slow_ >> 7) : slow_ + ((65536 - slow_) >> 7));
+    }
+
+  private:
+    std::uint16_t fast_ = 32768, slow_ = 32768;
+};
+
+/// The probabilities of the symbols 0..count−1 of an alphabet, from how often each was seen. Cost: O(log count).
+class SymbolModel {
+  public:
+    /// @param count   1 to 32768
+    explicit SymbolModel(std::size_t count);
+    std::size_t count() const { return frequency_.size(); }
+    std::uint32_t total() const { return total_; }
+    std::uint32_t frequency(std::size_t symbol) const { return frequency_[symbol]; }
+    /// Sum of the frequencies of the symbols before this one.
+    std::uint32_t before(std::size_t symbol) const;
+    /// The symbol with before(symbol) <= position < before(symbol) + frequency(symbol); position < total().
+    std::size_t find(std::uint32_t position) const;
+    void learn(std::size_t symbol);
+
+  private:
+    void build();
+
+    std::vector<std::uint32_t> frequency_, tree_;  // tree_: a Fenwick tree over frequency_, from index 1
+    std::uint32_t total_ = 0;
+};
+
+class ArithmeticEncoder {
+  public:
+    void bit(BitModel& model, bool value);
+    void symbol(SymbolModel& model, std::size_t value);
+    /// The low `count` bits of a value, all equally likely; count <= 32.
+    void raw(std::uint32_t value, int count);
+    /// Bytes so far; finish() adds one to five.
+    std::size_t size() const { return bytes_.size() + pending_; }
+    /// Ends the stream with as few bytes as still decode to everything encoded, whatever follows them.
+    std::vector<std::uint8_t> finish();
+
+  private:
+    void narrow(std::uint32_t start, std::uint32_t size);
+    void shift();
+
+    std::vector<std::uint8_t> bytes_;
+    std::uint64_t low_ = 0;  // with the carry in bit 32
+    std::uint32_t range_ = 0xFFFFFFFF;
+    std::uint8_t held_ = 0;    // the byte that a carry may still change,
+    std::size_t pending_ = 0;  // and how many 0xFF follow it
+    bool first_ = true;        // nothing is held yet
+};
+
+/// Reads what an ArithmeticEncoder wrote. Past the end of the bytes it knows what it does not know: once a decision
+/// depends on missing bytes, ended() is true, and that decision and all later ones mean nothing (but are still within
+/// their alphabets). So every prefix of a stream gives exactly the decisions that it determines.
+class ArithmeticDecoder {
+  public:
+    explicit ArithmeticDecoder(std::span<const std::uint8_t> bytes);
+    bool bit(BitModel& model);
+    std::size_t symbol(SymbolModel& model);
+    std::uint32_t raw(int count);
+    bool ended() const { return ended_; }
+    /// All bytes have been taken in: true at the end of a stream, unless something else follows.
+    bool all_read() const { return next_ == bytes_.size(); }
+
+  private:
+    void narrow(std::uint32_t start, std::uint32_t size);
+    std::uint32_t take();
+
+    std::span<const std::uint8_t> bytes_;
+    std::size_t next_ = 0;
+    std::uint32_t range_ = 0xFFFFFFFF, code_ = 0;
+    std::uint32_t unknown_ = 0;  // ones where code_ lacks bits that lie past the end
+    bool ended_ = false;
+};
+
+}  // namespace hogel

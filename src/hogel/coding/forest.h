@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "hogel/transform/pyramid.h"
+
+namespace hogel {
+
+/// The coefficients of a wavelet transform as trees ([K] 4.4.2, fig. 4.15, in any dimensions): the parent of a
+/// coefficient is the one at the same place in the same orientation one level coarser, that of the coarsest details the
+/// coarse sample at their place, and coarse samples are roots. With several groups of axes the step from child to
+/// parent is taken in each group at once; a group that is at its coarse samples stays there.
+///
+/// Sizes are any: where a band has an odd child too many, the last parent has three. Where an axis is down to one
+/// sample and halves no more, orientations that need it hang below the nearest that does not.
+class Forest {
+  public:
+    static constexpr std::size_t no_parent = std::numeric_limits<std::size_t>::max();
+
+    /// A box of coefficients of one level and orientation.
+    struct Band {
+        std::vector<std::size_t> extent;
+        std::size_t origin;
+        /// Along each axis, the offset in the array of the parents of the box's places; the sum over the axes is a
+        /// parent.
+        std::vector<std::vector<std::size_t>> parents;
+        int depth;  ///< of its coefficients in their trees, 0 for roots
+        bool leaf;  ///< none of its coefficients has children
+    };
+
+    /// Throws Error(usage) for more than 8 axes or more than 100000 bands.
+    explicit Forest(const Pyramid& pyramid);
+
+    /// From roots to leaves: a band stands after that of its parents.
+    const std::vector<Band>& bands() const { return bands_; }
+    int depth() const { return bands_.back().depth; }
+    std::size_t size() const { return size_; }
+
+    /// Calls visit(index, parent) for the coefficients of a band in row-major order; parent is no_parent for roots.
+    template <class Visit>
+    void for_each(const Band& band, Visit&& visit) const;
+
+  private:
+    std::vector<Band> bands_;
+    std::vector<std::size_t> strides_;
+    std::size_t size_;
+};
+
+template <class Visit>
+void Forest::for_each(const Band& band, Visit&& visit) const {
+    const std::size_t last = band.extent.size() - 1, row_length = band.extent[last];
+    const std::size_t* row_parents = band.parents[last].data();
+    std::vector<std::size_t> place(last);  // of the row
+    for (bool more = true; more;) {
+        std::size_t index = band.origin, parent = 0;
+        for (std::size_t axis = 0; axis < last; ++axis) {
+            index += place[axis] * strides_[axis];
+            parent += band.parents[axis][place[axis]];
+        }
+        for (std::size_t k = 0; k < row_length; ++k)
+            visit(index + k, band.depth == 0 ? no_parent : parent + row_parents[k]);
+        more = false;
+        for (std::size_t axis = last; axis-- > 0 && !more;) {
+            more = ++place[axis] < band.extent[axis];
+            if (!more) place[axis] = 0;
+        }
+    }
+}
+
+}  // namespace hogel

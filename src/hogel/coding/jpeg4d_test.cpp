@@ -1,0 +1,161 @@
+#include "hogel/coding/jpeg4d.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "hogel/coding/jpeg4d_internal.h"
+#include "hogel/coding/quantise.h"
+#include "hogel/core/error.h"
+#include "hogel/transform/transform.h"
+
+namespace hogel {
+namespace {
+
+using Extents = std::vector<std::size_t>;
+using Bytes = std::vector<std::uint8_t>;
+
+// ISO 10918-1, figure A.6: where each entry of a block comes in the zigzag.
+TEST(Jpeg4d, zigzag_of_two_dimensions_is_jpegs) {
+    constexpr int sequence[8][8] = {{0, 1, 5, 6, 14, 15, 27, 28},     {2, 4, 7, 13, 16, 26, 29, 42},
+                                    {3, 8, 12, 17, 25, 30, 41, 43},   {9, 11, 18, 24, 31, 40, 44, 53},
+                                    {10, 19, 23, 32, 39, 45, 52, 54}, {20, 22, 33, 38, 46, 51, 55, 60},
+                                    {21, 34, 37, 47, 50, 56, 59, 61}, {35, 36, 48, 49, 57, 58, 62, 63}};
+    const std::vector<Frequency> order = zigzag(2);
+    for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(sequence[order[i][0]][order[i][1]], i);
+}
+
+TEST(Jpeg4d, zigzag_of_four_dimensions_rises_in_frequency) {
+    const std::vector<Frequency> order = zigzag(4);
+    ASSERT_EQ(order.size(), 4096u);
+    std::vector<bool> seen(4096);
+    std::size_t before = 0;
+    for (const Frequency& frequency : order) {
+        const std::size_t sum = std::accumulate(frequency.begin(), frequency.end(), std::size_t{0});
+        EXPECT_TRUE(sum == before || sum == before + 1);
+        before = sum;
+        const std::size_t at = ((frequency[0] * 8 + frequency[1]) * 8 + frequency[2]) * 8 + frequency[3];
+        EXPECT_FALSE(seen[at]);
+        seen[at] = true;
+    }
+}
+
+TEST(Jpeg4d, table_is_the_outer_product) {
+    EXPECT_EQ(table_entry({0, 0}), 16);
+    EXPECT_EQ(table_entry({5, 6}), 113);
+    EXPECT_EQ(table_entry({7, 0}), 72);
+    EXPECT_EQ(table_entry({7, 0, 5, 6}), 72 * 113);
+    EXPECT_EQ(table_entry({5, 6, 3}), 113 * 16);
+}
+
+TEST(Jpeg4d, tuples_count_zeros_and_bits) {
+    std::vector<std::int32_t> levels(64);
+    levels[0] = 5;
+    levels[1] = -1;
+    levels[4] = -8;
+    levels[40] = 1;
+    const BlockSymbols symbols = block_symbols(levels);
+    EXPECT_EQ(symbols.tuples, (std::vector<Tuple>{{0, 3}, {0, 1}, {2, 4}, {31, 0}, {4, 1}, {0, 0}}));
+    EXPECT_EQ(symbols.levels, (std::vector<std::int32_t>{5, -1, -8, 1}));
+    levels.assign(40, 0);
+    EXPECT_EQ(block_symbols(levels).tuples, (std::vector<Tuple>{{0, 0}}));
+    levels[31] = 1;
+    levels[39] = 2;
+    EXPECT_EQ(block_symbols(levels).tuples, (std::vector<Tuple>{{31, 1}, {7, 2}}));  // full to the end: no end of block
+}
+
+std::vector<float> picture(const Pyramid& pyramid) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    const std::vector<std::size_t> strides = pyramid.strides();
+    std::vector<float> values(pyramid.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        double phase = 0;
+        for (std::size_t axis = 0; axis < strides.size(); ++axis)
+            phase += static_cast<double>(i / strides[axis] % pyramid.shape()[axis]) *
+                     (0.3 + 0.1 * static_cast<double>(axis));
+        values[i] = static_cast<float>(std::sin(phase)) + 0.02f * normal(random);
+    }
+    transform("dct8").forward(pyramid, values);
+    return values;
+}
+
+std::vector<Pyramid> pyramids() {
+    return {Pyramid::interleaved({1}),
+            Pyramid::interleaved({37}),
+            Pyramid::interleaved({16, 31}),
+            Pyramid::interleaved({7, 9, 11, 8}),
+            Pyramid(Extents{9, 17, 3}, {{{2, 0}, 1}}),
+            Pyramid(Extents{5, 6}, {})};
+}
+
+TEST(Jpeg4d, decodes_to_the_nearest_multiple_of_the_table) {
+    for (const Pyramid& pyramid : pyramids())
+        for (double scale : {1e-6, 1e-3, 0.02, 10.0}) {
+            const std::vector<float> values = picture(pyramid);
+            std::vector<float> decoded(values.size(), 7.0f);
+            jpeg4d_decode(pyramid, jpeg4d_encode(pyramid, values, scale), decoded);
+            const Blocks blocks(pyramid);
+            Blocks::Block block;
+            std::size_t entries = 0;
+            for (std::size_t number = 0; number < blocks.count(); ++number) {
+                blocks.get(number, block);
+                entries += block.offsets.size();
+                for (std::size_t i = 0; i < block.offsets.size(); ++i) {
+                    const double half_step = scale * block.table[i] / 2;
+                    EXPECT_NEAR(decoded[block.offsets[i]], values[block.offsets[i]], 1.001 * half_step + 1e-6);
+                }
+            }
+            EXPECT_EQ(entries, values.size());
+        }
+}
+
+TEST(Jpeg4d, meets_the_sqnr_asked_for) {
+    const Pyramid pyramid = Pyramid::interleaved({15, 16, 17, 9});
+    const std::vector<float> values = picture(pyramid);
+    std::vector<float> decoded(values.size());
+    for (double asked : {5.0, 20.0, 40.0, 80.0}) {
+        jpeg4d_decode(pyramid, jpeg4d_encode(pyramid, values, jpeg4d_scale_for_sqnr(pyramid, values, asked)), decoded);
+        double error = 0;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            error += (static_cast<double>(values[i]) - decoded[i]) * (static_cast<double>(values[i]) - decoded[i]);
+        const double sqnr = 10 * std::log10(energy(values) / error);
+        EXPECT_GE(sqnr, asked - 0.001);
+        EXPECT_LE(sqnr, asked + 0.1);
+    }
+}
+
+TEST(Jpeg4d, every_truncation_is_found_out_and_hostile_bytes_do_no_harm) {
+    const Pyramid pyramid = Pyramid::interleaved({9, 16, 10});
+    const Bytes good = jpeg4d_encode(pyramid, picture(pyramid), 1e-3);
+    std::vector<float> decoded(pyramid.size());
+    for (std::size_t length = 0; length < good.size(); ++length)
+        EXPECT_THROW(jpeg4d_decode(pyramid, std::span(good).first(length), decoded), Error) << length;
+    std::mt19937 random(3);
+    for (int trial = 0; trial < 2000; ++trial) {
+        Bytes bytes = good;
+        if (trial % 2 == 0)
+            bytes[random() % bytes.size()] ^= static_cast<std::uint8_t>(1u << random() % 8);
+        else
+            for (std::size_t i = 5; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(random());
+        try {
+            jpeg4d_decode(pyramid, bytes, decoded);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+        }
+    }
+}
+
+TEST(Jpeg4d, impossible_requests_are_refused) {
+    const Pyramid pyramid = Pyramid::interleaved({4});
+    const std::vector<float> values{1, 2, 3, 4};
+    for (double scale : {0.0, -1.0, 1e-300, 1e-12, std::nan(""), HUGE_VAL})
+        EXPECT_THROW(jpeg4d_encode(pyramid, values, scale), Error) << scale;
+    EXPECT_THROW(jpeg4d_encode(pyramid, std::vector<float>{1, 2, NAN, 4}, 1), Error);
+    EXPECT_THROW(jpeg4d_encode(Pyramid::interleaved(Extents(5, 1)), std::vector<float>{1}, 1), Error);
+}
+
+}  // namespace
+}  // namespace hogel

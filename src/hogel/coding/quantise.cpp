@@ -1,0 +1,54 @@
+#include "hogel/coding/quantise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+
+double energy(std::span<const float> values) {
+    double sum = 0;
+    for (float value : values) sum += static_cast<double>(value) * value;
+    return sum;
+}
+
+double squared_error(std::span<const float> values, double step) {
+    const Quantiser quantiser(step);
+    double sum = 0;
+    for (float value : values) {
+        const double error = std::abs(value) - static_cast<double>(quantiser.value(quantiser.level(value), false));
+        sum += error * error;
+    }
+    return sum;
+}
+
+float largest_magnitude(std::span<const float> values) {
+    float most = 0;
+    bool finite = true;
+    for (float value : values) {
+        finite = finite && std::isfinite(value);
+        most = std::max(most, std::abs(value));
+    }
+    if (!finite) throw Error(ErrorCode::usage, "coding: a value is infinite or not a number, expected finite ones");
+    return most;
+}
+
+double step_for_sqnr(std::span<const float> values, double sqnr) {
+    if (!(sqnr > 0 && sqnr <= 130))
+        throw Error(ErrorCode::usage,
+                    fmt::format("coding: an SQNR of {} dB, expected more than 0 and at most 130", sqnr));
+    const double most = largest_magnitude(values);
+    if (most == 0) return 1;
+    const double allowed = energy(values) * std::pow(10, -sqnr / 10);
+    // With this step everything is zero; with 2^-30 of it a float is nearly exact.
+    double coarse = most, fine = most * 0x1p-30;
+    while (coarse > fine * 1.001) {
+        const double step = std::sqrt(coarse * fine);
+        (squared_error(values, step) <= allowed ? fine : coarse) = step;
+    }
+    return fine;
+}
+
+}  // namespace hogel

@@ -1,0 +1,173 @@
+#include "hogel/coding/threepass.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hogel/coding/threepass_internal.h"
+#include "hogel/core/error.h"
+#include "hogel/transform/transform.h"
+
+namespace hogel {
+namespace {
+
+using Extents = std::vector<std::size_t>;
+using Bytes = std::vector<std::uint8_t>;
+
+// The tree of [K] fig. 4.17, breadth first, with the children of −14 in the order in which fig. 4.16 codes them. The
+// coarse sample above it, which the figure has not, is 0.
+const std::vector<float> figure{0, 64, -42, 27, -14, 26, -30, 8, 2, -10, -35, 3, -10, -24, 7, 5};
+const Forest figure_forest{Pyramid(Extents{16}, {{{0}, 4}})};
+
+TEST(ThreePass, figure_4_17_a_the_largest_in_each_subtree) {
+    // p_t as printed, for b_max = 6: T_min = 1.
+    const std::vector<int> p_t{0, 0, 0, 1, 2, 0, 1, 3, 5, 2, 0, 4, 2, 1, 3, 3};
+    const std::vector<std::uint8_t> bits = subtree_bits(figure_forest, figure, Quantiser(1));
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(6 - bits[i], p_t[i]) << figure[i];
+}
+
+struct Recorder {
+    std::vector<std::string> symbols;  // "Δp_t", "Δp_t,Δp_n" as in the figure
+    std::vector<std::uint32_t> levels;
+    void tree(int symbol, int, bool) { symbols.push_back(std::to_string(symbol)); }
+    void node(int symbol, int) { symbols.back().append(",").append(std::to_string(symbol)); }
+    void magnitude(std::uint32_t level, int, bool negative) {
+        levels.push_back(level);
+        symbols.back() += negative ? "-" : "+";
+    }
+};
+
+TEST(ThreePass, figure_4_17_c_symbol_by_symbol) {
+    Recorder recorder;
+    write_three_pass(figure_forest, figure, Quantiser(8), 3, recorder);
+    const std::vector<std::string> expected{"0,-1",                                     // the coarse sample
+                                            "0,0+",                                     // 64
+                                            "0,0-", "1,0+",                             // -42 27
+                                            "2,0-", "0,1+", "0,0-", "-1",               // -14 26 -30 8
+                                            "-1",   "0-",   "0-",   "-1", "1-", "0-"};  // 2 -10 -35 3 -10 -24
+    EXPECT_EQ(recorder.symbols, expected);
+    EXPECT_EQ(recorder.levels, (std::vector<std::uint32_t>{7, 5, 3, 1, 3, 3, 1, 4, 1, 2}));
+}
+
+// Something like a light field: smooth, with edges, and its transform.
+std::vector<float> picture(const Pyramid& pyramid) {
+    const std::vector<std::size_t> strides = pyramid.strides();
+    std::vector<float> values(pyramid.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        double phase = 0, edge = 0;
+        for (std::size_t axis = 0; axis < strides.size(); ++axis) {
+            const double x = static_cast<double>(i / strides[axis] % pyramid.shape()[axis]);
+            phase += x * (0.11 + 0.07 * static_cast<double>(axis));
+            edge += x * (axis % 2 == 0 ? 1 : -1);
+        }
+        values[i] = static_cast<float>(std::sin(phase) + (edge > 3 ? 0.5 : 0));
+    }
+    transform("cdf97").forward(pyramid, values);
+    return values;
+}
+
+double sqnr(std::span<const float> a, std::span<const float> b) {
+    double signal = 0, noise = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        signal += static_cast<double>(a[i]) * a[i];
+        noise += (static_cast<double>(a[i]) - b[i]) * (static_cast<double>(a[i]) - b[i]);
+    }
+    return 10 * std::log10(signal / noise);
+}
+
+std::vector<Pyramid> pyramids() {
+    return {Pyramid::interleaved({1}),          Pyramid::interleaved({37}),
+            Pyramid::interleaved({13, 1}),      Pyramid::interleaved({16, 31, 9}),
+            Pyramid::interleaved({7, 6, 9, 8}), Pyramid::separate({7, 6, 9, 8}, {{0, 1}, {2, 3}}),
+            Pyramid(Extents{20, 20}, {})};
+}
+
+TEST(ThreePass, decodes_to_the_middles_of_the_levels) {
+    for (const Pyramid& pyramid : pyramids())
+        for (double step : {0.001, 0.1, 1.0, 100.0}) {
+            const std::vector<float> values = picture(pyramid);
+            const Bytes bytes = three_pass_encode(pyramid, values, step);
+            std::vector<float> decoded(values.size(), 7.0f);
+            three_pass_decode(pyramid, bytes, decoded);
+            const Quantiser quantiser(static_cast<float>(step));
+            for (std::size_t i = 0; i < values.size(); ++i)
+                ASSERT_EQ(decoded[i], quantiser.value(quantiser.level(values[i]), values[i] < 0)) << i << " " << step;
+        }
+}
+
+TEST(ThreePass, zeros_take_next_to_nothing) {
+    const Pyramid pyramid = Pyramid::interleaved({64, 64});
+    const std::vector<float> zeros(pyramid.size());
+    const Bytes bytes = three_pass_encode(pyramid, zeros, 1);
+    EXPECT_LE(bytes.size(), 6u);
+    std::vector<float> decoded(zeros.size(), 1.0f);
+    three_pass_decode(pyramid, bytes, decoded);
+    EXPECT_EQ(decoded, zeros);
+}
+
+TEST(ThreePass, every_truncation_is_found_out) {
+    const Pyramid pyramid = Pyramid::interleaved({9, 8, 7});
+    const Bytes bytes = three_pass_encode(pyramid, picture(pyramid), 0.05);
+    std::vector<float> decoded(pyramid.size());
+    three_pass_decode(pyramid, bytes, decoded);
+    for (std::size_t length = 0; length < bytes.size(); ++length)
+        EXPECT_THROW(three_pass_decode(pyramid, std::span(bytes).first(length), decoded), Error) << length;
+}
+
+TEST(ThreePass, hostile_bytes_end_in_an_error_or_in_finite_values) {
+    std::mt19937 random(3);
+    const Pyramid pyramid = Pyramid::interleaved({9, 8, 7});
+    const Bytes good = three_pass_encode(pyramid, picture(pyramid), 0.05);
+    std::vector<float> decoded(pyramid.size());
+    for (int trial = 0; trial < 3000; ++trial) {
+        Bytes bytes = good;
+        if (trial % 2 == 0)
+            bytes[random() % bytes.size()] ^= static_cast<std::uint8_t>(1u << random() % 8);
+        else
+            for (std::size_t i = 5; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(random());
+        try {
+            three_pass_decode(pyramid, bytes, decoded);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+        }
+    }
+}
+
+TEST(ThreePass, meets_the_size_asked_for) {
+    const Pyramid pyramid = Pyramid::interleaved({40, 50, 30});
+    const std::vector<float> values = picture(pyramid);
+    for (double bits_each : {0.05, 0.3, 1.0, 4.0}) {
+        const double bits = bits_each * static_cast<double>(values.size());
+        const double size = 8.0 * static_cast<double>(three_pass_encode_to_bits(pyramid, values, bits).size());
+        EXPECT_LE(size, bits);
+        EXPECT_GE(size, 0.97 * bits);
+        // [K]'s rule alone, with a c that suits such values.
+        const Bytes by_rule = three_pass_encode(pyramid, values, three_pass_step(values, bits));
+        EXPECT_NEAR(8.0 * static_cast<double>(by_rule.size()) / bits, 1, 0.2);
+    }
+    EXPECT_THROW(three_pass_encode_to_bits(pyramid, values, 20), Error);
+}
+
+TEST(ThreePass, meets_the_sqnr_asked_for) {
+    const Pyramid pyramid = Pyramid::interleaved({40, 50, 30});
+    const std::vector<float> values = picture(pyramid);
+    std::vector<float> decoded(values.size());
+    for (double asked : {5.0, 20.0, 40.0, 80.0, 110.0}) {
+        three_pass_decode(pyramid, three_pass_encode(pyramid, values, step_for_sqnr(values, asked)), decoded);
+        EXPECT_GE(sqnr(values, decoded), asked - 0.001);
+        EXPECT_LE(sqnr(values, decoded), asked + 0.1);
+    }
+}
+
+TEST(ThreePass, impossible_requests_are_refused) {
+    const Pyramid pyramid = Pyramid::interleaved({4});
+    const std::vector<float> values{1, 2, 3, 4};
+    for (double step : {0.0, -1.0, 1e-300, 1e-12, std::nan(""), HUGE_VAL})
+        EXPECT_THROW(three_pass_encode(pyramid, values, step), Error) << step;
+    EXPECT_THROW(three_pass_encode(pyramid, std::vector<float>{1, 2, NAN, 4}, 1), Error);
+    EXPECT_THROW(three_pass_encode(pyramid, std::vector<float>{1, 2, 3}, 1), Error);
+    for (double asked : {0.0, -3.0, 500.0, std::nan("")}) EXPECT_THROW(step_for_sqnr(values, asked), Error);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include "hogel/transform/line.h"
+
+namespace hogel {
+
+constexpr std::size_t dct_block = 8;
+
+/// The windowed DCT on lines of one length, `lane_count` lines at a time, in the layout of WaveletLine: blocks of eight
+/// samples from the start of the line, the last one shorter if need be, each replaced by its orthonormal DCT-II.
+/// Frequency k of a block stands where its sample k stood.
+class DctLine {
+  public:
+    explicit DctLine(std::size_t length) : length_(length) {}
+    std::size_t sample_of_row(std::size_t row) const { return row; }
+    void forward(float* rows) const;
+    void inverse(float* rows) const;
+    std::size_t length() const { return length_; }
+
+  private:
+    std::size_t length_;
+};
+
+/// Element of the orthonormal DCT-II of n points: c_k = Σ_j dct_element(n, k, j) f_j.
+double dct_element(std::size_t n, std::size_t k, std::size_t j);
+
+}  // namespace hogel

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hogel/transform/pyramid.h"
+#include "hogel/transform/wavelet.h"
+
+namespace hogel {
+
+/// A transform by name: a wavelet, or the windowed 8-point DCT. Made by transform(); cheap to copy.
+class Transform {
+  public:
+    std::string_view name() const { return wavelet_ ? wavelet_->name : "dct8"; }
+    bool is_wavelet() const { return wavelet_ != nullptr; }
+    /// Only of a wavelet.
+    const Wavelet& wavelet() const { return *wavelet_; }
+
+    /// Transforms an array in place, a row-major one of the pyramid's shape. The DCT transforms the axes of all groups
+    /// once, whatever their levels. All threads; the same result for any number of them. Cost: O(size · axes).
+    /// Throws Error(usage) when the number of elements is not the pyramid's.
+    void forward(const Pyramid& pyramid, std::span<float> elements) const;
+    /// The inverse of forward(), to rounding.
+    void inverse(const Pyramid& pyramid, std::span<float> elements) const;
+
+  private:
+    friend Transform transform(std::string_view name);
+    explicit Transform(const Wavelet* wavelet) : wavelet_(wavelet) {}
+    const Wavelet* wavelet_;  // null: the DCT
+};
+
+/// By name: haar|d4|d6|ai13|ai31|ai33|i22|i24|i42|i44|cdf31|cdf33|cdf42|cdf44|cdf97|dct8.
+/// Throws Error(usage) with that list for any other name.
+Transform transform(std::string_view name);
+
+/// All names that transform() knows, in that order.
+std::vector<std::string_view> transform_names();
+
+}  // namespace hogel
