@@ -74,11 +74,16 @@ class EpiRenderer final : public LightFieldSource {
         work.strips.clear();
         work.ends.clear();
         work.origins.clear();
-        for (std::size_t cluster = 0; cluster < clusters_.corners.size(); ++cluster) {
-            if (!clusters_.may_cross(cluster, row, slope)) continue;
-            std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
-            for (; crossed != 0; crossed &= crossed - 1)
-                add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, work);
+        constexpr std::size_t group_size = TriangleClusters::group_size;
+        for (std::size_t group = 0; group < clusters_.group_bounds.size(); ++group) {
+            if (!clusters_.group_bounds[group].may_cross(row, slope)) continue;
+            const std::size_t end = std::min((group + 1) * group_size, clusters_.corners.size());
+            for (std::size_t cluster = group * group_size; cluster < end; ++cluster) {
+                if (!clusters_.bounds[cluster].may_cross(row, slope)) continue;
+                std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
+                for (; crossed != 0; crossed &= crossed - 1)
+                    add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, work);
+            }
         }
     }
 
@@ -96,14 +101,13 @@ class EpiRenderer final : public LightFieldSource {
         work.strips.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
                                static_cast<float>(end1.z)});
 
-        const std::uint32_t index = clusters_.triangles[cluster * cluster_size + place];
-        const auto& vertices = scene_->triangles[index].vertices;
+        const std::size_t index = cluster * cluster_size + place;
+        const auto& radiance = clusters_.radiance[index];
         const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
-        const Rgb alone = scene_->radiance[vertices[lone]];
         StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end1.x, end0.z, end1.z, {}, {}});
-        set_values(ends.value0, w0 * alone + (1 - w0) * scene_->radiance[vertices[next]], end0.z);
-        set_values(ends.value1, w1 * alone + (1 - w1) * scene_->radiance[vertices[last]], end1.z);
-        if (!scene_->textures.empty()) work.origins.push_back({w0, w1, index, lone});
+        set_values(ends.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], end0.z);
+        set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], end1.z);
+        if (!scene_->textures.empty()) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
     }
 
     void set_values(float (&values)[4], Rgb radiance, double z) const {

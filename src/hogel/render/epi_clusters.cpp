@@ -50,20 +50,23 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene) {
 TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame)
     : triangles(morton_order(scene)) {
     const std::size_t count = (triangles.size() + cluster_size - 1) / cluster_size;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     corners.resize(count);
-    for (auto* bound : {&y_low, &z_low}) bound->assign(count, std::numeric_limits<double>::infinity());
-    for (auto* bound : {&y_high, &z_high}) bound->assign(count, -std::numeric_limits<double>::infinity());
+    radiance.resize(triangles.size());
+    bounds.assign(count, {infinity, -infinity, infinity, -infinity});
+    group_bounds.assign((count + group_size - 1) / group_size, {infinity, -infinity, infinity, -infinity});
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const std::size_t cluster = i / cluster_size, place = i % cluster_size;
+        const auto& vertices = scene.triangles[triangles[i]].vertices;
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const Vec3 p = frame.in_samples(scene.positions[scene.triangles[triangles[i]].vertices[corner]]);
+            const Vec3 p = frame.in_samples(scene.positions[vertices[corner]]);
             corners[cluster].x[corner][place] = p.x;
             corners[cluster].y[corner][place] = p.y;
             corners[cluster].z[corner][place] = p.z;
-            y_low[cluster] = std::min(y_low[cluster], p.y);
-            y_high[cluster] = std::max(y_high[cluster], p.y);
-            z_low[cluster] = std::min(z_low[cluster], p.z);
-            z_high[cluster] = std::max(z_high[cluster], p.z);
+            radiance[i][corner] = scene.radiance[vertices[corner]];
+            for (Bounds* box : {&bounds[cluster], &group_bounds[cluster / group_size]})
+                *box = {std::min(box->y_low, p.y), std::max(box->y_high, p.y), std::min(box->z_low, p.z),
+                        std::max(box->z_high, p.z)};
         }
     }
 }

@@ -17,8 +17,10 @@ ShadedScene scattered_triangles(std::size_t count) {
     ShadedScene scene;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vec3 middle{place(random), place(random), place(random)};
-        for (int corner = 0; corner < 3; ++corner)
+        for (int corner = 0; corner < 3; ++corner) {
             scene.positions.push_back(middle + Vec3{size(random), size(random), size(random)});
+            scene.radiance.push_back({float(i), float(corner), 0});
+        }
         scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
     }
     return scene;
@@ -33,6 +35,8 @@ TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
     std::sort(sorted.begin(), sorted.end());
     for (std::uint32_t i = 0; i < 1000; ++i) {
         EXPECT_EQ(sorted[i], i);
+        for (int corner = 0; corner < 3; ++corner)
+            EXPECT_EQ(clusters.radiance[i][std::size_t(corner)], (Rgb{float(clusters.triangles[i]), float(corner), 0}));
         const Vec3 first = frame.in_samples(scene.positions[3 * clusters.triangles[i]]);
         EXPECT_EQ(clusters.corners[i / cluster_size].x[0][i % cluster_size], first.x);
         EXPECT_EQ(clusters.corners[i / cluster_size].y[0][i % cluster_size], first.y);
@@ -48,8 +52,10 @@ TEST(TriangleClusters, are_passed_over_only_if_no_triangle_is_crossed_and_mostly
         for (std::size_t v = 0; v < grid.directions_v; ++v)
             for (std::size_t i = 0; i < clusters.corners.size(); ++i) {
                 const bool meets = crossing_plain(clusters.corners[i], frame.row(t), frame.slope(v)) != 0;
-                const bool may = clusters.may_cross(i, frame.row(t), frame.slope(v));
+                const bool may = clusters.bounds[i].may_cross(frame.row(t), frame.slope(v));
                 ASSERT_TRUE(may || !meets) << t << " " << v << " " << i;
+                const auto& group = clusters.group_bounds[i / TriangleClusters::group_size];
+                ASSERT_TRUE(group.may_cross(frame.row(t), frame.slope(v)) || !meets) << t << " " << v << " " << i;
                 (meets ? crossed : may ? in_vain : passed_over) += 1;
             }
     EXPECT_GT(crossed, 1000u);
