@@ -89,15 +89,14 @@ class EpiRenderer final : public LightFieldSource {
 
     void add_strip(std::size_t cluster, std::size_t place, double row, double slope, Work& work) const {
         const ClusterCorners& all = clusters_.corners[cluster];
-        const auto corner = [&](std::size_t i) {
+        std::array<double, 3> x, z, height;
+        for (std::size_t i = 0; i < 3; ++i) {
+            x[i] = all.x[i][place];
+            z[i] = all.z[i][place];
             // As in `crossing`, to the last bit.
-            return Corner{all.x[i][place], all.z[i][place], (all.y[i][place] - slope * all.z[i][place]) - row};
-        };
-        const std::array corners{corner(0), corner(1), corner(2)};
-        const auto below = [&](std::size_t i) { return corners[i].height < 0; };
-        const std::uint32_t lone = below(1) == below(2) ? 0 : below(2) == below(0) ? 1 : 2;
-        const std::uint32_t next = lone < 2 ? lone + 1 : 0, last = lone > 0 ? lone - 1 : 2;
-        const Cut end0 = cut(corners[lone], corners[next]), end1 = cut(corners[lone], corners[last]);
+            height[i] = (all.y[i][place] - slope * z[i]) - row;
+        }
+        const auto [lone, next, last, end0, end1] = cut_triangle(x, z, height);
         work.strips.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
                                static_cast<float>(end1.z)});
 

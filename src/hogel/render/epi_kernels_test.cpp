@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "hogel/render/epi_cut_internal.h"
@@ -121,16 +122,41 @@ TEST(EpipolarKernels, vector_and_plain_drawings_are_the_same) {
 
 TEST(EpipolarKernels, triangles_that_share_an_edge_are_cut_in_the_same_point) {
     Places places(6);
+    using Three = std::array<double, 3>;
     for (int round = 0; round < 10000; ++round) {
         const auto height = [&] { return std::abs(places.uniform(1)) * (places.coin() ? 1.0 : 1e-12); };
-        const Corner low{places.uniform(30) / 3.0, places.uniform(3) / 7.0, -1e-15 - height()};
-        const Corner high{places.uniform(30) / 3.0, places.uniform(3) / 7.0, height()};
-        const Cut up = cut(low, high), down = cut(high, low);
-        ASSERT_EQ(up.x, down.x);
-        ASSERT_EQ(up.z, down.z);
-        EXPECT_NEAR(up.weight + down.weight, 1, 1e-15);
-        EXPECT_NEAR(up.weight * low.x + down.weight * high.x, up.x, 1e-13);
-        EXPECT_NEAR(up.weight * low.height + down.weight * high.height, 0, 1e-15);
+        const auto random3 = [&] { return Three{places.uniform(30) / 3.0, places.uniform(3) / 7.0, 0}; };
+        // An edge across the plane, and corners that make it two triangles, each listed from any corner on.
+        Three low = random3(), high = random3(), left = random3(), right = random3();
+        low[2] = -1e-15 - height();
+        high[2] = height();
+        left[2] = places.coin() ? height() : -1e-15 - height();
+        right[2] = places.coin() ? height() : -1e-15 - height();
+        std::vector<Cut> shared;
+        for (const auto& corners : {std::array{low, high, left}, std::array{high, low, right}}) {
+            const std::size_t turn = places.between(0, 2);
+            Three x, z, h;
+            for (std::size_t i = 0; i < 3; ++i) {
+                x[(i + turn) % 3] = corners[i][0];
+                z[(i + turn) % 3] = corners[i][1];
+                h[(i + turn) % 3] = corners[i][2];
+            }
+            const TriangleCut cut = cut_triangle(x, z, h);
+            ASSERT_EQ(std::set({cut.lone, cut.next, cut.last}), (std::set<std::uint32_t>{0, 1, 2}));
+            ASSERT_EQ(h[cut.next] < 0, h[cut.last] < 0);
+            ASSERT_NE(h[cut.lone] < 0, h[cut.last] < 0);
+            for (const auto& [end, other] : {std::pair{cut.end0, cut.next}, std::pair{cut.end1, cut.last}}) {
+                const double w = end.weight;
+                ASSERT_NEAR(w * h[cut.lone] + (1 - w) * h[other], 0, 1e-15);
+                ASSERT_NEAR(w * x[cut.lone] + (1 - w) * x[other], end.x, 1e-13);
+                ASSERT_NEAR(w * z[cut.lone] + (1 - w) * z[other], end.z, 1e-13);
+                const std::size_t a = (cut.lone + 3 - turn) % 3, b = (other + 3 - turn) % 3;
+                if (a + b == 1) shared.push_back(end);  // corners 0 and 1 are the edge
+            }
+        }
+        ASSERT_EQ(shared.size(), 2u);
+        ASSERT_EQ(shared[0].x, shared[1].x);
+        ASSERT_EQ(shared[0].z, shared[1].z);
     }
 }
 
