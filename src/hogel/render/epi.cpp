@@ -8,6 +8,7 @@
 #include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/epi_occlusion_internal.h"
 #include "hogel/render/sample_store_internal.h"
 
 namespace hogel {
@@ -18,6 +19,9 @@ constexpr std::size_t most_words = std::size_t{96} << 10;
 
 // A thread that copies a light field holds one tile.
 constexpr std::size_t most_tile_bytes = std::size_t{96} << 20;
+
+// After so many strips it is first looked which samples are covered; then whenever their number has doubled.
+constexpr std::size_t first_update = 128;
 
 // Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
 // it and the next corner, end 1 between it and the last.
@@ -50,13 +54,12 @@ class EpiRenderer final : public LightFieldSource {
         Work work;
         for (std::size_t v = 0; v < grid_.directions_v; ++v)
             for (std::size_t t = 0; t < tile.range.nt; ++t) {
-                cut_triangles(frame_.row(tile.range.t0 + t), frame_.slope(v), work);
                 for (std::size_t s = 0; s < tile.range.ns; s += columns) {
                     const EpipolarPlane plane{words.data(), std::min(columns, tile.range.ns - s), grid_.directions_u,
                                               frame_.first_column + static_cast<std::int32_t>(tile.range.s0 + s),
                                               frame_.first_direction};
                     std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
-                    draw(work.strips, plane);
+                    draw_plane(plane, frame_.row(tile.range.t0 + t), frame_.slope(v), work);
                     shade_plane(tile, plane, work, t, s, v);
                 }
             }
@@ -68,23 +71,35 @@ class EpiRenderer final : public LightFieldSource {
         std::vector<Strip> strips;
         std::vector<StripEnds> ends;
         std::vector<StripOrigin> origins;
+        Occlusion occlusion;
     };
 
-    void cut_triangles(double row, double slope, Work& work) const {
+    // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
+    void draw_plane(const EpipolarPlane& plane, double row, double slope, Work& work) const {
         work.strips.clear();
         work.ends.clear();
         work.origins.clear();
-        constexpr std::size_t group_size = TriangleClusters::group_size;
-        for (std::size_t group = 0; group < clusters_.group_bounds.size(); ++group) {
-            if (!clusters_.group_bounds[group].may_cross(row, slope)) continue;
-            const std::size_t end = std::min((group + 1) * group_size, clusters_.corners.size());
-            for (std::size_t cluster = group * group_size; cluster < end; ++cluster) {
-                if (!clusters_.bounds[cluster].may_cross(row, slope)) continue;
+        work.occlusion.clear();
+        std::size_t drawn = 0, next_update = first_update;
+        const auto draw_rest = [&] {
+            draw(std::span(work.strips).subspan(drawn), drawn, plane);
+            drawn = work.strips.size();
+        };
+        for (const TriangleClusters::Group& group : clusters_.groups) {
+            if (!group.bounds.may_cross(row, slope) || work.occlusion.hides(group.bounds, plane)) continue;
+            for (const std::uint32_t cluster : group.clusters) {
+                const TriangleClusters::Bounds& bounds = clusters_.bounds[cluster];
+                if (!bounds.may_cross(row, slope) || work.occlusion.hides(bounds, plane)) continue;
                 std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
                 for (; crossed != 0; crossed &= crossed - 1)
                     add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, work);
             }
+            if (work.strips.size() < next_update) continue;
+            draw_rest();
+            work.occlusion.update(plane);
+            next_update = 2 * drawn;
         }
+        draw_rest();
     }
 
     void add_strip(std::size_t cluster, std::size_t place, double row, double slope, Work& work) const {

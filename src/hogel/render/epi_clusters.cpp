@@ -51,10 +51,11 @@ TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame
     : triangles(morton_order(scene)) {
     const std::size_t count = (triangles.size() + cluster_size - 1) / cluster_size;
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr Bounds empty{infinity, -infinity, infinity, -infinity, infinity, -infinity};
     corners.resize(count);
     radiance.resize(triangles.size());
-    bounds.assign(count, {infinity, -infinity, infinity, -infinity});
-    group_bounds.assign((count + group_size - 1) / group_size, {infinity, -infinity, infinity, -infinity});
+    bounds.assign(count, empty);
+    groups.assign((count + group_size - 1) / group_size, {empty, {}});
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const std::size_t cluster = i / cluster_size, place = i % cluster_size;
         const auto& vertices = scene.triangles[triangles[i]].vertices;
@@ -64,11 +65,18 @@ TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame
             corners[cluster].y[corner][place] = p.y;
             corners[cluster].z[corner][place] = p.z;
             radiance[i][corner] = scene.radiance[vertices[corner]];
-            for (Bounds* box : {&bounds[cluster], &group_bounds[cluster / group_size]})
-                *box = {std::min(box->y_low, p.y), std::max(box->y_high, p.y), std::min(box->z_low, p.z),
-                        std::max(box->z_high, p.z)};
+            for (Bounds* box : {&bounds[cluster], &groups[cluster / group_size].bounds})
+                *box = {std::min(box->x_low, p.x),  std::max(box->x_high, p.x), std::min(box->y_low, p.y),
+                        std::max(box->y_high, p.y), std::min(box->z_low, p.z),  std::max(box->z_high, p.z)};
         }
     }
+    for (std::uint32_t cluster = 0; cluster < count; ++cluster)
+        groups[cluster / group_size].clusters.push_back(cluster);
+    for (Group& group : groups)
+        std::stable_sort(group.clusters.begin(), group.clusters.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return bounds[a].z_low < bounds[b].z_low; });
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group& a, const Group& b) { return a.bounds.z_low < b.bounds.z_low; });
 }
 
 }  // namespace hogel

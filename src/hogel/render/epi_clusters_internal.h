@@ -19,11 +19,12 @@ struct ClusterCorners {
 };
 
 /// The triangles of a scene in the units of an EpipolarFrame, neighbours together: in clusters, and clusters in groups.
-/// The last cluster is filled up with triangles that are a single point, which no ray meets.
+/// What comes nearest to the viewer comes first, among the groups and among the clusters of a group. The last cluster
+/// is filled up with triangles that are a single point, which no ray meets.
 struct TriangleClusters {
     /// What a range of triangles lies between.
     struct Bounds {
-        double y_low, y_high, z_low, z_high;
+        double x_low, x_high, y_low, y_high, z_low, z_high;
 
         /// Whether the plane y = row + slope z may meet what is inside. Exact about rounding: never false for a cluster
         /// one of whose triangles `crossing` reports.
@@ -39,7 +40,13 @@ struct TriangleClusters {
     std::vector<ClusterCorners, CacheLineAllocator<ClusterCorners>> corners;
     std::vector<std::uint32_t> triangles;      ///< which triangle of the scene stands in each place
     std::vector<std::array<Rgb, 3>> radiance;  ///< of the corners, in the same places
-    std::vector<Bounds> bounds, group_bounds;  ///< of clusters and groups
+    std::vector<Bounds> bounds;                ///< of the clusters
+
+    struct Group {
+        Bounds bounds;
+        std::vector<std::uint32_t> clusters;
+    };
+    std::vector<Group> groups;
 
     TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame);
 };

@@ -21,7 +21,7 @@ struct Plane {
           plane{words.data(), columns, directions, first_column, 0.5f - 0.5f * float(directions)} {}
 };
 
-using Draw = void (*)(std::span<const Strip>, const EpipolarPlane&);
+using Draw = void (*)(std::span<const Strip>, std::size_t, const EpipolarPlane&);
 
 // Coordinates of all kinds: on samples, between them, on both sides of the hologram and in it, near and far.
 class Places {
@@ -112,8 +112,8 @@ TEST(EpipolarKernels, vector_and_plain_drawings_are_the_same) {
         const std::size_t columns = places.between(1, 45), directions = places.between(1, 80);
         const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
         Plane fast(columns, directions, first), plain(columns, directions, first);
-        draw(strips, fast.plane);
-        draw_plain(strips, plain.plane);
+        draw(strips, 3, fast.plane);
+        draw_plain(strips, 3, plain.plane);
         ASSERT_EQ(fast.words, plain.words) << round;
         for (std::uint64_t word : plain.words) covered += word != EpipolarPlane::nothing ? 1 : 0;
     }
@@ -188,7 +188,7 @@ TEST_P(EveryDraw, gives_every_sample_to_one_strip_of_a_chain) {
             std::fill(counted.words.begin(), counted.words.end(), EpipolarPlane::nothing);
             // Either end may come first.
             const Strip drawn = places.coin() ? strip : Strip{strip.x1, strip.z1, strip.x0, strip.z0};
-            GetParam()({&drawn, 1}, counted.plane);
+            GetParam()({&drawn, 1}, 7, counted.plane);
             for (std::size_t i = 0; i < owners.size(); ++i)
                 owners[i] += counted.words[i] != EpipolarPlane::nothing ? 1 : 0;
         }
@@ -202,7 +202,7 @@ TEST_P(EveryDraw, puts_the_depth_where_the_line_of_sight_meets_the_segment) {
     for (int round = 0; round < 300; ++round) {
         Plane seen(20, 31, -9);
         const Strip strip{places.x(), places.z(), places.x(), places.z()};
-        GetParam()({&strip, 1}, seen.plane);
+        GetParam()({&strip, 1}, 7, seen.plane);
         for (std::size_t i = 0; i < seen.words.size(); ++i) {
             const double n = -9 + double(i / 31), K = double(i % 31) - 15;
             // x = n + K z along the ray, so the segment is met where x − n − K z changes its sign.
@@ -212,7 +212,7 @@ TEST_P(EveryDraw, puts_the_depth_where_the_line_of_sight_meets_the_segment) {
             if (seen.words[i] == EpipolarPlane::nothing) continue;
             ++covered;
             const double z = strip.z0 + a / (a - b) * (strip.z1 - strip.z0);
-            ASSERT_EQ(seen.words[i] & 0xffffffff, 0u);
+            ASSERT_EQ(seen.words[i] & 0xffffffff, 7u);
             const auto bits = static_cast<std::uint32_t>(seen.words[i] >> 32);
             EXPECT_GE(bits, ordered_bits(float(z - 2e-3)));
             EXPECT_LE(bits, ordered_bits(float(z + 2e-3)));
