@@ -35,7 +35,7 @@ struct TriangleClusters {
         }
     };
 
-    static constexpr std::size_t group_size = 32;  ///< clusters
+    static constexpr std::size_t group_size = 4;  ///< clusters
 
     std::vector<ClusterCorners, CacheLineAllocator<ClusterCorners>> corners;
     std::vector<std::uint32_t> triangles;      ///< which triangle of the scene stands in each place
