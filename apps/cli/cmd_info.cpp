@@ -21,6 +21,7 @@ FileSummary summarize_picture(const std::string& path) {
     FileSummary summary;
     summary.kind = FileKind::picture;
     summary.text = {{"kind", "picture"}};
+    for (const auto& entry : read_metadata(path)) summary.text.push_back(entry);
     summary.numbers = {{"width", static_cast<double>(image.width())},
                        {"height", static_cast<double>(image.height())},
                        {"channels", static_cast<double>(image.channels())},

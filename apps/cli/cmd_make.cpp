@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
 #include "hogel/lightfield/photograph.h"
 #include "inputs.h"
@@ -31,12 +32,11 @@ struct Focus {
     double depth;
 };
 
-// The hologram plane, and the end of the scene that lies farther from it.
+// A sixth of the scene's depth from its nearest point, and as much from its farthest.
 std::array<Focus, 2> focuses(const Scene& scene, double eye_distance) {
     const Bounds box = bounds(scene);
-    const double front = -box.high.z, back = -box.low.z;
-    const Focus far = std::abs(back) >= std::abs(front) ? Focus{"back", back} : Focus{"front", front};
-    return {Focus{"plane", 0.0}, Focus{far.name, std::max(far.depth, -0.5 * eye_distance)}};
+    const double front = -box.high.z, back = -box.low.z, sixth = (back - front) / 6;
+    return {Focus{"near", std::max(front + sixth, -0.5 * eye_distance)}, Focus{"far", back - sixth}};
 }
 
 // Left, high and right, as far from the middle as every hogel still sends rays to the whole lens.
@@ -101,6 +101,10 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
     }
 }
 
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    write_file(path, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
 int make(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
@@ -145,12 +149,12 @@ int make(const Options& options, const Session& session) {
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
     });
 
-    // One exposure for all, from the view from above on the hologram plane.
+    // One exposure for all, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
     for (PhotographPair& pair : report.pairs) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
     write_pictures(folder.path(), report);
-    write_file(folder.path() / "report.json", report_json(report));
-    write_file(folder.path() / "report.html", report_html(report));
+    write_text(folder.path() / "report.json", report_json(report));
+    write_text(folder.path() / "report.html", report_html(report));
     session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
     return 0;
 }

@@ -66,6 +66,7 @@ Image photograph_of_light_field(const Options& options, const Session& session, 
 int photo(const Options& options, const Session& session) {
     const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
     const InputKind kind = input_kind(options.input);
+    require_picture_name(options.output);
     require_writable(options.output);
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");

@@ -12,21 +12,21 @@ using namespace hogel::literals;
 /// sharpness of a photograph belong together: a hogel is as wide as what the camera resolves, λR/A, or less.
 struct Defaults {
     // light field
-    double size = 16_mm;  ///< side of the hologram
-    std::size_t hogels = 256, directions = 48;
-    double field_of_view = 20_deg;  ///< full angle, 2θ
+    double size = 20_mm;  ///< side of the hologram
+    std::size_t hogels = 400, directions = 32;
+    double field_of_view = 16_deg;  ///< full angle, 2θ
     double front = 0.3;             ///< how much of a fitted mesh stands in front of the plane
 
     // hologram
-    double pitch = 1.6_um;
+    double pitch = 1.5625_um;  ///< 32 samples a hogel; blue must still be diffracted over the field of view
     double red = 633_nm, green = 532_nm, blue = 460_nm;
 
     // camera
     double eye_distance = 300_mm;
-    double pupil = 5_mm;
-    std::size_t resolution = 512;     ///< pixels across a photograph
-    std::size_t looks = 16;           ///< photographs averaged against speckle
-    std::size_t pupil_samples = 256;  ///< points of the pupil in a geometric photograph
+    double pupil = 6_mm;
+    std::size_t resolution = 400;    ///< pixels across a photograph
+    std::size_t looks = 16;          ///< photographs averaged against speckle
+    std::size_t pupil_samples = 64;  ///< points of the pupil in a geometric photograph
 };
 inline constexpr Defaults defaults;
 

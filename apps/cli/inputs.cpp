@@ -55,7 +55,7 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
     std::string algorithms;
     for (const RendererInfo& renderer : renderers()) {
         if (options.algorithm.empty()) options.algorithm = renderer.name;
-        algorithms += fmt::format("\n  {}: {}", renderer.name, renderer.description);
+        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.description);
     }
     group(command->add_option("--algorithm", options.algorithm, "Renderer:" + algorithms)
               ->type_name("NAME")
@@ -68,7 +68,7 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
               ->add_option("--front", options.front,
                            "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all")
               ->type_name("0..1")
-              ->check(CLI::Range(0.0, 1.0))
+              ->check(CLI::Range(0.0, 1.0).description(""))
               ->capture_default_str());
     CLI::Option* as_is = command->add_flag("--as-is", options.as_is,
                                            "Take a mesh file where it is, its numbers as metres, z towards the viewer");
@@ -85,7 +85,7 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
     group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
     group(command->add_option("--phase", options.phase, "Phase of each hogel's directions")
               ->type_name("random")
-              ->check(CLI::IsMember({"random"}))
+              ->check(CLI::IsMember({"random"}).description(""))
               ->capture_default_str());
 }
 
@@ -143,8 +143,8 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
 }
 
 void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options) {
-    for (const double wavelength : options.wavelengths)
-        stereogram_grid(light_field, stereogram_options(light_field, options, wavelength));
+    const double shortest = *std::ranges::min_element(options.wavelengths);  // is diffracted least
+    stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
 }
 
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "commands.h"
+#include "help.h"
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
 #include "session.h"
@@ -22,15 +23,16 @@ int fail(ErrorCode code, std::string message) {
 }
 
 void build(CLI::App& app, Session& session) {
+    app.formatter(std::make_shared<HelpFormatter>());
     app.set_version_flag("--version", "hogel " HOGEL_VERSION, "Print the version and exit");
     app.set_help_flag("-h,--help", "Print this help and exit");
     app.require_subcommand(1);
     app.footer(
         "Lengths and angles have units: 16mm, 1.6um, 633nm, 20deg.\n"
-        "SCENE is a mesh file (glTF, OBJ, PLY, STL and more) or the name of a built-in scene.\n"
+        "SCENE is a mesh file (glTF, OBJ, PLY, STL and more) or the name of a built-in scene;\n"
+        "depths are positive behind the hologram and negative in front of it.\n"
         "'hogel COMMAND --help' explains a command. Begin with:\n"
         "  hogel make pumpkin -o pumpkin");
-    app.get_formatter()->column_width(34);
     add_make(app, session);
     add_render(app, session);
     add_hologram(app, session);
@@ -40,13 +42,6 @@ void build(CLI::App& app, Session& session) {
     add_scenes(app, session);
 }
 
-// CLI11's complaint, with where to read on.
-int fail_usage(const CLI::App& app, const CLI::ParseError& error) {
-    const auto chosen = app.get_subcommands();
-    const std::string command = chosen.empty() ? "hogel" : "hogel " + chosen.front()->get_name();
-    return fail(ErrorCode::usage, fmt::format("{}; see '{} --help'", error.what(), command));
-}
-
 int run(int argc, char** argv) {
     CLI::App app{"hogel: full-parallax holographic stereograms, from scene to photograph", "hogel"};
     Session session;
@@ -54,7 +49,7 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return error.get_exit_code() == 0 ? app.exit(error) : fail_usage(app, error);
+        return error.get_exit_code() == 0 ? app.exit(error) : fail(ErrorCode::usage, explain(app, error));
     }
     const ThreadLimit limit(session.threads);
     return session.run();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 namespace hogel::cli {
 
@@ -22,8 +21,5 @@ class OutputFolder {
     std::filesystem::path path_;
     bool created_;
 };
-
-/// Writes a file under a temporary name beside it and renames it. Throws Error(cannot_write).
-void write_file(const std::filesystem::path& path, std::string_view contents);
 
 }  // namespace hogel::cli

@@ -78,7 +78,7 @@ double seconds_in_all(const Report& report) {
 
 std::string focus_title(const Camera& camera) {
     if (camera.focus_depth == 0) return "Focus on the hologram";
-    return fmt::format("Focus {} {}", format_length(std::abs(camera.focus_depth)),
+    return fmt::format("Focus {:.3g} mm {}", std::abs(camera.focus_depth) * 1e3,
                        camera.focus_depth > 0 ? "behind the hologram" : "in front of the hologram");
 }
 
@@ -157,7 +157,7 @@ std::string tables_html(const Report& report) {
                 {"Rays", fmt::format("{:.4g} million", 1e-6 * grid.samples() / static_cast<double>(grid.channels))},
                 {"Light field file", format_bytes(report.light_field_bytes)}};
     Rows hologram{{"Samples", samples_text(report)},
-                  {"Pitch", format_length(plane.pitch_x)},
+                  {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
                   {"Wavelengths", wavelengths_text(report)},
                   {"Size if it were stored", format_bytes(field_bytes)},
                   {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "help.h"
+
 namespace hogel::cli {
 namespace {
 
@@ -40,18 +42,20 @@ void Session::detail(const std::string& line) const {
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                       const std::string& examples, std::function<int()> run) {
     CLI::App* command = app.add_subcommand(name, description);
+    command->group("Commands");
     command->footer("Examples:\n" + examples);
-    command->add_flag("-q,--quiet", session.quiet, "Say nothing but errors")->group("General");
-    command->add_flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage")->group("General");
+    command->add_flag("-q,--quiet", session.quiet, "Say nothing but errors")->group(HelpFormatter::last_group);
+    command->add_flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage")
+        ->group(HelpFormatter::last_group);
     command->add_option("--threads", session.threads, "Threads to use; 0: as many as there are cores")
         ->type_name("N")
         ->capture_default_str()
-        ->group("General");
+        ->group(HelpFormatter::last_group);
     command->add_option("--seed", session.seed, "Seed of the random phases; equal seeds give equal bytes")
         ->type_name("N")
         ->capture_default_str()
-        ->group("General");
-    command->get_option("--help")->group("General");
+        ->group(HelpFormatter::last_group);
+    command->get_option("--help")->group(HelpFormatter::last_group);
     command->callback([&session, command, run = std::move(run)] {
         session.command = command;
         session.run = run;

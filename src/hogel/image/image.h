@@ -35,6 +35,9 @@ float srgb_decode(float display);
 void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
                  const Metadata& metadata = {});
 
+/// Throws Error(usage) for a name that write_image() would refuse, before there is a picture to lose.
+void require_picture_name(const std::filesystem::path& path);
+
 /// Encodes a picture as the bytes of an 8-bit sRGB PNG file, for pages that carry their pictures inside.
 std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 

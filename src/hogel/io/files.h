@@ -4,7 +4,9 @@
 #include <complex>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hogel/image/image.h"
@@ -16,9 +18,10 @@ namespace hogel {
 enum class SampleType { half, single };
 
 /// A light field in an HDF5 file: dataset "radiance" [c][t][s][v][u] (half or single floats), optional dataset "depth"
-/// [t][s][v][u] (single, metres), chunked by tiles of hogels; all of the sampling in attributes of "radiance".
-/// docs/files.md names every attribute. Opening reads the header alone. Throws Error(bad_input) for anything damaged,
-/// foreign, truncated or inconsistent.
+/// [t][s][v][u] (single, metres), each one contiguous piece of the file; all of the sampling in attributes of
+/// "radiance". docs/files.md names every attribute. Opening reads the header alone; files of that layout are read by
+/// all threads at once, chunked or compressed ones from elsewhere by one at a time. Throws Error(bad_input) for
+/// anything damaged, foreign, truncated or inconsistent.
 std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path);
 
 struct LightFieldFileOptions {
@@ -28,7 +31,8 @@ struct LightFieldFileOptions {
 };
 
 /// The file gets its own name when finish() is called; before that it is a temporary beside it, removed when the sink
-/// is destroyed unfinished. Throws Error(cannot_write).
+/// is destroyed unfinished. Room on the disk is taken at once, so a disk that is too small shows before the work.
+/// Values beyond 65504 are infinite in half floats. Throws Error(cannot_write).
 std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
                                                    const LightFieldFileOptions& options = {});
 

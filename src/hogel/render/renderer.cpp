@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "hogel/render/epi_internal.h"
+#include "hogel/render/mvr_internal.h"
+#include "hogel/render/oblique_internal.h"
 #include "hogel/render/raytrace_internal.h"
+#include "hogel/render/simplex_internal.h"
 #include "hogel/render/zbuffer_internal.h"
 
 namespace hogel {
@@ -16,6 +19,9 @@ namespace {
 constexpr std::array infos{
     RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)"},
     RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
+    RendererInfo{"simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false},
+    RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
+    RendererInfo{"mvr", "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions"},
     RendererInfo{"epi", "epipolar planes: each triangle is set up once for a whole row of hogels"},
 };
 
@@ -30,6 +36,9 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
         throw Error(ErrorCode::usage, fmt::format("a light field has 1 or 3 channels, not {}", grid.channels));
     if (name == "raytrace") return make_raytrace_renderer(std::move(scene), grid);
     if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
+    if (name == "simplex") return make_simplex_renderer(std::move(scene), grid);
+    if (name == "oblique") return make_oblique_renderer(std::move(scene), grid);
+    if (name == "mvr") return make_mvr_renderer(std::move(scene), grid);
     if (name == "epi") return make_epi_renderer(std::move(scene), grid);
     std::vector<std::string_view> known;
     for (const RendererInfo& info : infos) known.push_back(info.name);

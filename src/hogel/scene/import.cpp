@@ -1,26 +1,25 @@
 #include "hogel/scene/import.h"
 
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <cstring>
 #include <new>
 #include <numbers>
 
 #include "hogel/core/error.h"
 #include "hogel/scene/import_checks_internal.h"
 #include "hogel/scene/import_materials_internal.h"
+#include "hogel/scene/triangulate.h"
 
 namespace hogel {
 namespace {
 
 constexpr std::size_t most_triangles = std::size_t{1} << 28;
 constexpr std::size_t most_instances = std::size_t{1} << 20;
+constexpr unsigned most_corners = 4096;  // of a polygon: cutting it into triangles takes the square of that
 constexpr double crease = 60 * std::numbers::pi / 180;  // normals that a file lacks are smooth up to this angle
 
 struct Placed {
@@ -28,7 +27,7 @@ struct Placed {
     aiMatrix4x4 to_world;
 };
 
-bool has_triangles(const aiMesh& mesh) { return (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0; }
+bool has_faces(const aiMesh& mesh) { return mesh.mNumFaces > 0 && mesh.HasPositions(); }
 
 /// Every mesh of the node hierarchy with its transform; counted before anything is copied, because a small file can
 /// ask for billions of copies.
@@ -50,7 +49,7 @@ std::vector<Placed> place_meshes(const aiScene& source, const std::string& file)
             const unsigned index = visit.node->mMeshes[i];
             if (index >= source.mNumMeshes) reject_file(file, fmt::format("mesh index {}", index), "one that exists");
             const aiMesh& mesh = *source.mMeshes[index];
-            if (!has_triangles(mesh)) continue;
+            if (!has_faces(mesh)) continue;
             triangles += mesh.mNumFaces;
             vertices += mesh.mNumVertices;
             if (triangles > most_triangles || vertices > 2 * most_triangles)
@@ -112,16 +111,28 @@ bool is_flat(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
 
 void import_triangles(const aiMesh& source, bool mirrored, const std::string& file, Mesh& mesh) {
     mesh.triangles.reserve(source.mNumFaces);
+    std::vector<Vec3> polygon;
     for (unsigned i = 0; i < source.mNumFaces; ++i) {
-        const aiFace& face = source.mFaces[i];
-        if (face.mNumIndices != 3) continue;
-        std::array<std::uint32_t, 3> triangle{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-        for (std::uint32_t index : triangle)
+        const std::span<const unsigned> corners(source.mFaces[i].mIndices, source.mFaces[i].mNumIndices);
+        for (const unsigned index : corners)
             if (index >= source.mNumVertices)
                 reject_file(file, fmt::format("mesh '{}': vertex index {}", mesh.name, index),
                             fmt::format("less than {}", source.mNumVertices));
-        if (mirrored) std::swap(triangle[1], triangle[2]);
-        if (!is_flat(mesh, triangle)) mesh.triangles.push_back(triangle);
+        if (corners.size() > most_corners)
+            reject_file(file, fmt::format("a face with {} corners", corners.size()),
+                        fmt::format("at most {}", most_corners));
+        if (corners.size() < 3) continue;
+        const auto add = [&](std::array<std::uint32_t, 3> triangle) {
+            if (mirrored) std::swap(triangle[1], triangle[2]);
+            if (!is_flat(mesh, triangle)) mesh.triangles.push_back(triangle);
+        };
+        if (corners.size() == 3) {
+            add({corners[0], corners[1], corners[2]});
+            continue;
+        }
+        polygon.clear();
+        for (const unsigned index : corners) polygon.push_back(mesh.positions[index]);
+        for (const auto& [a, b, c] : triangulate(polygon)) add({corners[a], corners[b], corners[c]});
     }
 }
 
@@ -129,7 +140,7 @@ Mesh import_mesh(const Placed& placed, bool linear_colors, const std::string& fi
     const aiMesh& source = *placed.mesh;
     const NormalTransform transform(placed.to_world);
     Mesh mesh;
-    mesh.name = source.mName.C_Str();
+    mesh.name = one_line(source.mName.C_Str());
     mesh.positions.reserve(source.mNumVertices);
     for (unsigned i = 0; i < source.mNumVertices; ++i)
         mesh.positions.push_back(transform_point(placed.to_world, source.mVertices[i]));
@@ -144,10 +155,9 @@ Mesh import_mesh(const Placed& placed, bool linear_colors, const std::string& fi
     return mesh;
 }
 
-Scene convert(const aiScene& source, const std::filesystem::path& path) {
-    const std::string file = path.string();
+Scene convert(const aiScene& source, const std::filesystem::path& path, const std::string& file) {
     const bool linear_colors = is_gltf(path);
-    MaterialImport materials(source, path);
+    MaterialImport materials(source, path.parent_path(), file);
     Scene scene;
     scene.name = path.stem().string();
     for (const Placed& placed : place_meshes(source, file)) {
@@ -176,12 +186,10 @@ Scene import_scene(const std::filesystem::path& path) {
         const std::filesystem::path real = std::filesystem::canonical(path);
         Assimp::Importer importer;
         importer.SetIOHandler(new FolderFiles(real.parent_path()));
-        importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        importer.SetPropertyBool(AI_CONFIG_IMPORT_REMOVE_EMPTY_BONES, true);
-        const aiScene* source = importer.ReadFile(real.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+        const aiScene* source = importer.ReadFile(real.string(), 0);
         if (!source || !source->mRootNode)
             reject_file(file, one_line(importer.GetErrorString()), "a mesh file that assimp can read");
-        return convert(*source, real);
+        return convert(*source, real, file);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 
 #include "hogel/core/error.h"
 #include "hogel/scene/import_checks_internal.h"
@@ -17,6 +18,14 @@ std::string extension(const std::filesystem::path& path) {
     return text;
 }
 
+std::string read_file(const std::filesystem::path& path, std::uintmax_t size) {
+    std::string bytes(size, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
+        reject_file(path.string(), "cannot be read", "a readable mesh file");
+    return bytes;
+}
+
 }  // namespace
 
 void reject_file(const std::string& file, const std::string& what, const std::string& expected) {
@@ -29,7 +38,7 @@ std::string one_line(const std::string& message) {
     for (char& c : line)
         if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = ' ';
     while (!line.empty() && line.back() == ' ') line.pop_back();
-    return line.empty() ? "cannot be read" : line;
+    return line;
 }
 
 bool is_gltf(const std::filesystem::path& path) {
@@ -48,6 +57,14 @@ void check_mesh_file(const std::filesystem::path& path) {
     if (error) reject_file(file, error.message(), "a readable mesh file");
     if (size == 0) reject_file(file, "empty", "a mesh file");
     if (size > largest_file) reject_file(file, "more than 4 GiB", "a smaller mesh file");
+    // assimp chooses its reader by the first bytes too, not by the name alone.
+    char magic[4] = {};
+    std::ifstream(path, std::ios::binary).read(magic, sizeof magic);
+    const std::string_view start(magic, sizeof magic);
+    if (extension(path) == ".ply" || start.starts_with("ply") || start.starts_with("PLY"))
+        check_ply(file, read_file(path, size));
+    else if (is_gltf(path) || start == "glTF")
+        check_gltf(file, read_file(path, size));
 }
 
 }  // namespace hogel

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace hogel {
 
@@ -16,5 +17,10 @@ bool is_gltf(const std::filesystem::path& path);
 /// Refuses what assimp should not be handed: missing, not a regular file, empty, or of a size or content that its
 /// readers are known to crash or hang on.
 void check_mesh_file(const std::filesystem::path& path);
+
+/// What a glTF or PLY file must keep to before assimp may see it: assimp 5.2 trusts these promises. `bytes` is the
+/// whole file. Both throw Error(bad_input) by reject_file.
+void check_gltf(const std::string& file, std::string_view bytes);
+void check_ply(const std::string& file, std::string_view bytes);
 
 }  // namespace hogel

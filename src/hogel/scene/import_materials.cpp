@@ -44,8 +44,8 @@ Image from_texels(const aiTexture& source) {
 
 }  // namespace
 
-MaterialImport::MaterialImport(const aiScene& source, std::filesystem::path file)
-    : source_(source), file_(std::move(file)) {}
+MaterialImport::MaterialImport(const aiScene& source, const std::filesystem::path& folder, std::string file)
+    : source_(source), files_(folder), folder_(folder), file_(std::move(file)) {}
 
 const Material& MaterialImport::operator[](unsigned index) {
     const auto known = materials_.find(index);
@@ -87,23 +87,20 @@ std::shared_ptr<const Image> MaterialImport::texture(const std::string& name) {
 
 std::shared_ptr<const Image> MaterialImport::load(const std::string& name) const {
     if (const aiTexture* embedded = source_.GetEmbeddedTexture(name.c_str())) {
-        const std::string where = fmt::format("{}: embedded texture '{}'", file_.string(), name);
+        const std::string where = fmt::format("{}: embedded texture '{}'", file_, name);
         if (!embedded->pcData || embedded->mWidth == 0)
             throw Error(ErrorCode::bad_input, where + ": empty; expected a picture");
         if (embedded->mHeight > 0) return std::make_shared<Image>(from_texels(*embedded));
         return std::make_shared<Image>(
             decode_image({reinterpret_cast<const unsigned char*>(embedded->pcData), embedded->mWidth}, where));
     }
-    const std::filesystem::path folder = file_.parent_path();
-    const FolderFiles files(folder);
     for (std::string candidate : {name, percent_decoded(name)}) {
         std::replace(candidate.begin(), candidate.end(), '\\', '/');
-        if (candidate.find('\0') == std::string::npos && files.contains(folder / candidate))
-            return std::make_shared<Image>(read_image(folder / candidate));
+        if (candidate.find('\0') == std::string::npos && files_.contains(folder_ / candidate))
+            return std::make_shared<Image>(read_image(folder_ / candidate));
     }
-    throw Error(
-        ErrorCode::bad_input,
-        fmt::format("{}: texture '{}' not found; expected a file in the folder of the mesh", file_.string(), name));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: texture '{}' not found; expected a file in the folder of the mesh", file_, name));
 }
 
 }  // namespace hogel

@@ -16,7 +16,8 @@ namespace hogel {
 /// Turns assimp's materials into ours. A texture is read once, however many materials use it.
 class MaterialImport {
   public:
-    MaterialImport(const aiScene& source, std::filesystem::path file);
+    /// @param folder  of the mesh, canonical; @param file  the mesh as the caller named it, for messages
+    MaterialImport(const aiScene& source, const std::filesystem::path& folder, std::string file);
     const Material& operator[](unsigned index);
 
   private:
@@ -25,7 +26,9 @@ class MaterialImport {
     std::shared_ptr<const Image> load(const std::string& name) const;
 
     const aiScene& source_;
-    std::filesystem::path file_;
+    FolderFiles files_;
+    std::filesystem::path folder_;
+    std::string file_;
     std::map<unsigned, Material> materials_;
     std::map<std::string, std::shared_ptr<const Image>> textures_;
 };

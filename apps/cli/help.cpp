@@ -1,0 +1,79 @@
+#include "help.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace hogel::cli {
+namespace {
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    return names;
+}
+
+}  // namespace
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+    if (mode != CLI::AppFormatMode::Normal) return make_expanded(app);
+    std::vector<std::string> groups = app->get_groups();
+    std::ranges::stable_partition(groups, [](const std::string& group) { return group != last_group; });
+    std::string text = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
+    for (const std::string& group : groups) {
+        const auto options = app->get_options(
+            [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+        if (!options.empty()) text += make_group(group, false, options);
+    }
+    return text + make_subcommands(app, mode) + "\n" + make_footer(app);
+}
+
+std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const {
+    std::string usage = "\nUsage: " + name;
+    if (app->get_parent() == nullptr) return usage + " COMMAND ...\n";
+    for (const CLI::Option* option : app->get_options())
+        if (option->get_positional()) usage += " " + option->get_type_name();
+    for (const CLI::Option* option : app->get_options())
+        if (!option->get_positional() && option->get_required())
+            usage += fmt::format(" -{} {}", option->get_snames().front(), option->get_type_name());
+    return usage + " [OPTIONS]\n";
+}
+
+std::string HelpFormatter::make_positionals(const CLI::App* app) const {
+    std::string text;
+    for (const CLI::Option* option : app->get_options())
+        if (option->get_positional())
+            text +=
+                fmt::format("  {:<{}}{}\n", option->get_type_name(), get_column_width() - 2, option->get_description());
+    return text.empty() ? text : "\n" + text;
+}
+
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+    return option->get_type_size() == 0 ? "" : " " + option->get_type_name();
+}
+
+std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
+    const std::string shown = option->get_default_str(), words = option->get_description();
+    if (shown.empty()) return words;
+    // The default belongs to the first line, what follows explains the choices.
+    const std::size_t line = std::min(words.find('\n'), words.size());
+    return fmt::format("{} [{}]{}", words.substr(0, line), shown, words.substr(line));
+}
+
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> rest = app.remaining(true);
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty()) {
+        const std::string problem =
+            rest.empty() ? "no command given" : fmt::format("there is no command '{}'", rest.front());
+        return fmt::format("{}; expected one of {}", problem, fmt::join(command_names(app), ", "));
+    }
+    const std::string name = chosen.front()->get_name();
+    const auto unknown = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
+    const std::string problem =
+        unknown != rest.end() ? fmt::format("{} has no option {}", name, *unknown) : std::string(error.what());
+    return fmt::format("{}; see 'hogel {} --help'", problem, name);
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "hogel/image/picture_bytes_internal.h"
+
+namespace hogel {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Signature {
+    std::string_view bytes;
+    const char* format;
+};
+
+constexpr std::array signatures{Signature{"\x89PNG\r\n\x1a\n"sv, "png"},
+                                Signature{"\xff\xd8\xff"sv, "jpeg"},
+                                Signature{"\x76\x2f\x31\x01"sv, "openexr"},
+                                Signature{"II*\0"sv, "tiff"},
+                                Signature{"MM\0*"sv, "tiff"},
+                                Signature{"RIFF"sv, "webp"},
+                                Signature{"GIF8"sv, "gif"},
+                                Signature{"BM"sv, "bmp"},
+                                Signature{"#?"sv, "hdr"},
+                                Signature{"DDS "sv, "dds"}};
+
+std::uint32_t big_endian(std::span<const unsigned char> b) {
+    return std::uint32_t{b[0]} << 24 | std::uint32_t{b[1]} << 16 | std::uint32_t{b[2]} << 8 | b[3];
+}
+
+std::uint32_t little_endian(std::span<const unsigned char> b) {
+    return std::uint32_t{b[3]} << 24 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[1]} << 8 | b[0];
+}
+
+// ISO 15948: a signature of 8 bytes, then chunks of length, name, data and checksum.
+std::string png_error(std::span<const unsigned char> bytes) {
+    for (std::size_t at = 8; bytes.size() - at >= 12;) {
+        const std::uint32_t length = big_endian(bytes.subspan(at, 4));
+        if (length > bytes.size() - at - 12)
+            return fmt::format("the chunk at byte {} claims {} bytes, which is beyond the end of the file", at, length);
+        if (std::ranges::equal(bytes.subspan(at + 4, 4), "IEND"sv)) return "";
+        at += std::size_t{12} + length;
+    }
+    return "it ends before its last chunk";
+}
+
+// OpenEXR file layout: after 8 bytes one header, or several and an empty one; a header is a list of attributes (name,
+// type, size, value) that ends with an empty name.
+std::string exr_error(std::span<const unsigned char> bytes) {
+    if (bytes.size() < 8) return "it ends inside its header";
+    const bool several = (little_endian(bytes.subspan(4, 4)) & 0x1000) != 0;
+    std::size_t at = 8;
+    bool empty_header = true;
+    const auto skip_text = [&] {
+        const auto end = std::ranges::find(bytes.subspan(at), 0);
+        const auto length = static_cast<std::size_t>(end - bytes.begin()) - at;
+        at += length + 1;
+        return length;
+    };
+    while (at < bytes.size()) {
+        const std::size_t attribute = at;
+        if (skip_text() == 0) {
+            if (!several || empty_header) return "";
+            empty_header = true;
+            continue;
+        }
+        empty_header = false;
+        if (at < bytes.size()) skip_text();
+        if (at >= bytes.size() || bytes.size() - at < 4) break;
+        const std::uint32_t length = little_endian(bytes.subspan(at, 4));
+        at += 4;
+        if (length > bytes.size() - at)
+            return fmt::format("the attribute at byte {} claims {} bytes, which is beyond the end of the file",
+                               attribute, length);
+        at += length;
+    }
+    return "it ends inside its header";
+}
+
+}  // namespace
+
+std::string one_line(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
+    std::string line;
+    for (const char c : text) {
+        if (static_cast<unsigned char>(c) >= ' ')
+            line += c;
+        else if (!line.ends_with(' '))
+            line += ' ';
+    }
+    return line.empty() ? "unknown reason" : line;
+}
+
+const char* picture_format(std::span<const unsigned char> bytes) {
+    const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 8));
+    for (const Signature& signature : signatures)
+        if (start.starts_with(signature.bytes)) return signature.format;
+    return nullptr;
+}
+
+std::string structure_error(const std::string& format, std::span<const unsigned char> bytes) {
+    if (format == "png") return png_error(bytes);
+    if (format == "openexr") return exr_error(bytes);
+    return "";
+}
+
+}  // namespace hogel

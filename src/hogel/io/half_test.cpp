@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "hogel/io/half_internal.h"
+
+namespace hogel {
+namespace {
+
+// IEEE 754: 1 sign bit, 5 bits of exponent with bias 15, 10 of fraction.
+float value_by_definition(unsigned half) {
+    const int sign = half & 0x8000 ? -1 : 1, exponent = (half >> 10) & 31, fraction = half & 1023;
+    if (exponent == 31) return fraction ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(sign) * INFINITY;
+    const double value = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+    return static_cast<float>(sign * value);
+}
+
+TEST(Half, all_65536_values_are_those_of_the_standard_and_come_back) {
+    std::vector<std::uint16_t> halves(65536), back(65536);
+    for (unsigned h = 0; h < 65536; ++h) halves[h] = static_cast<std::uint16_t>(h);
+    std::vector<float> values(65536);
+    to_float(halves.data(), values.data(), values.size());
+    to_half(values.data(), back.data(), back.size());
+    for (unsigned h = 0; h < 65536; ++h) {
+        const float expected = value_by_definition(h);
+        if (std::isnan(expected)) {
+            ASSERT_TRUE(std::isnan(values[h]));
+            ASSERT_EQ(back[h] & 0x7c00, 0x7c00);
+            ASSERT_NE(back[h] & 0x3ff, 0);
+        } else {
+            ASSERT_EQ(values[h], expected) << h;
+            ASSERT_EQ(std::signbit(values[h]), std::signbit(expected)) << h;
+            ASSERT_EQ(back[h], h);
+        }
+    }
+}
+
+TEST(Half, rounds_to_nearest_and_ties_to_even) {
+    for (unsigned h = 0; h < 0x7c00; ++h) {
+        // The step above the largest half would be 65536: from its middle, 65520, on the result is infinite.
+        const double low = value_by_definition(h), high = h == 0x7bff ? 65536 : value_by_definition(h + 1);
+        const auto middle = static_cast<float>((low + high) / 2);
+        ASSERT_EQ(middle, (low + high) / 2);
+        ASSERT_EQ(half_of(middle), h % 2 == 0 ? h : h + 1);
+        ASSERT_EQ(half_of(std::nextafter(middle, 0.0f)), h);
+        ASSERT_EQ(half_of(std::nextafter(middle, INFINITY)), h + 1);
+        ASSERT_EQ(half_of(-middle), half_of(middle) | 0x8000);
+    }
+}
+
+TEST(Half, far_values) {
+    EXPECT_EQ(half_of(INFINITY), 0x7c00);
+    EXPECT_EQ(half_of(-INFINITY), 0xfc00);
+    EXPECT_EQ(half_of(std::numeric_limits<float>::max()), 0x7c00);
+    EXPECT_EQ(half_of(std::numeric_limits<float>::denorm_min()), 0);
+    EXPECT_EQ(half_of(-0.0f), 0x8000);
+    // A NaN whose fraction lies in the bits that are dropped is still a NaN.
+    EXPECT_EQ(half_of(std::bit_cast<float>(0x7f800001u)) & 0x7fff, 0x7e00);
+}
+
+}  // namespace
+}  // namespace hogel

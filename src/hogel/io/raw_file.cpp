@@ -1,0 +1,106 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "hogel/core/error.h"
+#include "hogel/io/raw_file_internal.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::uint64_t most_bytes = std::numeric_limits<std::int64_t>::max();
+constexpr std::size_t most_at_once = std::size_t{1} << 30;  // the system moves a little less than 2 GiB in one call
+
+int flags(RawFile::Mode mode) {
+    switch (mode) {
+        case RawFile::Mode::read:
+            return O_RDONLY | O_CLOEXEC;
+        case RawFile::Mode::write:
+            return O_RDWR | O_CLOEXEC;
+        case RawFile::Mode::create:
+            break;
+    }
+    return O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC;
+}
+
+}  // namespace
+
+RawFile::RawFile(const std::filesystem::path& path, Mode mode, const std::filesystem::path& name)
+    : name_(name), mode_(mode) {
+    std::error_code status;
+    // Opening a pipe would wait for its other end.
+    if (mode == Mode::read && std::filesystem::exists(path, status) && !std::filesystem::is_regular_file(path, status))
+        throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it is not a plain file", name_.string()));
+    file_ = ::open(path.c_str(), flags(mode), 0666);
+    if (file_ < 0) fail(errno);
+}
+
+RawFile::~RawFile() {
+    if (file_ >= 0) ::close(file_);
+}
+
+void RawFile::fail(int error) const {
+    const std::string why = std::generic_category().message(error);
+    if (mode_ == Mode::read)
+        throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", name_.string(), why));
+    throw Error(ErrorCode::cannot_write, fmt::format("cannot write '{}': {}", name_.string(), why));
+}
+
+std::uint64_t RawFile::size() const {
+    struct stat status {};
+    if (::fstat(file_, &status) != 0) fail(errno);
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+void RawFile::read(std::uint64_t offset, void* to, std::size_t bytes) const {
+    auto* place = static_cast<char*>(to);
+    while (bytes > 0) {
+        const ssize_t got = ::pread(file_, place, std::min(bytes, most_at_once), static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(errno);
+        if (got == 0)
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("cannot read '{}': it ends at byte {}", name_.string(), offset));
+        place += got;
+        offset += static_cast<std::uint64_t>(got);
+        bytes -= static_cast<std::size_t>(got);
+    }
+}
+
+void RawFile::write(std::uint64_t offset, const void* from, std::size_t bytes) {
+    const auto* place = static_cast<const char*>(from);
+    while (bytes > 0) {
+        const ssize_t put = ::pwrite(file_, place, std::min(bytes, most_at_once), static_cast<off_t>(offset));
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) fail(put < 0 ? errno : ENOSPC);
+        place += put;
+        offset += static_cast<std::uint64_t>(put);
+        bytes -= static_cast<std::size_t>(put);
+    }
+}
+
+void RawFile::reserve(std::uint64_t bytes) {
+    if (bytes > most_bytes) fail(EFBIG);
+#ifdef __linux__
+    if (::fallocate(file_, 0, 0, static_cast<off_t>(bytes)) == 0) return;
+    if (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINTR) fail(errno);
+#endif
+    if (::ftruncate(file_, static_cast<off_t>(std::max(bytes, size()))) != 0) fail(errno);
+}
+
+void RawFile::truncate() {
+    if (::ftruncate(file_, 0) != 0) fail(errno);
+}
+
+void RawFile::close() {
+    if (::close(std::exchange(file_, -1)) != 0) fail(errno);
+}
+
+}  // namespace hogel

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "hogel/io/dataset_internal.h"
+#include "hogel/io/files.h"
+#include "hogel/io/grids_internal.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::array pictures{".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg",
+                              ".bmp", ".gif", ".hdr", ".tga",  ".webp"};
+constexpr std::array meshes{".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".dae", ".fbx", ".3ds"};
+
+FileKind kind_by_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (std::ranges::find(pictures, extension) != pictures.end()) return FileKind::picture;
+    if (std::ranges::find(meshes, extension) != meshes.end()) return FileKind::mesh;
+    return FileKind::unknown;
+}
+
+double degrees_across(double tangent) { return 2 * std::atan(tangent) * 180 / std::numbers::pi; }
+
+void describe(const LightFieldGrid& grid, FileSummary& summary) {
+    summary.numbers.insert(summary.numbers.end(), {{"hogels_s", static_cast<double>(grid.hogels_s)},
+                                                   {"hogels_t", static_cast<double>(grid.hogels_t)},
+                                                   {"hogel_pitch_m", grid.pitch},
+                                                   {"width_m", static_cast<double>(grid.hogels_s) * grid.pitch},
+                                                   {"height_m", static_cast<double>(grid.hogels_t) * grid.pitch},
+                                                   {"directions_u", static_cast<double>(grid.directions_u)},
+                                                   {"directions_v", static_cast<double>(grid.directions_v)},
+                                                   {"tan_half_u", grid.tan_half_u},
+                                                   {"tan_half_v", grid.tan_half_v},
+                                                   {"field_of_view_u_deg", degrees_across(grid.tan_half_u)},
+                                                   {"field_of_view_v_deg", degrees_across(grid.tan_half_v)},
+                                                   {"channels", static_cast<double>(grid.channels)}});
+}
+
+void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary) {
+    const Grid& plane = grid.plane;
+    const auto add = [&](std::string_view name, double value) {
+        summary.numbers.emplace_back(fmt::format("field{}_{}", index, name), value);
+    };
+    add("wavelength_m", grid.wavelength);
+    add("samples_x", static_cast<double>(plane.width));
+    add("samples_y", static_cast<double>(plane.height));
+    add("pitch_x_m", plane.pitch_x);
+    add("pitch_y_m", plane.pitch_y);
+    add("width_m", plane.size_x());
+    add("height_m", plane.size_y());
+    add("center_x_m", plane.center_x);
+    add("center_y_m", plane.center_y);
+}
+
+FileKind kind_of(hid_t file, const std::filesystem::path& path) {
+    if (!hdf5::has_attribute(file, "format")) return FileKind::unknown;
+    const std::string format = hdf5::read_text(file, "format", path);
+    if (format == hdf5::light_field_format) return FileKind::light_field;
+    return format == hdf5::hologram_format ? FileKind::hologram : FileKind::unknown;
+}
+
+}  // namespace
+
+FileKind file_kind(const std::filesystem::path& path) {
+    if (!hdf5::is_hdf5(path)) return kind_by_extension(path);
+    const hdf5::Session session;
+    const hdf5::Handle file = hdf5::open_file(path);
+    return kind_of(file.id(), path);
+}
+
+FileSummary summarize(const std::filesystem::path& path) {
+    FileSummary summary;
+    summary.kind = file_kind(path);
+    summary.numbers.emplace_back("bytes", static_cast<double>(std::filesystem::file_size(path)));
+    if (summary.kind != FileKind::light_field && summary.kind != FileKind::hologram) return summary;
+    const hdf5::Session session;
+    const hdf5::Handle file = hdf5::open_file(path);
+    summary.text.emplace_back("format", hdf5::read_text(file.id(), "format", path));
+    summary.numbers.emplace_back("format_version",
+                                 static_cast<double>(hdf5::read_count(file.id(), "format_version", path)));
+    if (summary.kind == FileKind::light_field) {
+        const LightFieldGrid grid = read_light_field_grid(file.id(), path);
+        describe(grid, summary);
+        const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+        const std::vector<std::size_t> shape{grid.channels, grid.hogels_t, grid.hogels_s, grid.directions_v,
+                                             grid.directions_u};
+        const DatasetReader radiance(file.id(), "radiance", shape, false, raw);
+        summary.text.emplace_back("samples", radiance.element() == hdf5::Element::half ? "half" : "single");
+        summary.text.emplace_back("depth", hdf5::has_member(file.id(), "depth") ? "yes" : "no");
+    } else {
+        const std::vector<FieldGrid> grids = read_hologram_grids(file.id(), path);
+        summary.numbers.emplace_back("fields", static_cast<double>(grids.size()));
+        for (std::size_t i = 0; i < grids.size(); ++i) describe(grids[i], i, summary);
+    }
+    for (auto& word : hdf5::read_metadata(file.id(), path)) summary.text.push_back(std::move(word));
+    return summary;
+}
+
+}  // namespace hogel

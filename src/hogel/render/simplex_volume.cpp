@@ -1,0 +1,119 @@
+#include "hogel/render/simplex_volume_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+// The part of a convex polygon where `side` is not negative. A point between two corners is computed from the negative
+// one to the other, so that both sides of a cut have the same points.
+template <class Point, class Side, class Mix>
+std::vector<Point> cut(const std::vector<Point>& polygon, const Side& side, const Mix& mix) {
+    std::vector<Point> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+        const double a = side(here), b = side(next);
+        if (a >= 0) kept.push_back(here);
+        if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+            // The same arithmetic for a cut and for its reverse, from one end of the edge.
+            kept.push_back(a < b ? mix(here, next, a / (a - b)) : mix(next, here, b / (b - a)));
+        }
+    }
+    return kept;
+}
+
+}  // namespace
+
+DeepTriangle deep_triangle(const ShadedScene& scene, std::size_t index) {
+    DeepTriangle triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& p = scene.positions[scene.triangles[index].vertices[i]];
+        triangle[i] = {p.x, p.y, -p.z};
+    }
+    return triangle;
+}
+
+double near_plane(const ShadedScene& scene, std::string_view renderer) {
+    double size = 0, nearest = std::numeric_limits<double>::infinity();
+    for (const ShadedScene::Triangle& triangle : scene.triangles)
+        for (std::uint32_t vertex : triangle.vertices) {
+            const Vec3& p = scene.positions[vertex];
+            size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+            nearest = std::min(nearest, -p.z);
+        }
+    if (nearest <= 0)
+        throw Error(ErrorCode::usage,
+                    fmt::format("renderer '{}' needs the whole scene behind the hologram plane, but its nearest point "
+                                "is at z = {:g} m; 'raytrace' has no such limit",
+                                renderer, -nearest));
+    return 1e-6 * size;
+}
+
+std::vector<DeepTriangle> clip_to_near_plane(const DeepTriangle& triangle, double near) {
+    using Point = std::array<double, 3>;
+    const auto mix = [near](const Point& a, const Point& b, double f) {
+        return Point{a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), near};
+    };
+    const std::vector<Point> kept = cut<Point>(
+        {triangle[0], triangle[1], triangle[2]}, [near](const Point& p) { return p[2] - near; }, mix);
+    std::vector<DeepTriangle> triangles;
+    for (std::size_t i = 2; i < kept.size(); ++i) triangles.push_back({kept[0], kept[i - 1], kept[i]});
+    return triangles;
+}
+
+std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint camera, const LightFieldGrid& grid,
+                                      const HogelRange& range) {
+    const double s = grid.s(static_cast<double>(range.s0) + camera.s);
+    const double t = grid.t(static_cast<double>(range.t0) + camera.t);
+    const double half_u = 0.5 * static_cast<double>(grid.directions_u) - 0.5;
+    const double half_v = 0.5 * static_cast<double>(grid.directions_v) - 0.5;
+    std::array<ProjectedPoint, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& [x, y, depth] = triangle[i];
+        points[i] = {half_u + (x - s) / (depth * grid.step_u()), half_v - (y - t) / (depth * grid.step_v()),
+                     camera.s / depth, camera.t / depth, 1 / depth};
+    }
+    return points;
+}
+
+RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range) {
+    const auto& [a, b, c] = triangle;
+    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const auto front = [&](const CameraPoint& p) {
+        const double s = grid.s(static_cast<double>(range.s0) + p.s), t = grid.t(static_cast<double>(range.t0) + p.t);
+        return nx * (a[0] - s) + ny * (a[1] - t) + nz * a[2];
+    };
+    const auto back = [&](const CameraPoint& p) { return -front(p); };
+    const auto mix = [](const CameraPoint& p, const CameraPoint& q, double f) {
+        return CameraPoint{p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)};
+    };
+    // A little beyond the outermost hogels, so that a region of one hogel is more than a point.
+    constexpr double rim = 1e-3;
+    const double right = static_cast<double>(range.ns) - 1 + rim, bottom = static_cast<double>(range.nt) - 1 + rim;
+    const std::vector<CameraPoint> all{{-rim, -rim}, {right, -rim}, {right, bottom}, {-rim, bottom}};
+    return {cut(all, front, mix), cut(all, back, mix)};
+}
+
+void append_projected_volume(const DeepTriangle& triangle, const std::vector<CameraPoint>& region,
+                             const LightFieldGrid& grid, const HogelRange& range, std::vector<Simplex<4>>& simplices) {
+    if (region.size() < 3) return;
+    std::vector<std::array<ProjectedPoint, 3>> seen_from;
+    for (const CameraPoint& corner : region) seen_from.push_back(project(triangle, corner, grid, range));
+    for (std::size_t i = 2; i < region.size(); ++i) {
+        const std::array corners{std::size_t{0}, i - 1, i};
+        for (const auto& path : product_paths<5>(2)) {
+            Simplex<4>& simplex = simplices.emplace_back();
+            for (std::size_t k = 0; k < 5; ++k) simplex[k] = seen_from[corners[path[k].first]][path[k].second];
+        }
+    }
+}
+
+}  // namespace hogel

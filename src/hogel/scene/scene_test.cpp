@@ -1,0 +1,178 @@
+#include "hogel/scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hogel/core/error.h"
+#include "hogel/scene/import.h"
+
+namespace hogel {
+namespace {
+
+/// The box -1..1, two triangles a side, eight shared vertices.
+Scene cube() {
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
+    mesh.triangles = {{4, 5, 7}, {4, 7, 6}, {1, 0, 2}, {1, 2, 3}, {5, 1, 3}, {5, 3, 7},
+                      {0, 4, 6}, {0, 6, 2}, {6, 7, 3}, {6, 3, 2}, {0, 1, 5}, {0, 5, 4}};
+    mesh.name = "cube";
+    Scene scene;
+    scene.meshes.push_back(mesh);
+    return scene;
+}
+
+TEST(Normals, a_cube_splits_at_its_edges) {
+    Scene scene = cube();
+    scene.meshes[0].colors.assign(8, {0.5f, 0, 0});
+    add_missing_normals(scene, 0.5);
+    const Mesh& mesh = scene.meshes[0];
+    EXPECT_EQ(mesh.positions.size(), 24u);
+    EXPECT_NO_THROW(validate(scene));
+    for (const auto& t : mesh.triangles) {
+        const Vec3 a = mesh.positions[t[0]];
+        const Vec3 flat = normalize(cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a));
+        for (std::uint32_t vertex : t) EXPECT_NEAR(dot(mesh.normals[vertex], flat), 1, 1e-12);
+    }
+}
+
+TEST(Normals, a_wide_crease_angle_smooths_the_cube_without_new_vertices) {
+    Scene scene = cube();
+    add_missing_normals(scene, 1.7);
+    const Mesh& mesh = scene.meshes[0];
+    ASSERT_EQ(mesh.positions.size(), 8u);
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_GT(dot(mesh.normals[i], normalize(mesh.positions[i])), 0.9);
+}
+
+TEST(Normals, triangles_that_share_only_positions_are_smooth_too) {
+    Scene soup;
+    soup.meshes.emplace_back();
+    const Scene box = cube();
+    for (const auto& t : box.meshes[0].triangles) {
+        const auto base = static_cast<std::uint32_t>(soup.meshes[0].positions.size());
+        for (std::uint32_t vertex : t) soup.meshes[0].positions.push_back(box.meshes[0].positions[vertex]);
+        soup.meshes[0].triangles.push_back({base, base + 1, base + 2});
+    }
+    Scene shared = cube();
+    add_missing_normals(soup, 1.7);
+    add_missing_normals(shared, 1.7);
+    for (std::size_t t = 0; t < 12; ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(soup.meshes[0].normals[soup.meshes[0].triangles[t][k]],
+                      shared.meshes[0].normals[shared.meshes[0].triangles[t][k]]);
+}
+
+TEST(Normals, a_sphere_gets_those_of_the_sphere_and_existing_ones_stay) {
+    Scene scene;
+    Mesh ball;
+    constexpr std::uint32_t rows = 60, columns = 120;
+    for (std::uint32_t i = 0; i <= rows; ++i)
+        for (std::uint32_t k = 0; k <= columns; ++k) {
+            const double a = std::numbers::pi * i / rows, b = 2 * std::numbers::pi * (k % columns) / columns;
+            ball.positions.push_back({std::sin(a) * std::sin(b), std::cos(a), std::sin(a) * std::cos(b)});
+            if (i == rows || k == columns) continue;
+            const std::uint32_t here = i * (columns + 1) + k, below = here + columns + 1;
+            ball.triangles.push_back({here, below, below + 1});
+            ball.triangles.push_back({here, below + 1, here + 1});
+        }
+    scene.meshes = {ball, cube().meshes[0]};
+    scene.meshes[1].normals.assign(8, {0, 1, 0});
+    add_missing_normals(scene, 0.5);
+    for (const auto& t : scene.meshes[0].triangles) {
+        const auto& p = scene.meshes[0].positions;
+        if (length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]])) < 1e-9) continue;  // at the poles
+        for (std::uint32_t vertex : t) EXPECT_GT(dot(scene.meshes[0].normals[vertex], p[vertex]), 0.999);
+    }
+    EXPECT_EQ(scene.meshes[1].normals, std::vector<Vec3>(8, Vec3{0, 1, 0}));
+}
+
+TEST(Scene, what_is_wrong_is_named) {
+    const auto complaint = [](const Scene& scene) -> std::string {
+        try {
+            validate(scene);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(complaint(cube()), "");
+    EXPECT_NE(complaint({}).find("no triangles"), std::string::npos);
+    Scene scene = cube();
+    scene.meshes[0].triangles[3][1] = 8;
+    EXPECT_NE(complaint(scene).find("mesh 'cube': triangle 3 has vertex index 8"), std::string::npos);
+    scene = cube();
+    scene.meshes[0].positions[5].y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(complaint(scene).find("positions of vertex 5"), std::string::npos);
+    scene = cube();
+    scene.meshes[0].normals.resize(7);
+    EXPECT_NE(complaint(scene).find("7 normals; expected 8"), std::string::npos);
+    scene = cube();
+    scene.meshes[0].colors.assign(8, {1, 1, std::numeric_limits<float>::infinity()});
+    EXPECT_NE(complaint(scene).find("colors of vertex 0"), std::string::npos);
+}
+
+TEST(Scene, bounds_are_those_of_used_vertices) {
+    Scene scene = cube();
+    scene.meshes[0].positions.push_back({100, 0, 0});
+    EXPECT_EQ(bounds(scene).low, (Vec3{-1, -1, -1}));
+    EXPECT_EQ(bounds(scene).high, (Vec3{1, 1, 1}));
+    EXPECT_EQ(triangle_count(scene), 12u);
+    EXPECT_THROW(bounds(Scene{}), Error);
+}
+
+TEST(Fit, fills_the_hologram_and_stands_where_it_is_told) {
+    for (double front : {0.0, 0.25, 1.0}) {
+        Scene scene = cube();
+        for (Vec3& p : scene.meshes[0].positions) p = Vec3{3 * p.x + 7, p.y - 2, 2 * p.z + 1};
+        fit_scene(scene, {0.02, 0.01, 0.9, front});
+        const auto [low, high] = bounds(scene);
+        EXPECT_NEAR(high.x - low.x, 0.9 * 0.02, 1e-15);
+        EXPECT_NEAR(high.y - low.y, 0.9 * 0.02 / 3, 1e-15);
+        EXPECT_NEAR(low.x + high.x, 0, 1e-15);
+        EXPECT_NEAR(low.y + high.y, 0, 1e-15);
+        EXPECT_NEAR(high.z, front * (high.z - low.z), 1e-15);
+    }
+}
+
+TEST(Fit, point_lights_keep_the_irradiance_that_they_make) {
+    Scene scene = cube();
+    Light light;
+    light.kind = Light::Kind::point;
+    light.position = {4, 5, 6};
+    light.intensity = {2, 2, 2};
+    scene.lights = {light};
+    const auto irradiance = [&] {
+        const Vec3 way = scene.lights[0].position - scene.meshes[0].positions[7];
+        return scene.lights[0].intensity.r / dot(way, way);
+    };
+    const double before = irradiance();
+    fit_scene(scene, {0.02, 0.02, 0.85, 0.5});
+    EXPECT_NEAR(irradiance(), before, 1e-6 * before);
+}
+
+TEST(Fit, refuses_what_has_no_size) {
+    Scene flat = cube();
+    for (Vec3& p : flat.meshes[0].positions) p = {1, 1, p.z};
+    EXPECT_THROW(fit_scene(flat, {0.02, 0.02, 0.85, 0}), Error);
+    Scene scene = cube();
+    EXPECT_THROW(fit_scene(scene, {0, 0.02, 0.85, 0}), Error);
+}
+
+TEST(DefaultLights, come_from_the_front_and_are_directional) {
+    Scene scene = cube();
+    add_default_lights(scene);
+    ASSERT_EQ(scene.lights.size(), 2u);
+    for (const Light& light : scene.lights) {
+        EXPECT_EQ(light.kind, Light::Kind::directional);
+        EXPECT_NEAR(length(light.direction), 1, 1e-12);
+        EXPECT_LT(light.direction.z, 0);
+    }
+    EXPECT_GT(scene.lights[0].direction.x, 0);  // the key light comes from the upper left
+    EXPECT_LT(scene.lights[0].direction.y, 0);
+}
+
+}  // namespace
+}  // namespace hogel
