@@ -1,5 +1,7 @@
-// Samples a second of every renderer, on a displaced sphere behind the hologram, whole rows of hogels at a time.
-//   render_bench [triangles=20000] [threads=1] [rounds=5] [hogels=64] [directions=256] [tile=hogels] [names...]
+// Samples a second of every renderer, whole rows of hogels at a time, of a displaced sphere behind the hologram or of
+// eight wavy sheets one behind the other, which fill the view and of which the first hides the others.
+//   render_bench [sphere|sheets] [triangles=20000] [threads=1] [rounds=5] [hogels=64] [directions=256] [tile=hogels]
+//                [names...]
 // The renderers take turns in every round, so that whatever else runs on the machine disturbs all alike. Printed: the
 // median over the rounds of samples (all channels of a ray are one sample) per second of wall time, and per second of
 // processor time.
@@ -43,6 +45,29 @@ ShadedScene displaced_sphere(std::size_t triangles) {
     return scene;
 }
 
+ShadedScene sheets(std::size_t triangles) {
+    const std::size_t side = static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles) / 16));
+    ShadedScene scene;
+    for (std::size_t sheet = 0; sheet < 8; ++sheet) {
+        const auto base = static_cast<std::uint32_t>(scene.positions.size());
+        for (std::size_t j = 0; j <= side; ++j)
+            for (std::size_t i = 0; i <= side; ++i) {
+                const double x = 2 * double(i) / double(side) - 1, y = 2 * double(j) / double(side) - 1;
+                const double depth = 6e-3 + 1.5e-3 * (double(sheet) + 0.3 * std::sin(9 * x) * std::sin(11 * y));
+                scene.positions.push_back({12e-3 * x, 12e-3 * y, -depth});
+                scene.radiance.push_back({float(0.5 + 0.5 * x), float(0.5 + 0.5 * y), float(sheet) / 8});
+            }
+        for (std::uint32_t j = 0; j < side; ++j)
+            for (std::uint32_t i = 0; i < side; ++i) {
+                const auto width = static_cast<std::uint32_t>(side + 1), at = base + j * width + i;
+                scene.triangles.push_back({{at, at + width, at + width + 1}, ShadedScene::no_texture, 0});
+                scene.triangles.push_back({{at, at + width + 1, at + 1}, ShadedScene::no_texture, 0});
+            }
+    }
+    scene.texture_coordinates.resize(scene.positions.size());
+    return scene;
+}
+
 struct Speed {
     double wall, processor;
 };
@@ -67,17 +92,19 @@ double median(std::vector<double> values) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const std::string kind = argc > 1 ? argv[1] : "sphere";
     const auto argument = [&](int i, std::size_t otherwise) {
         return i < argc ? std::strtoull(argv[i], nullptr, 10) : otherwise;
     };
-    const std::size_t triangles = argument(1, 20000), threads = argument(2, 1), rounds = argument(3, 5);
-    const std::size_t hogels = argument(4, 64), directions = argument(5, 256), width = argument(6, hogels);
-    std::vector<std::string> names(argv + std::min(argc, 7), argv + argc);
+    const std::size_t triangles = argument(2, 20000), threads = argument(3, 1), rounds = argument(4, 5);
+    const std::size_t hogels = argument(5, 64), directions = argument(6, 256), width = argument(7, hogels);
+    std::vector<std::string> names(argv + std::min(argc, 8), argv + argc);
     if (names.empty())
         for (const RendererInfo& info : renderers()) names.emplace_back(info.name);
 
     const ThreadLimit limit(threads);
-    const auto scene = std::make_shared<const ShadedScene>(displaced_sphere(triangles));
+    const auto scene =
+        std::make_shared<const ShadedScene>(kind == "sheets" ? sheets(triangles) : displaced_sphere(triangles));
     const LightFieldGrid grid{hogels, hogels, 8e-3 / double(hogels), directions, directions, 0.364, 0.364, 3};
     // Rows spread over the hologram, as many hogels for each renderer.
     std::vector<LightFieldTile> tiles;
@@ -100,9 +127,10 @@ int main(int argc, char** argv) {
             covered += std::isfinite(depth) ? 1 : 0;
             ++all;
         }
-    std::printf("%zu triangles, %zux%zu hogels in tiles of %zux1, %zux%zu directions, %.1f%% covered, %zu threads\n",
-                scene->triangles.size(), hogels, hogels, width, directions, directions,
-                100 * double(covered) / double(all), thread_count());
+    std::printf(
+        "%s of %zu triangles, %zux%zu hogels in tiles of %zux1, %zux%zu directions, %.1f%% covered, %zu threads\n",
+        kind.c_str(), scene->triangles.size(), hogels, hogels, width, directions, directions,
+        100 * double(covered) / double(all), thread_count());
     for (std::size_t i = 0; i < names.size(); ++i)
         std::printf("  %-10s %8.2f Msamples/s  %8.2f per processor second  %6.1f times the first\n", names[i].c_str(),
                     1e-6 * median(wall[i]), 1e-6 * median(processor[i]), median(wall[i]) / median(wall[0]));

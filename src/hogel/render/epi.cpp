@@ -8,6 +8,7 @@
 #include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/epi_occlusion_internal.h"
 #include "hogel/render/sample_store_internal.h"
 
 namespace hogel {
@@ -18,6 +19,9 @@ constexpr std::size_t most_words = std::size_t{96} << 10;
 
 // A thread that copies a light field holds one tile.
 constexpr std::size_t most_tile_bytes = std::size_t{96} << 20;
+
+// After so many strips it is first looked which samples are covered; then whenever their number has doubled.
+constexpr std::size_t first_update = 128;
 
 // Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
 // it and the next corner, end 1 between it and the last.
@@ -50,13 +54,12 @@ class EpiRenderer final : public LightFieldSource {
         Work work;
         for (std::size_t v = 0; v < grid_.directions_v; ++v)
             for (std::size_t t = 0; t < tile.range.nt; ++t) {
-                cut_triangles(frame_.row(tile.range.t0 + t), frame_.slope(v), work);
                 for (std::size_t s = 0; s < tile.range.ns; s += columns) {
                     const EpipolarPlane plane{words.data(), std::min(columns, tile.range.ns - s), grid_.directions_u,
                                               frame_.first_column + static_cast<std::int32_t>(tile.range.s0 + s),
                                               frame_.first_direction};
                     std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
-                    draw(work.strips, plane);
+                    draw_plane(plane, frame_.row(tile.range.t0 + t), frame_.slope(v), work);
                     shade_plane(tile, plane, work, t, s, v);
                 }
             }
@@ -68,42 +71,57 @@ class EpiRenderer final : public LightFieldSource {
         std::vector<Strip> strips;
         std::vector<StripEnds> ends;
         std::vector<StripOrigin> origins;
+        Occlusion occlusion;
     };
 
-    void cut_triangles(double row, double slope, Work& work) const {
+    // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
+    void draw_plane(const EpipolarPlane& plane, double row, double slope, Work& work) const {
         work.strips.clear();
         work.ends.clear();
         work.origins.clear();
-        for (std::size_t cluster = 0; cluster < clusters_.corners.size(); ++cluster) {
-            if (!clusters_.may_cross(cluster, row, slope)) continue;
-            std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
-            for (; crossed != 0; crossed &= crossed - 1)
-                add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, work);
+        work.occlusion.clear();
+        std::size_t drawn = 0, next_update = first_update;
+        const auto draw_rest = [&] {
+            draw(std::span(work.strips).subspan(drawn), drawn, plane);
+            drawn = work.strips.size();
+        };
+        for (const TriangleClusters::Group& group : clusters_.groups) {
+            if (!group.bounds.may_cross(row, slope) || work.occlusion.hides(group.bounds, plane)) continue;
+            for (const std::uint32_t cluster : group.clusters) {
+                const TriangleClusters::Bounds& bounds = clusters_.bounds[cluster];
+                if (!bounds.may_cross(row, slope) || work.occlusion.hides(bounds, plane)) continue;
+                std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
+                for (; crossed != 0; crossed &= crossed - 1)
+                    add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, work);
+            }
+            if (work.strips.size() < next_update) continue;
+            draw_rest();
+            work.occlusion.update(plane);
+            next_update = 2 * drawn;
         }
+        draw_rest();
     }
 
     void add_strip(std::size_t cluster, std::size_t place, double row, double slope, Work& work) const {
         const ClusterCorners& all = clusters_.corners[cluster];
-        const auto corner = [&](std::size_t i) {
+        std::array<double, 3> x, z, height;
+        for (std::size_t i = 0; i < 3; ++i) {
+            x[i] = all.x[i][place];
+            z[i] = all.z[i][place];
             // As in `crossing`, to the last bit.
-            return Corner{all.x[i][place], all.z[i][place], (all.y[i][place] - slope * all.z[i][place]) - row};
-        };
-        const std::array corners{corner(0), corner(1), corner(2)};
-        const auto below = [&](std::size_t i) { return corners[i].height < 0; };
-        const std::uint32_t lone = below(1) == below(2) ? 0 : below(2) == below(0) ? 1 : 2;
-        const std::uint32_t next = lone < 2 ? lone + 1 : 0, last = lone > 0 ? lone - 1 : 2;
-        const Cut end0 = cut(corners[lone], corners[next]), end1 = cut(corners[lone], corners[last]);
+            height[i] = (all.y[i][place] - slope * z[i]) - row;
+        }
+        const auto [lone, next, last, end0, end1] = cut_triangle(x, z, height);
         work.strips.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
                                static_cast<float>(end1.z)});
 
-        const std::uint32_t index = clusters_.triangles[cluster * cluster_size + place];
-        const auto& vertices = scene_->triangles[index].vertices;
+        const std::size_t index = cluster * cluster_size + place;
+        const auto& radiance = clusters_.radiance[index];
         const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
-        const Rgb alone = scene_->radiance[vertices[lone]];
         StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end1.x, end0.z, end1.z, {}, {}});
-        set_values(ends.value0, w0 * alone + (1 - w0) * scene_->radiance[vertices[next]], end0.z);
-        set_values(ends.value1, w1 * alone + (1 - w1) * scene_->radiance[vertices[last]], end1.z);
-        if (!scene_->textures.empty()) work.origins.push_back({w0, w1, index, lone});
+        set_values(ends.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], end0.z);
+        set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], end1.z);
+        if (!scene_->textures.empty()) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
     }
 
     void set_values(float (&values)[4], Rgb radiance, double z) const {

@@ -50,22 +50,33 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene) {
 TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame)
     : triangles(morton_order(scene)) {
     const std::size_t count = (triangles.size() + cluster_size - 1) / cluster_size;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr Bounds empty{infinity, -infinity, infinity, -infinity, infinity, -infinity};
     corners.resize(count);
-    for (auto* bound : {&y_low, &z_low}) bound->assign(count, std::numeric_limits<double>::infinity());
-    for (auto* bound : {&y_high, &z_high}) bound->assign(count, -std::numeric_limits<double>::infinity());
+    radiance.resize(triangles.size());
+    bounds.assign(count, empty);
+    groups.assign((count + group_size - 1) / group_size, {empty, {}});
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const std::size_t cluster = i / cluster_size, place = i % cluster_size;
+        const auto& vertices = scene.triangles[triangles[i]].vertices;
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const Vec3 p = frame.in_samples(scene.positions[scene.triangles[triangles[i]].vertices[corner]]);
+            const Vec3 p = frame.in_samples(scene.positions[vertices[corner]]);
             corners[cluster].x[corner][place] = p.x;
             corners[cluster].y[corner][place] = p.y;
             corners[cluster].z[corner][place] = p.z;
-            y_low[cluster] = std::min(y_low[cluster], p.y);
-            y_high[cluster] = std::max(y_high[cluster], p.y);
-            z_low[cluster] = std::min(z_low[cluster], p.z);
-            z_high[cluster] = std::max(z_high[cluster], p.z);
+            radiance[i][corner] = scene.radiance[vertices[corner]];
+            for (Bounds* box : {&bounds[cluster], &groups[cluster / group_size].bounds})
+                *box = {std::min(box->x_low, p.x),  std::max(box->x_high, p.x), std::min(box->y_low, p.y),
+                        std::max(box->y_high, p.y), std::min(box->z_low, p.z),  std::max(box->z_high, p.z)};
         }
     }
+    for (std::uint32_t cluster = 0; cluster < count; ++cluster)
+        groups[cluster / group_size].clusters.push_back(cluster);
+    for (Group& group : groups)
+        std::stable_sort(group.clusters.begin(), group.clusters.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return bounds[a].z_low < bounds[b].z_low; });
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group& a, const Group& b) { return a.bounds.z_low < b.bounds.z_low; });
 }
 
 }  // namespace hogel

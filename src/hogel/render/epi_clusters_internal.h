@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,22 +18,37 @@ struct ClusterCorners {
     alignas(64) double x[3][cluster_size], y[3][cluster_size], z[3][cluster_size];
 };
 
-/// The triangles of a scene in the units of an EpipolarFrame, neighbours together. The last cluster is filled up with
-/// triangles that are a single point, which no ray meets.
+/// The triangles of a scene in the units of an EpipolarFrame, neighbours together: in clusters, and clusters in groups.
+/// What comes nearest to the viewer comes first, among the groups and among the clusters of a group. The last cluster
+/// is filled up with triangles that are a single point, which no ray meets.
 struct TriangleClusters {
+    /// What a range of triangles lies between.
+    struct Bounds {
+        double x_low, x_high, y_low, y_high, z_low, z_high;
+
+        /// Whether the plane y = row + slope z may meet what is inside. Exact about rounding: never false for a cluster
+        /// one of whose triangles `crossing` reports.
+        bool may_cross(double row, double slope) const {
+            const double a = slope * z_low, b = slope * z_high;
+            const double least = a < b ? a : b, most = a < b ? b : a;
+            return (y_low - most) - row < 0 && (y_high - least) - row >= 0;
+        }
+    };
+
+    static constexpr std::size_t group_size = 4;  ///< clusters
+
     std::vector<ClusterCorners, CacheLineAllocator<ClusterCorners>> corners;
-    std::vector<std::uint32_t> triangles;              ///< which triangle of the scene stands in each place
-    std::vector<double> y_low, y_high, z_low, z_high;  ///< bounds of each cluster
+    std::vector<std::uint32_t> triangles;      ///< which triangle of the scene stands in each place
+    std::vector<std::array<Rgb, 3>> radiance;  ///< of the corners, in the same places
+    std::vector<Bounds> bounds;                ///< of the clusters
+
+    struct Group {
+        Bounds bounds;
+        std::vector<std::uint32_t> clusters;
+    };
+    std::vector<Group> groups;
 
     TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame);
-
-    /// Whether the plane y = row + slope z may meet the cluster. Exact about rounding: it is never false for a cluster
-    /// one of whose triangles `crossing` reports.
-    bool may_cross(std::size_t cluster, double row, double slope) const {
-        const double a = slope * z_low[cluster], b = slope * z_high[cluster];
-        const double least = a < b ? a : b, most = a < b ? b : a;
-        return (y_low[cluster] - most) - row < 0 && (y_high[cluster] - least) - row >= 0;
-    }
 };
 
 }  // namespace hogel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 
 #include "hogel/render/epi_clusters_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
@@ -17,8 +18,10 @@ ShadedScene scattered_triangles(std::size_t count) {
     ShadedScene scene;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vec3 middle{place(random), place(random), place(random)};
-        for (int corner = 0; corner < 3; ++corner)
+        for (int corner = 0; corner < 3; ++corner) {
             scene.positions.push_back(middle + Vec3{size(random), size(random), size(random)});
+            scene.radiance.push_back({float(i), float(corner), 0});
+        }
         scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
     }
     return scene;
@@ -33,6 +36,8 @@ TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
     std::sort(sorted.begin(), sorted.end());
     for (std::uint32_t i = 0; i < 1000; ++i) {
         EXPECT_EQ(sorted[i], i);
+        for (int corner = 0; corner < 3; ++corner)
+            EXPECT_EQ(clusters.radiance[i][std::size_t(corner)], (Rgb{float(clusters.triangles[i]), float(corner), 0}));
         const Vec3 first = frame.in_samples(scene.positions[3 * clusters.triangles[i]]);
         EXPECT_EQ(clusters.corners[i / cluster_size].x[0][i % cluster_size], first.x);
         EXPECT_EQ(clusters.corners[i / cluster_size].y[0][i % cluster_size], first.y);
@@ -43,13 +48,19 @@ TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
 TEST(TriangleClusters, are_passed_over_only_if_no_triangle_is_crossed_and_mostly_then) {
     const EpipolarFrame frame(grid);
     const TriangleClusters clusters(scattered_triangles(6000), frame);
+    const auto group_of = [&](std::size_t cluster) -> const TriangleClusters::Group& {
+        for (const auto& group : clusters.groups)
+            if (std::ranges::count(group.clusters, cluster) == 1) return group;
+        throw std::logic_error("a cluster without a group");
+    };
     std::size_t crossed = 0, passed_over = 0, in_vain = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t v = 0; v < grid.directions_v; ++v)
             for (std::size_t i = 0; i < clusters.corners.size(); ++i) {
                 const bool meets = crossing_plain(clusters.corners[i], frame.row(t), frame.slope(v)) != 0;
-                const bool may = clusters.may_cross(i, frame.row(t), frame.slope(v));
+                const bool may = clusters.bounds[i].may_cross(frame.row(t), frame.slope(v));
                 ASSERT_TRUE(may || !meets) << t << " " << v << " " << i;
+                ASSERT_TRUE(group_of(i).bounds.may_cross(frame.row(t), frame.slope(v)) || !meets);
                 (meets ? crossed : may ? in_vain : passed_over) += 1;
             }
     EXPECT_GT(crossed, 1000u);

@@ -1,24 +1,38 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 namespace hogel {
 
-/// A corner of a triangle, with its signed height above the plane that cuts it.
-struct Corner {
-    double x, z, height;
-};
-
-/// Where an edge meets the plane, and the weight there of its first corner (the second has the rest).
+/// Where an edge meets a plane, and the weight there of the corner that is alone (the edge's other corner has the
+/// rest).
 struct Cut {
     double x, z, weight;
 };
 
-/// Cuts an edge whose corners lie on different sides: one height is below 0, the other is not. Always computed from the
-/// lower corner to the upper, so that the triangles that share the edge get the same point, to the last bit.
-inline Cut cut(const Corner& a, const Corner& b) {
-    const bool upwards = a.height < 0;
-    const Corner &low = upwards ? a : b, &high = upwards ? b : a;
-    const double part = low.height / (low.height - high.height);
-    return {low.x + part * (high.x - low.x), low.z + part * (high.z - low.z), upwards ? 1 - part : part};
+/// The segment in which a plane cuts a triangle. Of three corners on two sides one is alone; end 0 lies on the edge
+/// from it to the next corner, end 1 on the edge to the last.
+struct TriangleCut {
+    std::uint32_t lone, next, last;
+    Cut end0, end1;
+};
+
+/// Cuts a triangle whose corners (x, z) have these heights above the plane: one or two of them below 0. An edge is
+/// always cut from its lower end to its upper, so that the triangles that share it get the same point, to the last bit.
+inline TriangleCut cut_triangle(const std::array<double, 3>& x, const std::array<double, 3>& z,
+                                const std::array<double, 3>& height) {
+    // By tables and selections, for no branch here can be predicted.
+    constexpr std::array<std::uint8_t, 8> alone{0, 0, 1, 2, 2, 1, 0, 0}, after{1, 2, 0}, before{2, 0, 1};
+    const unsigned below = unsigned{height[0] < 0} | unsigned{height[1] < 0} << 1 | unsigned{height[2] < 0} << 2;
+    const std::uint32_t lone = alone[below], next = after[lone], last = before[lone];
+    const bool upwards = (below & (below - 1)) == 0;
+    const auto cut = [&](std::uint32_t other) {
+        const std::uint32_t low = upwards ? lone : other, high = upwards ? other : lone;
+        const double part = height[low] / (height[low] - height[high]);
+        return Cut{x[low] + part * (x[high] - x[low]), z[low] + part * (z[high] - z[low]), upwards ? 1 - part : part};
+    };
+    return {lone, next, last, cut(next), cut(last)};
 }
 
 }  // namespace hogel

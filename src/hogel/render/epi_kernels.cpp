@@ -14,7 +14,7 @@ std::uint64_t crossing_plain(const ClusterCorners& corners, double row, double s
     return crossed;
 }
 
-void draw_plain(std::span<const Strip> strips, const EpipolarPlane& plane) {
+void draw_plain(std::span<const Strip> strips, std::size_t first_number, const EpipolarPlane& plane) {
     const auto first = static_cast<float>(plane.first_column);
     const float last = first + static_cast<float>(plane.columns) - 1;
     for (std::size_t i = 0; i < strips.size(); ++i) {
@@ -27,10 +27,20 @@ void draw_plain(std::span<const Strip> strips, const EpipolarPlane& plane) {
             for (float n = begin; n <= end; ++n) {
                 const float z = strip.z0 + (n - c0) / (c1 - c0) * (strip.z1 - strip.z0);
                 std::uint64_t& word = plane.words[static_cast<std::size_t>(n - first) * plane.directions + k];
-                word = std::min(word, std::uint64_t{ordered_bits(z)} << 32 | i);
+                word = std::min(word, std::uint64_t{ordered_bits(z)} << 32 | (first_number + i));
             }
         }
     }
+}
+
+void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
+    const std::size_t across = (plane.directions + cell_directions - 1) / cell_directions;
+    std::fill(cells.begin(), cells.end(), 0);
+    for (std::size_t column = 0; column < plane.columns; ++column)
+        for (std::size_t k = 0; k < plane.directions; ++k) {
+            std::uint32_t& cell = cells[column / cell_columns * across + k / cell_directions];
+            cell = std::max(cell, static_cast<std::uint32_t>(plane.words[column * plane.directions + k] >> 32));
+        }
 }
 
 void shade_plain(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],

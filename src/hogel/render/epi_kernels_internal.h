@@ -35,7 +35,7 @@ struct EpipolarPlane {
 };
 
 /// The bits of a float such that unsigned comparison orders them as the floats, also below zero.
-inline std::uint32_t ordered_bits(float value) {
+constexpr std::uint32_t ordered_bits(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
 }
@@ -56,10 +56,16 @@ struct ShadedPlane {
 std::uint64_t crossing_plain(const ClusterCorners& corners, double row, double slope);
 std::uint64_t crossing(const ClusterCorners& corners, double row, double slope);
 
-/// Draws strips into a plane: wherever strip i is nearer than what is there (or as near, with a smaller number), the
-/// word becomes ordered_bits(z) · 2³² + i.
-void draw_plain(std::span<const Strip> strips, const EpipolarPlane& plane);
-void draw(std::span<const Strip> strips, const EpipolarPlane& plane);
+/// Draws strips number `first`, first + 1, … into a plane: wherever strip i is nearer than what is there (or as near,
+/// with a smaller number), the word becomes ordered_bits(z) · 2³² + i.
+void draw_plain(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane);
+void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane);
+
+/// The depths (ordered bits) of the farthest sample of each cell of the plane, directions fastest; all ones where a
+/// sample has seen nothing yet. Cells at the far edges of the plane may be smaller.
+constexpr std::size_t cell_columns = 8, cell_directions = 16;
+void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
+void farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
 
 /// The values of what each sample of the plane sees, by the numbers of the strips; `background` where it sees nothing.
 void shade_plain(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],

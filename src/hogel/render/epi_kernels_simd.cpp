@@ -174,12 +174,35 @@ void draw_strip(const Drawing& on) {
         along_directions(on, K_begin, K_end);
 }
 
-void Draw(std::span<const Strip> strips, const EpipolarPlane& plane) {
+void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
     const auto n_first = static_cast<float>(plane.first_column);
     const float n_last = n_first + static_cast<float>(plane.columns) - 1;
     const float k_last = plane.first_direction + static_cast<float>(plane.directions) - 1;
     for (std::size_t i = 0; i < strips.size(); ++i)
-        draw_strip({strips[i], i, plane, n_first, n_last, plane.first_direction, k_last});
+        draw_strip({strips[i], first + i, plane, n_first, n_last, plane.first_direction, k_last});
+}
+
+void Farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
+    const hn::ScalableTag<std::uint64_t> d;
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t cell = 0;
+    for (std::size_t c0 = 0; c0 < plane.columns; c0 += cell_columns)
+        for (std::size_t k0 = 0; k0 < plane.directions; k0 += cell_directions, ++cell) {
+            const std::size_t c1 = std::min(c0 + cell_columns, plane.columns);
+            const std::size_t k1 = std::min(k0 + cell_directions, plane.directions);
+            auto most = hn::Zero(d);
+            std::uint64_t rest = 0;
+            for (std::size_t column = c0; column < c1; ++column) {
+                const std::uint64_t* row = plane.words + column * plane.directions;
+                std::size_t k = k0;
+                for (; k + lanes <= k1; k += lanes) most = hn::Max(most, hn::LoadU(d, row + k));
+                for (; k < k1; ++k) rest = std::max(rest, row[k]);
+            }
+            HWY_ALIGN std::uint64_t lane[HWY_MAX_BYTES / 8];
+            hn::Store(most, d, lane);
+            for (std::size_t i = 0; i < lanes; ++i) rest = std::max(rest, lane[i]);
+            cells[cell] = static_cast<std::uint32_t>(rest >> 32);
+        }
 }
 
 #if HWY_TARGET == HWY_SCALAR
@@ -269,13 +292,20 @@ namespace hogel {
 
 HWY_EXPORT(Crossing);
 HWY_EXPORT(Draw);
+HWY_EXPORT(Farthest);
 HWY_EXPORT(Shade);
 
 std::uint64_t crossing(const ClusterCorners& corners, double row, double slope) {
     return HWY_DYNAMIC_DISPATCH(Crossing)(corners, row, slope);
 }
 
-void draw(std::span<const Strip> strips, const EpipolarPlane& plane) { HWY_DYNAMIC_DISPATCH(Draw)(strips, plane); }
+void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
+    HWY_DYNAMIC_DISPATCH(Draw)(strips, first, plane);
+}
+
+void farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
+    HWY_DYNAMIC_DISPATCH(Farthest)(plane, cells);
+}
 
 void shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
            const ShadedPlane& out) {

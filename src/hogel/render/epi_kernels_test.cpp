@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "hogel/render/epi_cut_internal.h"
@@ -20,7 +21,7 @@ struct Plane {
           plane{words.data(), columns, directions, first_column, 0.5f - 0.5f * float(directions)} {}
 };
 
-using Draw = void (*)(std::span<const Strip>, const EpipolarPlane&);
+using Draw = void (*)(std::span<const Strip>, std::size_t, const EpipolarPlane&);
 
 // Coordinates of all kinds: on samples, between them, on both sides of the hologram and in it, near and far.
 class Places {
@@ -111,8 +112,8 @@ TEST(EpipolarKernels, vector_and_plain_drawings_are_the_same) {
         const std::size_t columns = places.between(1, 45), directions = places.between(1, 80);
         const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
         Plane fast(columns, directions, first), plain(columns, directions, first);
-        draw(strips, fast.plane);
-        draw_plain(strips, plain.plane);
+        draw(strips, 3, fast.plane);
+        draw_plain(strips, 3, plain.plane);
         ASSERT_EQ(fast.words, plain.words) << round;
         for (std::uint64_t word : plain.words) covered += word != EpipolarPlane::nothing ? 1 : 0;
     }
@@ -121,16 +122,41 @@ TEST(EpipolarKernels, vector_and_plain_drawings_are_the_same) {
 
 TEST(EpipolarKernels, triangles_that_share_an_edge_are_cut_in_the_same_point) {
     Places places(6);
+    using Three = std::array<double, 3>;
     for (int round = 0; round < 10000; ++round) {
         const auto height = [&] { return std::abs(places.uniform(1)) * (places.coin() ? 1.0 : 1e-12); };
-        const Corner low{places.uniform(30) / 3.0, places.uniform(3) / 7.0, -1e-15 - height()};
-        const Corner high{places.uniform(30) / 3.0, places.uniform(3) / 7.0, height()};
-        const Cut up = cut(low, high), down = cut(high, low);
-        ASSERT_EQ(up.x, down.x);
-        ASSERT_EQ(up.z, down.z);
-        EXPECT_NEAR(up.weight + down.weight, 1, 1e-15);
-        EXPECT_NEAR(up.weight * low.x + down.weight * high.x, up.x, 1e-13);
-        EXPECT_NEAR(up.weight * low.height + down.weight * high.height, 0, 1e-15);
+        const auto random3 = [&] { return Three{places.uniform(30) / 3.0, places.uniform(3) / 7.0, 0}; };
+        // An edge across the plane, and corners that make it two triangles, each listed from any corner on.
+        Three low = random3(), high = random3(), left = random3(), right = random3();
+        low[2] = -1e-15 - height();
+        high[2] = height();
+        left[2] = places.coin() ? height() : -1e-15 - height();
+        right[2] = places.coin() ? height() : -1e-15 - height();
+        std::vector<Cut> shared;
+        for (const auto& corners : {std::array{low, high, left}, std::array{high, low, right}}) {
+            const std::size_t turn = places.between(0, 2);
+            Three x, z, h;
+            for (std::size_t i = 0; i < 3; ++i) {
+                x[(i + turn) % 3] = corners[i][0];
+                z[(i + turn) % 3] = corners[i][1];
+                h[(i + turn) % 3] = corners[i][2];
+            }
+            const TriangleCut cut = cut_triangle(x, z, h);
+            ASSERT_EQ(std::set({cut.lone, cut.next, cut.last}), (std::set<std::uint32_t>{0, 1, 2}));
+            ASSERT_EQ(h[cut.next] < 0, h[cut.last] < 0);
+            ASSERT_NE(h[cut.lone] < 0, h[cut.last] < 0);
+            for (const auto& [end, other] : {std::pair{cut.end0, cut.next}, std::pair{cut.end1, cut.last}}) {
+                const double w = end.weight;
+                ASSERT_NEAR(w * h[cut.lone] + (1 - w) * h[other], 0, 1e-15);
+                ASSERT_NEAR(w * x[cut.lone] + (1 - w) * x[other], end.x, 1e-13);
+                ASSERT_NEAR(w * z[cut.lone] + (1 - w) * z[other], end.z, 1e-13);
+                const std::size_t a = (cut.lone + 3 - turn) % 3, b = (other + 3 - turn) % 3;
+                if (a + b == 1) shared.push_back(end);  // corners 0 and 1 are the edge
+            }
+        }
+        ASSERT_EQ(shared.size(), 2u);
+        ASSERT_EQ(shared[0].x, shared[1].x);
+        ASSERT_EQ(shared[0].z, shared[1].z);
     }
 }
 
@@ -162,7 +188,7 @@ TEST_P(EveryDraw, gives_every_sample_to_one_strip_of_a_chain) {
             std::fill(counted.words.begin(), counted.words.end(), EpipolarPlane::nothing);
             // Either end may come first.
             const Strip drawn = places.coin() ? strip : Strip{strip.x1, strip.z1, strip.x0, strip.z0};
-            GetParam()({&drawn, 1}, counted.plane);
+            GetParam()({&drawn, 1}, 7, counted.plane);
             for (std::size_t i = 0; i < owners.size(); ++i)
                 owners[i] += counted.words[i] != EpipolarPlane::nothing ? 1 : 0;
         }
@@ -176,7 +202,7 @@ TEST_P(EveryDraw, puts_the_depth_where_the_line_of_sight_meets_the_segment) {
     for (int round = 0; round < 300; ++round) {
         Plane seen(20, 31, -9);
         const Strip strip{places.x(), places.z(), places.x(), places.z()};
-        GetParam()({&strip, 1}, seen.plane);
+        GetParam()({&strip, 1}, 7, seen.plane);
         for (std::size_t i = 0; i < seen.words.size(); ++i) {
             const double n = -9 + double(i / 31), K = double(i % 31) - 15;
             // x = n + K z along the ray, so the segment is met where x − n − K z changes its sign.
@@ -186,7 +212,7 @@ TEST_P(EveryDraw, puts_the_depth_where_the_line_of_sight_meets_the_segment) {
             if (seen.words[i] == EpipolarPlane::nothing) continue;
             ++covered;
             const double z = strip.z0 + a / (a - b) * (strip.z1 - strip.z0);
-            ASSERT_EQ(seen.words[i] & 0xffffffff, 0u);
+            ASSERT_EQ(seen.words[i] & 0xffffffff, 7u);
             const auto bits = static_cast<std::uint32_t>(seen.words[i] >> 32);
             EXPECT_GE(bits, ordered_bits(float(z - 2e-3)));
             EXPECT_LE(bits, ordered_bits(float(z + 2e-3)));

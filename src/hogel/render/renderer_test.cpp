@@ -141,6 +141,48 @@ TEST_P(EveryRenderer, leaves_no_crack_between_triangles_that_share_edges) {
     for (float value : seen.radiance.elements()) ASSERT_NEAR(value, 1, 1e-6);
 }
 
+// A wall like the one above, one triangle at a time: no sample belongs to two of them. (A ray caster may well hit both
+// neighbours where it meets their edge.)
+TEST(Renderers, that_scan_convert_give_no_sample_to_two_triangles_that_share_an_edge) {
+    const double depth = 4e-3, step_x = 0.5 * grid.step_u() * depth * 9, step_y = 0.5 * grid.step_v() * depth * 9;
+    LightFieldGrid centred = grid;
+    centred.pitch = step_x;
+    const auto corner = [&](int i, int j) { return Vec3{i * step_x, j * step_y, -depth + 1e-4 * ((i * i + j) % 3)}; };
+    const auto white = [](Vec3) { return Rgb{1, 1, 1}; };
+    for (const std::string name : {"zbuffer", "epi"}) {
+        ShadedScene whole;
+        Array<int, 1> owners({centred.hogels() * centred.directions()});
+        for (int j = -7; j < 7; ++j)
+            for (int i = -7; i < 7; ++i)
+                for (const int half : {0, 1}) {
+                    const Vec3 a = corner(i, j), b = half == 0 ? corner(i + 1, j) : corner(i + 1, j + 1);
+                    const Vec3 c = half == 0 ? corner(i + 1, j + 1) : corner(i, j + 1);
+                    ShadedScene scene;
+                    add_triangle(scene, a, b, c, white);
+                    add_triangle(whole, a, b, c, white);
+                    const LightField seen = render(name, scene, centred);
+                    for (std::size_t k = 0; k < owners.size(); ++k)
+                        owners(k) += std::isfinite(seen.depth.data()[k]) ? 1 : 0;
+                }
+        const LightField seen = render(name, whole, centred);
+        std::size_t hits = 0;
+        for (std::size_t k = 0; k < owners.size(); ++k) {
+            ASSERT_EQ(owners(k), std::isfinite(seen.depth.data()[k]) ? 1 : 0) << name;
+            hits += std::size_t(owners(k));
+        }
+        EXPECT_GT(hits, owners.size() / 2) << name;
+    }
+}
+
+TEST_P(EveryRenderer, prefers_tiles_that_exist) {
+    for (std::size_t hogels : {1, 7, 300})
+        for (std::size_t directions : {1, 50, 1000}) {
+            const LightFieldGrid g{hogels, 5, 1_mm, directions, 40, 0.5, 0.4, 3};
+            const HogelRange tile = make_renderer(GetParam(), std::make_shared<ShadedScene>(), g)->preferred_tile();
+            EXPECT_TRUE(tile.ns >= 1 && tile.ns <= g.hogels_s && tile.nt >= 1 && tile.nt <= g.hogels_t);
+        }
+}
+
 TEST_P(EveryRenderer, gives_the_same_bytes_in_any_tiling) {
     std::mt19937 random(11);
     const ShadedScene scene = random_scene(random, 40, !straddles(GetParam()));

@@ -1,0 +1,47 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/render/epi_occlusion_internal.h"
+
+namespace hogel {
+namespace {
+
+std::size_t cells_across(const EpipolarPlane& plane) {
+    return (plane.directions + cell_directions - 1) / cell_directions;
+}
+
+}  // namespace
+
+void Occlusion::update(const EpipolarPlane& plane) {
+    cells_.resize((plane.columns + cell_columns - 1) / cell_columns * cells_across(plane));
+    farthest(plane, cells_);
+    // Objects that stand alone hide too little to pay for the asking.
+    constexpr std::uint32_t open = ordered_bits(std::numeric_limits<float>::infinity());
+    const auto covered = std::count_if(cells_.begin(), cells_.end(), [](std::uint32_t cell) { return cell < open; });
+    worth_asking_ = 4 * static_cast<std::size_t>(covered) >= cells_.size();
+}
+
+bool Occlusion::hides(const TriangleClusters::Bounds& box, const EpipolarPlane& plane) const {
+    if (!worth_asking_) return false;
+    // Depths of strips are rounded to single precision; this is beyond any rounding.
+    const auto nearest = static_cast<float>(box.z_low - 1e-6 * std::abs(box.z_low));
+    const std::uint32_t near_bits = ordered_bits(nearest);
+    const double first = plane.first_column, last = first + static_cast<double>(plane.columns) - 1;
+    for (std::size_t k = 0; k < plane.directions; k += cell_directions) {
+        // The columns that see the box in the cell's directions, and one more on either side for rounding.
+        const double Ka = static_cast<double>(plane.first_direction) + static_cast<double>(k);
+        const double Kb = Ka + static_cast<double>(std::min(cell_directions, plane.directions - k) - 1);
+        const auto [least, most] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});
+        const double n_low = std::max(first, std::floor(box.x_low - most) - 1);
+        const double n_high = std::min(last, std::ceil(box.x_high - least) + 1);
+        if (!(n_low <= n_high)) continue;
+        const auto begin = static_cast<std::size_t>(n_low - first) / cell_columns;
+        const auto end = static_cast<std::size_t>(n_high - first) / cell_columns;
+        for (std::size_t cell = begin; cell <= end; ++cell)
+            if (cells_[cell * cells_across(plane) + k / cell_directions] >= near_bits) return false;
+    }
+    return true;
+}
+
+}  // namespace hogel

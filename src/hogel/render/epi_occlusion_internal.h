@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hogel/render/epi_clusters_internal.h"
+#include "hogel/render/epi_kernels_internal.h"
+
+namespace hogel {
+
+/// How far the samples of an epipolar plane are already covered, cell by cell: what lies behind that need not be drawn.
+class Occlusion {
+  public:
+    /// Nothing is covered.
+    void clear() { worth_asking_ = false; }
+    /// Takes in what has been drawn by now.
+    void update(const EpipolarPlane& plane);
+    /// Whether every sample of the plane that may see into the box sees something in front of it. Never true of a box
+    /// that holds something visible, or just as near as what is seen.
+    bool hides(const TriangleClusters::Bounds& box, const EpipolarPlane& plane) const;
+
+  private:
+    std::vector<std::uint32_t> cells_;
+    bool worth_asking_ = false;
+};
+
+}  // namespace hogel

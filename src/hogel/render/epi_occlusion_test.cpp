@@ -1,0 +1,90 @@
+#include "hogel/render/epi_occlusion_internal.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace hogel {
+namespace {
+
+struct Drawn {
+    std::vector<std::uint64_t> words;
+    EpipolarPlane plane;
+
+    Drawn(std::size_t columns, std::size_t directions, std::int32_t first)
+        : words(columns * directions, EpipolarPlane::nothing),
+          plane{words.data(), columns, directions, first, 0.5f - 0.5f * float(directions)} {}
+};
+
+// Whatever lies in a box that is hidden changes nothing when it is drawn after all, with whatever number. Boxes are
+// offered on both sides of the hologram, and some just as near as what is there.
+TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
+    std::mt19937 random(1);
+    const auto uniform = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    std::size_t hidden = 0, visible = 0;
+    for (int round = 0; round < 400; ++round) {
+        Drawn drawn(1 + random() % 40, 1 + random() % 90, std::int32_t(random() % 40) - 30);
+        std::vector<Strip> walls;
+        for (int wall = 0; wall < 4; ++wall) {
+            const float x = uniform(-120, 60), z = round % 2 == 0 ? 0.5f : uniform(-1, 1);
+            walls.push_back({x, z, x + uniform(20, 150), round % 2 == 0 ? 0.5f : z + uniform(-0.2f, 0.2f)});
+        }
+        draw(walls, 5, drawn.plane);
+        Occlusion occlusion;
+        occlusion.update(drawn.plane);
+        for (int offer = 0; offer < 50; ++offer) {
+            const double x = uniform(-60, 60), z = offer % 5 == 0 ? 0.5 : uniform(-2, 3);
+            const TriangleClusters::Bounds box{x, x + uniform(0, 9), 0, 0, z, z + uniform(0, 0.3f)};
+            const bool hides = occlusion.hides(box, drawn.plane);
+            (hides ? hidden : visible) += 1;
+            if (!hides) continue;
+            const std::vector<std::uint64_t> before = drawn.words;
+            std::vector<Strip> inside;
+            for (int i = 0; i < 10; ++i) {
+                // Through the corners of the box and anywhere in it.
+                const auto point = [&](double low, double high) {
+                    return random() % 3 == 0   ? float(low)
+                           : random() % 2 == 0 ? float(high)
+                                               : uniform(float(low), float(high));
+                };
+                inside.push_back({point(box.x_low, box.x_high), point(box.z_low, box.z_high),
+                                  point(box.x_low, box.x_high), point(box.z_low, box.z_high)});
+            }
+            draw(inside, 0, drawn.plane);
+            ASSERT_EQ(drawn.words, before) << round << " " << offer;
+        }
+    }
+    EXPECT_GT(hidden, 1000u);
+    EXPECT_GT(visible, 1000u);
+}
+
+TEST(Occlusion, an_empty_plane_hides_nothing) {
+    Drawn drawn(8, 16, 0);
+    Occlusion occlusion;
+    const TriangleClusters::Bounds far{0, 1, 0, 1, 1e6, 2e6};
+    EXPECT_FALSE(occlusion.hides(far, drawn.plane));
+    occlusion.update(drawn.plane);
+    EXPECT_FALSE(occlusion.hides(far, drawn.plane));
+}
+
+TEST(Occlusion, cells_hold_the_farthest_depth_in_both_kernels) {
+    std::mt19937 random(2);
+    for (std::size_t columns : {1, 7, 8, 9, 24})
+        for (std::size_t directions = 1; directions < 70; ++directions) {
+            Drawn drawn(columns, directions, 0);
+            for (std::uint64_t& word : drawn.words)
+                if (random() % 200 != 0) word = std::uint64_t{random() % 1000} << 32 | random();
+            const std::size_t across = (directions + 15) / 16, size = (columns + 7) / 8 * across;
+            std::vector<std::uint32_t> fast(size), plain(size);
+            farthest(drawn.plane, fast);
+            farthest_plain(drawn.plane, plain);
+            ASSERT_EQ(fast, plain) << columns << " " << directions;
+            for (std::size_t i = 0; i < drawn.words.size(); ++i)
+                ASSERT_GE(plain[i / directions / 8 * across + i % directions / 16], drawn.words[i] >> 32);
+        }
+}
+
+}  // namespace
+}  // namespace hogel
