@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "hogel/core/units.h"
 
@@ -12,6 +13,7 @@ using namespace hogel::literals;
 /// sharpness of a photograph belong together: a hogel is as wide as what the camera resolves, λR/A, or less.
 struct Defaults {
     // light field
+    std::string_view algorithm = "epi";
     double size = 20_mm;  ///< side of the hologram
     std::size_t hogels = 400, directions = 32;
     double field_of_view = 16_deg;  ///< full angle, 2θ

@@ -53,10 +53,8 @@ LightFieldGrid RenderOptions::grid() const {
 void add_render_options(CLI::App* command, RenderOptions& options) {
     const auto group = [](CLI::Option* option) { option->group("Light field of a scene"); };
     std::string algorithms;
-    for (const RendererInfo& renderer : renderers()) {
-        if (options.algorithm.empty()) options.algorithm = renderer.name;
+    for (const RendererInfo& renderer : renderers())
         algorithms += fmt::format("\n{}: {}", renderer.name, renderer.description);
-    }
     group(command->add_option("--algorithm", options.algorithm, "Renderer:" + algorithms)
               ->type_name("NAME")
               ->capture_default_str());

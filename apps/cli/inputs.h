@@ -19,7 +19,7 @@ namespace hogel::cli {
 
 /// How a scene becomes a light field.
 struct RenderOptions {
-    std::string algorithm;
+    std::string algorithm{defaults.algorithm};
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
     double size = defaults.size;

@@ -83,12 +83,14 @@ std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const
     writer.check(H5Pset_alignment(access.id(), alignment, alignment));
     writer.check(H5Pset_file_locking(access.id(), false, true));
     writer.check(H5Pset_attr_phase_change(creation.id(), 65535, 0));  // all attributes in the checksummed header
+    writer.check(H5Pset_obj_track_times(creation.id(), false));       // equal input, equal bytes at any hour
     Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
     writer.check(file);
     writer.write(file.id(), attributes);
 
-    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    writer.check(H5Pset_create_intermediate_group(links.id(), 1));
+    const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), groups(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    writer.check(H5Pset_obj_track_times(groups.id(), false));
+    writer.check(H5Pset_obj_track_times(layout.id(), false));
     writer.check(H5Pset_layout(layout.id(), H5D_CONTIGUOUS));
     writer.check(H5Pset_alloc_time(layout.id(), H5D_ALLOC_TIME_EARLY));
     writer.check(H5Pset_fill_time(layout.id(), H5D_FILL_TIME_NEVER));
@@ -98,8 +100,14 @@ std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const
         const std::vector<hsize_t> shape(dataset.shape.begin(), dataset.shape.end());
         const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
         const Handle type = type_of(dataset.element);
+        if (const std::size_t slash = dataset.name.find('/'); slash != std::string::npos) {
+            const Handle group(
+                H5Gcreate2(file.id(), dataset.name.substr(0, slash).c_str(), H5P_DEFAULT, groups.id(), H5P_DEFAULT),
+                H5Gclose);
+            writer.check(group);
+        }
         const Handle id(
-            H5Dcreate2(file.id(), dataset.name.c_str(), type.id(), space.id(), links.id(), layout.id(), H5P_DEFAULT),
+            H5Dcreate2(file.id(), dataset.name.c_str(), type.id(), space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT),
             H5Dclose);
         writer.check(id);
         writer.write(id.id(), dataset.attributes);

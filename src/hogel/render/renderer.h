@@ -15,7 +15,7 @@ struct RendererInfo {
     bool straddles = true;         ///< whether it renders scenes that are not wholly behind the hologram plane
 };
 
-/// The renderers that make_renderer knows, the default first.
+/// The renderers that make_renderer knows.
 std::span<const RendererInfo> renderers();
 
 /// A light field that is rendered where it is read, by the algorithm of that name. Offers depth per ray. The scene is
