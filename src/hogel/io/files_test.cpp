@@ -10,10 +10,10 @@
 #include <bit>
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <span>
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
@@ -88,7 +88,8 @@ void write_tiles(const LightField& from, LightFieldSink& sink, std::size_t ns, s
 
 template <class A, class B>
 bool same_bits(const A& a, const B& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a.elements()[0])) == 0;
+    const auto bytes = [](const auto& array) { return std::as_bytes(std::span(array.elements())); };
+    return std::ranges::equal(bytes(a), bytes(b));
 }
 
 std::string text_of(const fs::path& path) {
