@@ -175,12 +175,10 @@ class TilePass {
     std::size_t before_ = 0, after_ = 0;
 };
 
-std::vector<Region> tiles(const FieldSource& hologram) {
-    // Wide enough to share column weights among many columns, small enough for the processor's caches. Fixed, so that
-    // sums come out the same on every machine.
-    const std::size_t a = hologram.alignment();
-    const std::size_t width = (512 + a - 1) / a * a, height = (384 + a - 1) / a * a;
-    const Grid& plane = hologram.grid().plane;
+std::vector<Region> tiles(const Grid& plane) {
+    // Wide enough to share column weights among many columns, small enough for the processor's caches. Fixed, whatever
+    // the source would like, so that a hologram photographs to the same bytes from a file as from its synthesis.
+    constexpr std::size_t width = 512, height = 384;
     std::vector<Region> list;
     for (std::size_t y = 0; y < plane.height; y += height)
         for (std::size_t x = 0; x < plane.width; x += width)
@@ -260,7 +258,7 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
         for (std::size_t look = 0; look < looks; ++look)
             bands[eye].emplace_back(Shape<2>{eyes[eye].plane.height, eyes[eye].plane.width});
 
-    const std::vector<Region> regions = tiles(hologram);
+    const std::vector<Region> regions = tiles(plane);
     using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
     parallel_ordered<Contributions>(
         regions.size(), default_in_flight(),
