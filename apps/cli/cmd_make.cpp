@@ -117,12 +117,12 @@ int make(const Options& options, const Session& session) {
     report.threads = thread_count();
     report.run = describe_run(session);
 
-    require_holograms(report.light_field, options.hologram);
     const Scene scene = load_scene(options.scene, options.render);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
     std::vector<Camera> cameras;
     for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
+    require_holograms(report.light_field, options.hologram, cameras);
 
     const OutputFolder folder(options.output);
     const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";

@@ -49,18 +49,20 @@ Image photograph_of_hologram(const Options& options, const Session& session) {
     return photograph_colours(stage, file.fields, {&camera, 1}).front();
 }
 
-Image photograph_of_light_field(const Options& options, const Session& session, bool geometric) {
-    const auto light_field = open_or_render(session, options.input, options.render, !geometric);
-    const LightFieldGrid& grid = light_field->grid();
+Image photograph_of_light_field(const Options& options, const Session& session, InputKind kind, bool geometric) {
+    auto light_field = open_or_render(options.input, options.render);
+    const LightFieldGrid grid = light_field->grid();
     const Camera camera = make_camera(options, grid.pitch * static_cast<double>(grid.hogels_s),
                                       grid.pitch * static_cast<double>(grid.hogels_t));
-    if (!geometric) {
-        const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
-        Stage stage(session, "wave photograph");
-        return photograph_colours(stage, holograms, {&camera, 1}).front();
+    if (geometric) {
+        Stage stage(session, "geometric photograph");
+        return photograph(*light_field, {&camera, 1}, options.pupil_samples, stage.progress()).front();
     }
-    Stage stage(session, "geometric photograph");
-    return photograph(*light_field, {&camera, 1}, options.pupil_samples, stage.progress()).front();
+    require_holograms(grid, options.hologram, {&camera, 1});
+    if (kind == InputKind::scene) light_field = render_once(session, std::move(light_field));
+    const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
+    Stage stage(session, "wave photograph");
+    return photograph_colours(stage, holograms, {&camera, 1}).front();
 }
 
 int photo(const Options& options, const Session& session) {
@@ -71,10 +73,8 @@ int photo(const Options& options, const Session& session) {
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
-    if (kind == InputKind::scene && !geometric) require_holograms(options.render.grid(), options.hologram);
-
     const Image picture = kind == InputKind::hologram ? photograph_of_hologram(options, session)
-                                                      : photograph_of_light_field(options, session, geometric);
+                                                      : photograph_of_light_field(options, session, kind, geometric);
     const double exposure = given > 0 ? given : automatic_exposure(picture);
     Metadata metadata = describe_run(session);
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/optics/narrow_band.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
@@ -129,20 +130,25 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const Ren
     return make_renderer(options.algorithm, std::make_shared<ShadedScene>(shade_vertices(scene)), options.grid());
 }
 
-std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
-                                                 const RenderOptions& options, bool read_often) {
+std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
-    std::unique_ptr<LightFieldSource> renderer = render_on_demand(load_scene(name, options), options);
-    if (!read_often || renderer->grid().samples() * sizeof(float) > kept_bytes) return renderer;
+    return render_on_demand(load_scene(name, options), options);
+}
+
+std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer) {
+    if (renderer->grid().samples() * sizeof(float) > kept_bytes) return renderer;
     Stage stage(session, "rendering");
     auto light_field = std::make_unique<LightField>(renderer->grid());
     copy(*renderer, *light_field, stage.progress());
     return light_field;
 }
 
-void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options) {
-    const double shortest = *std::ranges::min_element(options.wavelengths);  // is diffracted least
-    stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
+void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options,
+                       std::span<const Camera> cameras) {
+    // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
+    const double shortest = *std::ranges::min_element(options.wavelengths);
+    const FieldGrid hologram = stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
+    for (const Camera& camera : cameras) NarrowBand(hologram, camera.eye, camera.pupil);
 }
 
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,

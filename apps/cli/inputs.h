@@ -50,13 +50,17 @@ Scene load_scene(const std::string& name, const RenderOptions& options);
 /// The light field of a scene, rendered where it is read.
 std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const RenderOptions& options);
 
-/// The light field that a name stands for: the file's, or the scene's. Where it will be read more than once, a scene's
-/// is rendered once and kept, provided that it fits into a modest part of memory.
-std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
-                                                 const RenderOptions& options, bool read_often);
+/// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
+std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options);
 
-/// Throws Error(usage) where a light field sampled like this cannot become such holograms: too coarse a pitch, say.
-void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options);
+/// A light field that will be read once a colour: renders it now and keeps it, where it fits into a modest part of
+/// memory.
+std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer);
+
+/// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
+/// photograph them: too coarse a pitch, say. To be asked before the work begins.
+void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options,
+                       std::span<const Camera> cameras = {});
 
 /// One hologram a wavelength, made from the light field where it is read.
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,8 +15,20 @@ namespace hogel::cli {
 namespace {
 
 volatile sig_atomic_t signal_seen = 0;
+volatile time_t seen_at = 0;
 
-extern "C" void note_signal(int signal) { signal_seen = signal; }
+// Wrappers such as timeout(1) send a signal twice at once, to the program and to its group; that counts as one. A
+// second one later means it.
+extern "C" void note_signal(int signal) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    if (signal_seen == 0) {
+        seen_at = now.tv_sec;
+        signal_seen = signal;
+    } else if (now.tv_sec > seen_at + 1) {
+        _exit(128 + signal);
+    }
+}
 
 std::string clock_text(double seconds) {
     const auto s = static_cast<long>(std::lround(std::min(seconds, 359999.0)));
@@ -80,7 +93,7 @@ Metadata describe_run(const Session& session) {
 void catch_interrupts() {
     struct sigaction action {};
     action.sa_handler = note_signal;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);

@@ -33,7 +33,7 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, 
 /// What outputs carry with them: the version, the command, and the value of each of its options.
 Metadata describe_run(const Session& session);
 
-/// From now on Ctrl-C and SIGTERM ask the work to stop; a second one ends the program at once.
+/// From now on Ctrl-C and SIGTERM ask the work to stop; a second one, later, ends the program at once.
 void catch_interrupts();
 /// The signal that asked for it, or 0.
 int interrupted_by();
