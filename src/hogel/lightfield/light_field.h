@@ -8,7 +8,7 @@
 
 namespace hogel {
 
-/// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, sections 1 and 4). A ray crosses the hologram
+/// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, section 1). A ray crosses the hologram
 /// plane at the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Perspective directions: uniform in U,
 /// V.
 struct LightFieldGrid {

@@ -239,20 +239,20 @@ Array<Complex, 2> Film::resample(View<const Complex, 2> band) const {
         const double nx = sines_.first_x + static_cast<double>(i) * sines_.step;
         slopes[i] = nx / std::sqrt(1 - nx * nx);
     }
+    const double middle_x = plane.column(eye.x), middle_y = plane.row(eye.y);
     for (std::size_t row = 0; row < plane.height; ++row) {
         const double reach = std::hypot(plane.y(static_cast<double>(row)) - eye.y, eye.z) / plane.pitch_x;
-        const double middle = plane.column(eye.x);
         for (std::size_t i = 0; i < sines_.size_x; ++i)
-            columns(i, row) = table.at(&band(row, 0), plane.width, middle + slopes[i] * reach);
+            columns(i, row) = table.at(&band(row, 0), plane.width, middle_x + slopes[i] * reach);
     }
     Array<Complex, 2> result({sines_.size_y, sines_.size_x});
-    const double middle = plane.row(eye.y), reach = eye.z / plane.pitch_y;
+    const double reach = eye.z / plane.pitch_y;
     for (std::size_t i = 0; i < sines_.size_x; ++i) {
         const double nx = sines_.first_x + static_cast<double>(i) * sines_.step;
         for (std::size_t j = 0; j < sines_.size_y; ++j) {
             const double ny = sines_.first_y + static_cast<double>(j) * sines_.step;
             result(j, i) =
-                table.at(&columns(i, 0), plane.height, middle - reach * ny / std::sqrt(1 - nx * nx - ny * ny));
+                table.at(&columns(i, 0), plane.height, middle_y - reach * ny / std::sqrt(1 - nx * nx - ny * ny));
         }
     }
     return result;
@@ -315,7 +315,7 @@ Image Film::develop(std::size_t index, View<const float, 2> intensity) const {
                     const double j = (geometry.sine_y(x, y) - sines_.first_y) / sines_.step;
                     const double value = cubic_at(intensity, j, i);
                     // A diffuse surface of radiance L sends L cos θ · (area of the pupil) cos θ/r² through this band,
-                    // and its plane waves have 1/cos θ of that as |F|² (docs/notation.md section 6).
+                    // and its plane waves have 1/cos θ of that as |F|² (docs/notation.md section 4).
                     const double r = geometry.distance(x, y);
                     sum += value * r * r / (geometry.cosine(x, y) * lens.area);
                 }

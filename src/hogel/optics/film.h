@@ -12,7 +12,7 @@ namespace hogel {
 
 /// From one eye's narrow band to photographs: a resampling to direction sines, in which the pupil is the Fourier
 /// transform's own plane whatever the obliquity; one transform to the pupil; and for each focus and pupil size a mask,
-/// a defocus phase and a transform back to the film (docs/notation.md section 6).
+/// a defocus phase and a transform back to the film (docs/notation.md section 4).
 class Film {
   public:
     /// @param cameras  all have the band's eye; their pupils are at most the one that the band was made for

@@ -11,7 +11,7 @@ namespace hogel {
 /// One eye's narrow band of a hologram, before and after it is drawn from the field.
 ///
 /// Light from the hologram point x that enters a pupil of diameter A around c has, after multiplication by
-/// e^{+ik|x−c|}, a frequency of at most A/(2λr) (docs/notation.md section 6; r the distance). So the demodulated field
+/// e^{+ik|x−c|}, a frequency of at most A/(2λr) (docs/notation.md section 4; r the distance). So the demodulated field
 /// may be low-passed and sampled every `factor` samples instead of every one.
 struct NarrowBand {
     ViewGeometry geometry;

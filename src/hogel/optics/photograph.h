@@ -9,7 +9,7 @@
 
 namespace hogel {
 
-/// Photographs a hologram by wave optics with the narrow-band camera (docs/notation.md, section 6): the field is
+/// Photographs a hologram by wave optics with the narrow-band camera (docs/notation.md, section 4): the field is
 /// demodulated towards the eye, low-passed to the band that enters the pupil and decimated, tile by tile, so holograms
 /// of any size stream through; every focus and eye shares the pass. Intensities are averaged over the source's looks
 /// and over each pixel's area, and come out in the units of radiance that the field carries (one channel). The returned

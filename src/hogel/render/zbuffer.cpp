@@ -22,7 +22,7 @@ struct SeenVertex {
     double k, l;         // column and row of the picture, if ζ is not too near to zero
 };
 
-// The edge function of math section 3 for a ray through the origin of the hogel's frame:
+// The edge function of docs/notation.md section 2 for a ray through the origin of the hogel's frame:
 // E = U (dζ A_y − dy A_ζ) + V (dx A_ζ − dζ A_x) + dy A_x − dx A_y.
 LinearInDirection edge_from_to(const SeenVertex& a, const SeenVertex& b) {
     const double dx = b.x - a.x, dy = b.y - a.y, dz = b.depth - a.depth;
