@@ -33,17 +33,33 @@ Counts parse_counts(const std::string& text, const std::string& what) {
     return {parse_count(text.substr(0, cross), what, hint), parse_count(text.substr(cross + 1), what, hint)};
 }
 
+// The part of "1,2,3mm" after its last number.
+std::string unit_of(const std::string& last) {
+    const std::size_t number = last.find_first_not_of("+-.0123456789");
+    return number == std::string::npos ? "" : last.substr(number);
+}
+
+// One of the parts: with a unit of its own, or else with the one of the last.
+std::string with_unit(const std::string& part, const std::string& unit) {
+    return part.find_first_not_of("+-.0123456789") == std::string::npos ? part + unit : part;
+}
+
+Angles parse_angles(const std::string& text, const std::string& what) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos) {
+        const double both = parse_angle(text, what);
+        return {both, both};
+    }
+    const std::string down = text.substr(comma + 1);
+    return {parse_angle(with_unit(text.substr(0, comma), unit_of(down)), what), parse_angle(down, what)};
+}
+
 Vec3 parse_point(const std::string& text, const std::string& what) {
     const std::size_t first = text.find(','), second = text.find(',', first + 1);
     if (first == std::string::npos || second == std::string::npos || text.find(',', second + 1) != std::string::npos)
         throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not x,y,z; write e.g. 0,0,300mm", what, text));
-    const std::string z = text.substr(second + 1);
-    const std::size_t number = z.find_first_not_of("+-.0123456789");
-    const std::string unit = number == std::string::npos ? "" : z.substr(number);
-    const auto component = [&](const std::string& part) {
-        const bool bare = part.find_first_not_of("+-.0123456789") == std::string::npos;
-        return parse_length(bare ? part + unit : part, what);
-    };
+    const std::string z = text.substr(second + 1), unit = unit_of(z);
+    const auto component = [&](const std::string& part) { return parse_length(with_unit(part, unit), what); };
     return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
 }
 
@@ -72,9 +88,11 @@ CLI::Option* add_length(CLI::App* command, const std::string& name, double& metr
                       [](const std::string& text, const std::string& what) { return parse_length(text, what); });
 }
 
-CLI::Option* add_angle(CLI::App* command, const std::string& name, double& radians, const std::string& help) {
-    return add_parsed(command, name, radians, help, "ANGLE", fmt::format("{:.6g}deg", radians * 180 / std::numbers::pi),
-                      [](const std::string& text, const std::string& what) { return parse_angle(text, what); });
+CLI::Option* add_angles(CLI::App* command, const std::string& name, Angles& angles, const std::string& help) {
+    const double across = angles.across * 180 / std::numbers::pi, down = angles.down * 180 / std::numbers::pi;
+    const std::string shown =
+        across == down ? fmt::format("{:.6g}deg", across) : fmt::format("{:.6g},{:.6g}deg", across, down);
+    return add_parsed(command, name, angles, help, "ANGLE[,ANGLE]", shown, parse_angles);
 }
 
 CLI::Option* add_counts(CLI::App* command, const std::string& name, Counts& counts, const std::string& help) {

@@ -17,7 +17,11 @@ struct Counts {
 /// Options whose values have units. All throw Error(usage) naming the option where a value makes no sense; the present
 /// value is shown in the help as the default.
 CLI::Option* add_length(CLI::App* command, const std::string& name, double& metres, const std::string& help);
-CLI::Option* add_angle(CLI::App* command, const std::string& name, double& radians, const std::string& help);
+/// "40deg" for both across and down, or "40,30deg".
+struct Angles {
+    double across = 0, down = 0;
+};
+CLI::Option* add_angles(CLI::App* command, const std::string& name, Angles& angles, const std::string& help);
 CLI::Option* add_counts(CLI::App* command, const std::string& name, Counts& counts, const std::string& help);
 /// "0,0,300mm": a component without a unit takes the one of the last.
 CLI::Option* add_point(CLI::App* command, const std::string& name, Vec3& point, const std::string& help);

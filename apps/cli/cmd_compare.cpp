@@ -72,18 +72,14 @@ Difference sum_blocks(const Blocks& blocks, Stage& stage,
     return sum;
 }
 
-Difference compare_light_fields(const Options& options, const Session& session) {
-    const auto a = open_light_field(options.a), b = open_light_field(options.b);
-    const LightFieldGrid& grid = a->grid();
-    if (grid != b->grid())
-        throw Error(ErrorCode::bad_input, fmt::format("{} and {} are sampled differently", options.a, options.b));
+Difference compare_faces(const LightFieldSource& a, const LightFieldSource& b, Stage& stage) {
+    const LightFieldGrid& grid = a.grid();
     const HogelRange tile = default_tile(grid);
-    Stage stage(session, "comparing");
     return sum_blocks({grid.hogels_s, grid.hogels_t, tile.ns, tile.nt}, stage, [&](const Region& block) {
         const HogelRange range{block.x0, block.y0, block.width, block.height};
         LightFieldTile of_a(grid, range, false), of_b(grid, range, false);
-        a->read(of_a);
-        b->read(of_b);
+        a.read(of_a);
+        b.read(of_b);
         Difference difference;
         for (std::size_t i = 0; i < of_a.radiance.size(); ++i) {
             const double f = of_a.radiance.data()[i], g = of_b.radiance.data()[i];
@@ -91,6 +87,18 @@ Difference compare_light_fields(const Options& options, const Session& session) 
         }
         return difference;
     });
+}
+
+Difference compare_light_fields(const Options& options, const Session& session) {
+    const auto a = open_light_field_faces(options.a), b = open_light_field_faces(options.b);
+    bool alike = a.size() == b.size();
+    for (std::size_t i = 0; alike && i < a.size(); ++i) alike = a[i]->grid() == b[i]->grid();
+    if (!alike)
+        throw Error(ErrorCode::bad_input, fmt::format("{} and {} are sampled differently", options.a, options.b));
+    Stage stage(session, "comparing");
+    Difference sum;
+    for (std::size_t i = 0; i < a.size(); ++i) sum.add(compare_faces(*a[i], *b[i], stage));
+    return sum;
 }
 
 Difference compare_holograms(const Options& options, const Session& session) {

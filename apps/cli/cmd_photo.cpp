@@ -50,14 +50,17 @@ Image photograph_of_hologram(const Options& options, const Session& session) {
 }
 
 Image photograph_of_light_field(const Options& options, const Session& session, InputKind kind, bool geometric) {
-    auto light_field = open_or_render(options.input, options.render);
-    const LightFieldGrid grid = light_field->grid();
+    auto faces = open_or_render_faces(options.input, options.render);
+    const LightFieldGrid grid = faces.front()->grid();
     const Camera camera = make_camera(options, grid.pitch * static_cast<double>(grid.hogels_s),
                                       grid.pitch * static_cast<double>(grid.hogels_t));
     if (geometric) {
         Stage stage(session, "geometric photograph");
-        return photograph(*light_field, {&camera, 1}, options.pupil_samples, stage.progress()).front();
+        std::vector<const LightFieldSource*> sources;
+        for (const auto& face : faces) sources.push_back(face.get());
+        return photograph(sources, {&camera, 1}, options.pupil_samples, stage.progress()).front();
     }
+    auto light_field = std::move(faces.front());
     require_holograms(grid, options.hologram, {&camera, 1});
     if (kind == InputKind::scene) light_field = render_once(session, std::move(light_field));
     const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
@@ -72,6 +75,8 @@ int photo(const Options& options, const Session& session) {
     require_writable(options.output);
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
+    if (kind == InputKind::scene && options.render.hemicube && !options.geometric)
+        throw Error(ErrorCode::usage, "--hemicube: only a photograph by rays has use for the sides; add --geometric");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     const Image picture = kind == InputKind::hologram ? photograph_of_hologram(options, session)
                                                       : photograph_of_light_field(options, session, kind, geometric);
@@ -123,6 +128,7 @@ void add_photo(CLI::App& app, Session& session) {
     add_camera_options(command, *options);
     add_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
+    add_hemicube_option(command, options->render);
 }
 
 }  // namespace hogel::cli

@@ -18,17 +18,19 @@ int render(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_writable(options.output);
-    const LightFieldGrid grid = options.render.grid();
-    const auto source = render_on_demand(load_scene(options.scene, options.render), options.render);
+    const std::vector<LightFieldGrid> grids = options.render.grids();
+    const auto sources = render_faces_on_demand(load_scene(options.scene, options.render), options.render);
 
     LightFieldFileOptions file = options.file;
     file.type = options.single ? SampleType::single : SampleType::half;
     file.metadata = describe_run(session);
-    const auto sink = create_light_field(options.output, grid, file);
+    const auto sinks = create_light_field_faces(options.output, grids, file);
     Stage stage(session, "rendering");
-    copy(*source, *sink, stage.progress());
-    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions, {}", options.output, grid.hogels_s, grid.hogels_t,
-                            grid.directions_u, grid.directions_v,
+    for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], stage.progress(i, sources.size()));
+    const LightFieldGrid& front = grids.front();
+    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions{}, {}", options.output, front.hogels_s,
+                            front.hogels_t, front.directions_u, front.directions_v,
+                            grids.size() == 1 ? "" : " and four sides",
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
     return 0;
 }
@@ -39,13 +41,15 @@ void add_render(CLI::App& app, Session& session) {
     auto options = std::make_shared<Options>();
     CLI::App* command = add_command(app, session, "render", "Render a scene into a light field",
                                     "  hogel render pumpkin -o pumpkin.h5\n"
-                                    "  hogel render bunny.ply -o bunny.h5 --hogels 128x128 --size 20mm --depth",
+                                    "  hogel render bunny.ply -o bunny.h5 --hogels 128x128 --size 20mm --depth\n"
+                                    "  hogel render tower -o all.h5 --hemicube --directions 128x128",
                                     [options, &session] { return render(*options, session); });
     command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
     command->add_option("-o,--output", options->output, "Light field to write, HDF5")->type_name("FILE")->required();
     command->add_flag("--depth", options->file.with_depth, "Store the depth of every ray too");
     command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
     add_render_options(command, options->render);
+    add_hemicube_option(command, options->render);
 }
 
 }  // namespace hogel::cli

@@ -23,6 +23,21 @@ bool is_builtin(const std::string& name) {
     return std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
 }
 
+// The middle and half of the range of U that a field of view spans around an angle.
+struct Tangents {
+    double center, half;
+};
+
+Tangents tangents(double field_of_view, double toward) {
+    if (!(field_of_view > 0 && field_of_view < std::numbers::pi))
+        throw Error(ErrorCode::usage, "--fov: the full angle must lie between 0 and 180 degrees");
+    if (toward == 0) return {0, std::tan(field_of_view / 2)};
+    if (!(std::abs(toward) + field_of_view / 2 < std::numbers::pi / 2))
+        throw Error(ErrorCode::usage, "--toward: the field of view must end before 90 degrees on either side");
+    const double low = std::tan(toward - field_of_view / 2), high = std::tan(toward + field_of_view / 2);
+    return {(low + high) / 2, (high - low) / 2};
+}
+
 StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
                                      double wavelength) {
     StereogramOptions stereogram;
@@ -36,19 +51,24 @@ StereogramOptions stereogram_options(const LightFieldGrid& light_field, const Ho
 
 LightFieldGrid RenderOptions::grid() const {
     if (!(size > 0)) throw Error(ErrorCode::usage, "--size: the hologram's side must be positive");
-    if (!(field_of_view > 0 && field_of_view < std::numbers::pi))
-        throw Error(ErrorCode::usage, "--fov: the full angle must lie between 0 and 180 degrees");
+    const Tangents u = tangents(field_of_view.across, toward.across), v = tangents(field_of_view.down, toward.down);
     LightFieldGrid grid;
     grid.hogels_s = hogels.columns;
     grid.hogels_t = hogels.rows;
     grid.pitch = size / static_cast<double>(hogels.columns);
     grid.directions_u = directions.columns;
     grid.directions_v = directions.rows;
-    grid.tan_half_u = std::tan(field_of_view / 2);
-    grid.tan_half_v = grid.tan_half_u;
+    grid.tan_half_u = u.half;
+    grid.tan_half_v = v.half;
+    grid.center_u = u.center;
+    grid.center_v = v.center;
     grid.channels = 3;
     validate(grid, ErrorCode::usage, "light field");
     return grid;
+}
+
+std::vector<LightFieldGrid> RenderOptions::grids() const {
+    return hemicube ? hogel::hemicube(grid()) : std::vector{grid()};
 }
 
 void add_render_options(CLI::App* command, RenderOptions& options) {
@@ -62,7 +82,9 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
     group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
     group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
     group(add_length(command, "--size", options.size, "Width of the hologram"));
-    group(add_angle(command, "--fov", options.field_of_view, "Field of view, the full angle"));
+    group(add_angles(command, "--fov", options.field_of_view, "Field of view, the full angle; or across and down"));
+    group(add_angles(command, "--toward", options.toward,
+                     "Where the middle of the view looks behind the hologram: angles to the right and up"));
     group(command
               ->add_option("--front", options.front,
                            "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all")
@@ -76,6 +98,16 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
               ->add_flag_function(
                   "--fit", [](std::int64_t) {}, "Scale and move a mesh file to fill the hologram (default)")
               ->excludes(as_is));
+}
+
+void add_hemicube_option(CLI::App* command, RenderOptions& options) {
+    command
+        ->add_flag(
+            "--hemicube", options.hemicube,
+            "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides")
+        ->group("Light field of a scene")
+        ->excludes("--fov")
+        ->excludes("--toward");
 }
 
 void add_hologram_options(CLI::App* command, HologramOptions& options) {
@@ -128,6 +160,20 @@ Scene load_scene(const std::string& name, const RenderOptions& options) {
 
 std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const RenderOptions& options) {
     return make_renderer(options.algorithm, std::make_shared<ShadedScene>(shade_vertices(scene)), options.grid());
+}
+
+std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Scene& scene,
+                                                                      const RenderOptions& options) {
+    const auto shaded = std::make_shared<ShadedScene>(shade_vertices(scene));
+    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    for (const LightFieldGrid& grid : options.grids()) faces.push_back(make_renderer(options.algorithm, shaded, grid));
+    return faces;
+}
+
+std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const std::string& name,
+                                                                    const RenderOptions& options) {
+    if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
+    return render_faces_on_demand(load_scene(name, options), options);
 }
 
 std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options) {

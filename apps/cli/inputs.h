@@ -23,13 +23,20 @@ struct RenderOptions {
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
     double size = defaults.size;
-    double field_of_view = defaults.field_of_view;
+    Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
+    Angles toward;
+    bool hemicube = false;
     bool as_is = false;
     double front = defaults.front;
 
+    /// Of the front face.
     LightFieldGrid grid() const;
+    /// Of all faces: the front alone, or all five.
+    std::vector<LightFieldGrid> grids() const;
 };
 void add_render_options(CLI::App* command, RenderOptions& options);
+/// --hemicube, for commands that make use of all faces.
+void add_hemicube_option(CLI::App* command, RenderOptions& options);
 
 /// How a light field becomes a hologram.
 struct HologramOptions {
@@ -52,6 +59,11 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const Ren
 
 /// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
 std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options);
+
+/// The same for all faces, the front first.
+std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Scene& scene, const RenderOptions& options);
+std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const std::string& name,
+                                                                    const RenderOptions& options);
 
 /// A light field that will be read once a colour: renders it now and keeps it, where it fits into a modest part of
 /// memory.

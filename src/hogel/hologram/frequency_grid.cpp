@@ -49,8 +49,6 @@ Average average(double low, double high, std::size_t count) {
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength)
     : samples_(samples), row_length_(light_field.directions_u) {
     const double step = wavelength / light_field.pitch;  // between frequencies, as direction sines
-    const double half_u = 0.5 * static_cast<double>(light_field.directions_u) - 0.5;
-    const double half_v = 0.5 * static_cast<double>(light_field.directions_v) - 0.5;
     const auto n = static_cast<std::ptrdiff_t>(samples);
     // The sine −n/2 of an even grid would be its own mirror image, so the grid ends one before it.
     const std::ptrdiff_t reach = (n - 1) / 2;
@@ -63,10 +61,8 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samp
             const double U = -sx / cosine, V = -sy / cosine;
             // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
             const double wu = 0.5 * step * (1 + U * U) / cosine, wv = 0.5 * step * (1 + V * V) / cosine;
-            const Average u = average((U - wu) / light_field.step_u() + half_u,
-                                      (U + wu) / light_field.step_u() + half_u, light_field.directions_u);
-            const Average v = average(half_v - (V + wv) / light_field.step_v(),
-                                      half_v - (V - wv) / light_field.step_v(), light_field.directions_v);
+            const Average u = average(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
+            const Average v = average(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
             if (u.weights.empty() || v.weights.empty()) continue;
             // Rows run down while y runs up, so a row of the DFT is −j_y.
             const std::size_t row = static_cast<std::size_t>((n - jy) % n),

@@ -112,6 +112,10 @@ class Stereogram final : public FieldSource {
 
 FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOptions& options) {
     validate(light_field, ErrorCode::usage, "light field");
+    if (light_field.face != Face::front)
+        throw Error(ErrorCode::usage, fmt::format("a stereogram is made of the front face of a light field, not of the "
+                                                  "{} face",
+                                                  name(light_field.face)));
     if (!(options.pitch > 0) || !(options.wavelength > 0))
         throw Error(ErrorCode::usage, "a stereogram needs a positive pitch and wavelength");
     if (options.channel >= light_field.channels)
@@ -120,7 +124,8 @@ FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOpt
     const std::size_t n = samples_per_hogel(light_field, options);
     const double pitch = light_field.pitch / static_cast<double>(n);
     // The steepest frequencies on the axes; the corners of the field of view are cut by the light field's own square.
-    const double tangent = std::max(light_field.tan_half_u, light_field.tan_half_v);
+    const double tangent = std::max(std::abs(light_field.center_u) + light_field.tan_half_u,
+                                    std::abs(light_field.center_v) + light_field.tan_half_v);
     const double needed = tangent / std::sqrt(1 + tangent * tangent), possible = options.wavelength / (2 * pitch);
     if (needed > possible)
         throw Error(

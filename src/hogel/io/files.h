@@ -20,9 +20,13 @@ enum class SampleType { half, single };
 /// A light field in an HDF5 file: dataset "radiance" [c][t][s][v][u] (half or single floats), optional dataset "depth"
 /// [t][s][v][u] (single, metres), each one contiguous piece of the file; all of the sampling in attributes of
 /// "radiance". docs/files.md names every attribute. Opening reads the header alone; files of that layout are read by
-/// all threads at once, chunked or compressed ones from elsewhere by one at a time. Throws Error(bad_input) for
-/// anything damaged, foreign, truncated or inconsistent.
+/// all threads at once, chunked or compressed ones from elsewhere by one at a time. A file may hold the sides of a
+/// hemicube beside the front; this opens the front. Throws Error(bad_input) for anything damaged, foreign, truncated or
+/// inconsistent.
 std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path);
+
+/// All faces that a light field file holds, in the order of all_faces: the front, and whichever sides there are.
+std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path);
 
 struct LightFieldFileOptions {
     SampleType type = SampleType::half;
@@ -35,6 +39,12 @@ struct LightFieldFileOptions {
 /// Values beyond 65504 are infinite in half floats. Throws Error(cannot_write).
 std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
                                                    const LightFieldFileOptions& options = {});
+
+/// Several faces of the same hogels in one file, the front first: one sink a face, each must be finished, and the file
+/// gets its own name when the last one is.
+std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std::filesystem::path& path,
+                                                                      std::span<const LightFieldGrid> grids,
+                                                                      const LightFieldFileOptions& options = {});
 
 /// A hologram: one field, or three that share a plane's extent for red, green and blue. In HDF5 a group "field<i>" a
 /// wavelength with a dataset "samples" [y][x] of compound {r, i} (single), which h5py reads as complex64, and

@@ -163,6 +163,52 @@ TEST_F(Files, every_range_of_a_light_field_file_is_the_slice) {
     }
 }
 
+TEST_F(Files, the_faces_of_a_hemicube_come_back_from_one_file) {
+    const std::vector<LightFieldGrid> grids = hemicube(grid_of(3, 2, 6, 4, 3));
+    for (const bool with_depth : {false, true}) {
+        auto sinks = create_light_field_faces(path_, grids, {SampleType::half, with_depth, {{"hogel_note", "cube"}}});
+        ASSERT_EQ(sinks.size(), 5u);
+        std::vector<LightField> faces;
+        for (const LightFieldGrid& grid : grids) faces.push_back(random_light_field(grid, with_depth));
+        for (std::size_t i = 0; i < 5; ++i) {
+            EXPECT_EQ(fs::exists(path_), with_depth) << "has its name before the last face";
+            copy(faces[i], *sinks[i]);
+        }
+        const auto sources = open_light_field_faces(path_);
+        ASSERT_EQ(sources.size(), 5u);
+        for (std::size_t i = 0; i < 5; ++i) {
+            ASSERT_EQ(sources[i]->grid(), grids[i]);
+            ASSERT_EQ(sources[i]->has_depth(), with_depth);
+            LightField back(grids[i], with_depth);
+            copy(*sources[i], back);
+            EXPECT_TRUE(same_bits(back.radiance, faces[i].radiance));
+            EXPECT_TRUE(same_bits(back.depth, faces[i].depth));
+        }
+        EXPECT_EQ(open_light_field(path_)->grid(), grids[0]);
+        EXPECT_EQ(std::ranges::count(summarize(path_).text,
+                                     std::pair<std::string, std::string>("faces", "front left right top bottom")),
+                  1);
+    }
+    const auto refused = [&](std::vector<LightFieldGrid> wrong) {
+        try {
+            create_light_field_faces(path_, wrong);
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::usage;
+        }
+        return false;
+    };
+    EXPECT_TRUE(refused({}));
+    EXPECT_TRUE(refused({grids[1]}));
+    EXPECT_TRUE(refused({grids[0], grids[1], grids[1]}));
+    LightFieldGrid other = grids[1];
+    other.hogels_s = 7;
+    EXPECT_TRUE(refused({grids[0], other}));
+    LightFieldGrid aside = grids[0];
+    aside.center_u = 0.3;
+    copy(random_light_field(aside, false), *create_light_field(path_, aside));
+    EXPECT_EQ(open_light_field(path_)->grid(), aside);
+}
+
 TEST_F(Files, a_hologram_of_any_size_comes_back) {
     for (const auto& [width, height] :
          {std::pair<std::size_t, std::size_t>{1, 1}, {1, 17}, {2311, 1301}, {1024, 1024}}) {
@@ -371,6 +417,23 @@ TEST_F(Files, a_light_field_damaged_in_any_byte_of_its_header_is_refused_or_unch
         copy(*source, back);
         EXPECT_TRUE(same_bits(back.radiance, field.radiance));
         summarize(path_);
+    });
+}
+
+TEST_F(Files, a_side_face_damaged_in_any_byte_of_its_header_is_refused_or_unchanged) {
+    std::vector<LightFieldGrid> grids = hemicube(grid_of(1, 1, 2, 2, 1));
+    grids.resize(2);
+    auto sinks = create_light_field_faces(path_, grids, {SampleType::single, false, {}});
+    const LightField front = random_light_field(grids[0], false), left = random_light_field(grids[1], false);
+    copy(front, *sinks[0]);
+    copy(left, *sinks[1]);
+    damage_every_byte(path_, front.radiance.elements(), [&] {
+        const auto faces = open_light_field_faces(path_);
+        ASSERT_EQ(faces.size(), 2u);
+        for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(faces[i]->grid(), grids[i]);
+        LightField back(grids[0]);
+        copy(*faces[0], back);
+        EXPECT_TRUE(same_bits(back.radiance, front.radiance));
     });
 }
 

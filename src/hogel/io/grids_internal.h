@@ -6,10 +6,9 @@
 
 namespace hogel {
 
-/// The sampling of a light field as attributes of "radiance", and back. The readers check all that can be known
-/// without reading samples. They need a Session.
-hdf5::Attributes light_field_attributes(const LightFieldGrid& grid);
-LightFieldGrid read_light_field_grid(hid_t file, const std::filesystem::path& path);
+/// The sampling of each face of a light field, the front first, from the attributes of its "radiance". Checks all that
+/// can be known without reading samples. Needs a Session.
+std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesystem::path& path);
 
 /// The same for the fields of a hologram, one for each group "field<i>".
 std::vector<FieldGrid> read_hologram_grids(hid_t file, const std::filesystem::path& path);

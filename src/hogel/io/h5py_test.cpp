@@ -76,6 +76,12 @@ Field numbered(const FieldGrid& grid) {
     return field;
 }
 
+void write_hemicube(const fs::path& path, const LightFieldGrid& grid) {
+    const std::vector<LightFieldGrid> grids = hemicube(grid);
+    const auto sinks = create_light_field_faces(path, grids, {SampleType::half, true, {}});
+    for (std::size_t i = 0; i < grids.size(); ++i) copy(numbered(grids[i]), *sinks[i]);
+}
+
 std::vector<std::string> examples() {
     const std::string page = text_of(fs::path(__FILE__).parent_path() / "../../../docs/files.md");
     const std::string open = "```python\n", close = "```\n";
@@ -88,15 +94,25 @@ std::vector<std::string> examples() {
 }
 
 TEST_F(H5py, runs_the_examples_of_the_documentation) {
-    ASSERT_EQ(examples().size(), 2u);
+    ASSERT_EQ(examples().size(), 3u);
     copy(numbered(small_grid()), *create_light_field(directory_ / "l.h5", small_grid(), {SampleType::half, true, {}}));
     // Largest of the view: sample (2, 3, 4, 1, 1) = 358; mean of hogel (0, 0): mean of 0..5, 120..125 and 240..245.
     EXPECT_EQ(run(examples()[0], directory_ / "l.h5"),
               "(3, 4, 5, 2, 3) float16 -0.002 -0.19999999999999998 358.0 122.5\n");
+    LightFieldGrid even = small_grid();
+    even.directions_u = 4;
+    write_hemicube(directory_ / "h.h5", even);
+    // Of 4x2 directions in front and 2x2 or 4x1 at the sides; the way along the last sample of each.
+    EXPECT_EQ(run(examples()[1], directory_ / "h.h5"),
+              "front (3, 4, 5, 2, 4) [0.75, -0.5, 1.0]\n"
+              "left (3, 4, 5, 2, 2) [-1.0, -0.5, 0.75]\n"
+              "right (3, 4, 5, 2, 2) [1.0, -0.5, 0.25]\n"
+              "top (3, 4, 5, 1, 4) [0.75, 1.0, 0.5]\n"
+              "bottom (3, 4, 5, 1, 4) [0.75, -1.0, 0.5]\n");
     const FieldGrid plane{{3, 2, 1e-6, 1e-6, 0, 0}, 5e-7};
     copy(numbered(plane), *create_hologram(directory_ / "f.h5", {&plane, 1})[0]);
     // Mean of 5 i^2 for i = 0..5.
-    EXPECT_EQ(run(examples()[1], directory_ / "f.h5").substr(0, 37), "field0 (2, 3) complex64 5e-07 45.8333");
+    EXPECT_EQ(run(examples()[2], directory_ / "f.h5").substr(0, 37), "field0 (2, 3) complex64 5e-07 45.8333");
 }
 
 TEST_F(H5py, reads_every_value_and_attribute) {
@@ -122,6 +138,21 @@ TEST_F(H5py, reads_every_value_and_attribute) {
                 "assert f.attrs['hogel_note'].decode() == '\\u03b6 = 1' and f.attrs['format_version'] == 1\n",
             directory_ / "l.h5");
     }
+    LightFieldGrid even = grid;
+    even.directions_u = 4;
+    write_hemicube(directory_ / "h.h5", even);
+    run("import sys, h5py, numpy as np\n"
+        "f = h5py.File(sys.argv[1], 'r')\n"
+        "assert sorted(f) == ['bottom', 'depth', 'left', 'radiance', 'right', 'top']\n"
+        "assert f['radiance'].attrs['face'] == b'front' and f['radiance'].attrs['center_u'] == 0\n"
+        "for name, shape, center in (('left', (3, 4, 5, 2, 2), (0.5, 0)), ('right', (3, 4, 5, 2, 2), (-0.5, 0)),\n"
+        "                            ('top', (3, 4, 5, 1, 4), (0, -0.5)), ('bottom', (3, 4, 5, 1, 4), (0, 0.5))):\n"
+        "    r, d = f[name]['radiance'], f[name]['depth']\n"
+        "    assert r.shape == shape and (r[...].ravel() == np.arange(r.size)).all()\n"
+        "    assert (d[...].ravel() == -0.5 * np.arange(d.size)).all() and d.attrs['unit'] == b'm'\n"
+        "    assert r.attrs['face'].decode() == name and (r.attrs['center_u'], r.attrs['center_v']) == center\n"
+        "    assert r.attrs['directions_u'] == shape[4] and r.attrs['tan_half_u'] == shape[4] / 4\n",
+        directory_ / "h.h5");
     const FieldGrid planes[] = {{{3, 2, 1e-6, 2e-6, 0.25, -0.5}, 5e-7}, {{2, 3, 1e-6, 2e-6, 0, 0}, 6e-7}};
     auto sinks = create_hologram(directory_ / "f.h5", planes);
     for (std::size_t i = 0; i < 2; ++i) copy(numbered(planes[i]), *sinks[i]);
@@ -212,7 +243,10 @@ TEST_F(H5py, what_is_wrong_with_a_file_is_named) {
         "**storage) if 'data' not in storage else dict(shape=(1, 2, 2, 2, 2), **storage)\n"
         "    r = f.create_dataset(name, **dict(dict(dtype='f4'), **storage))\n"
         "    r.attrs.update({**A, **{k: v for k, v in change.items() if k in A}})\n"
-        "    return r\n";
+        "    return r\n"
+        "def make_side(face, **change):\n"
+        "    r = f.create_dataset(face + '/radiance', data=np.ones((1, 2, 2, 2, 2), 'f4'))\n"
+        "    r.attrs.update({**A, 'face': face, **change})\n";
     const std::pair<const char*, const char*> wrong[] = {
         {"make()", ""},
         {"make(libver='earliest')", "superblock has version 0"},
@@ -232,6 +266,14 @@ TEST_F(H5py, what_is_wrong_with_a_file_is_named) {
         {"make(tan_half_v=-1.0)", "tan_half_v"},
         {"make(tan_half_v='wide')", "not a number"},
         {"del make().attrs['tan_half_u']", "'tan_half_u' is missing"},
+        {"make().attrs['face'] = 'left'", "says that it is the face 'left'"},
+        {"make().attrs['center_u'] = float('inf')", "center_u"},
+        {"make(); make_side('left', center_u=0.3)", ""},
+        {"make(); make_side('left', center_u=0.2)", "reaches beyond the hologram plane"},
+        {"make(); make_side('right', center_u=-0.3, hogel_pitch_m=0.002)", "other hogels or channels"},
+        {"make(); make_side('top', center_v=-0.2); del f['top/radiance'].attrs['face']", "says that it is the face"},
+        {"make(); f.create_group('left')", "no dataset 'left/radiance'"},
+        {"make(); f['left'] = 1", "damaged"},
         {"make(data=None)", "not wholly written"},
         {"make(data=None, chunks=(1, 1, 1, 2, 2))[0, 0, 0] = 1", "not wholly written"},
         {"make(dtype='i4')", "floating point"},

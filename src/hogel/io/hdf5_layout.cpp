@@ -100,10 +100,10 @@ std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const
         const std::vector<hsize_t> shape(dataset.shape.begin(), dataset.shape.end());
         const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
         const Handle type = type_of(dataset.element);
-        if (const std::size_t slash = dataset.name.find('/'); slash != std::string::npos) {
-            const Handle group(
-                H5Gcreate2(file.id(), dataset.name.substr(0, slash).c_str(), H5P_DEFAULT, groups.id(), H5P_DEFAULT),
-                H5Gclose);
+        const std::size_t slash = dataset.name.find('/');
+        const std::string in = dataset.name.substr(0, slash);
+        if (slash != std::string::npos && !has_member(file.id(), in.c_str(), target)) {
+            const Handle group(H5Gcreate2(file.id(), in.c_str(), H5P_DEFAULT, groups.id(), H5P_DEFAULT), H5Gclose);
             writer.check(group);
         }
         const Handle id(

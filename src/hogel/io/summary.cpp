@@ -26,21 +26,27 @@ FileKind kind_by_extension(const std::filesystem::path& path) {
     return FileKind::unknown;
 }
 
-double degrees_across(double tangent) { return 2 * std::atan(tangent) * 180 / std::numbers::pi; }
+// The angle between the first and the last of the directions.
+double degrees_across(double center, double tan_half) {
+    return (std::atan(center + tan_half) - std::atan(center - tan_half)) * 180 / std::numbers::pi;
+}
 
 void describe(const LightFieldGrid& grid, FileSummary& summary) {
-    summary.numbers.insert(summary.numbers.end(), {{"hogels_s", static_cast<double>(grid.hogels_s)},
-                                                   {"hogels_t", static_cast<double>(grid.hogels_t)},
-                                                   {"hogel_pitch_m", grid.pitch},
-                                                   {"width_m", static_cast<double>(grid.hogels_s) * grid.pitch},
-                                                   {"height_m", static_cast<double>(grid.hogels_t) * grid.pitch},
-                                                   {"directions_u", static_cast<double>(grid.directions_u)},
-                                                   {"directions_v", static_cast<double>(grid.directions_v)},
-                                                   {"tan_half_u", grid.tan_half_u},
-                                                   {"tan_half_v", grid.tan_half_v},
-                                                   {"field_of_view_u_deg", degrees_across(grid.tan_half_u)},
-                                                   {"field_of_view_v_deg", degrees_across(grid.tan_half_v)},
-                                                   {"channels", static_cast<double>(grid.channels)}});
+    summary.numbers.insert(summary.numbers.end(),
+                           {{"hogels_s", static_cast<double>(grid.hogels_s)},
+                            {"hogels_t", static_cast<double>(grid.hogels_t)},
+                            {"hogel_pitch_m", grid.pitch},
+                            {"width_m", static_cast<double>(grid.hogels_s) * grid.pitch},
+                            {"height_m", static_cast<double>(grid.hogels_t) * grid.pitch},
+                            {"directions_u", static_cast<double>(grid.directions_u)},
+                            {"directions_v", static_cast<double>(grid.directions_v)},
+                            {"tan_half_u", grid.tan_half_u},
+                            {"tan_half_v", grid.tan_half_v},
+                            {"center_u", grid.center_u},
+                            {"center_v", grid.center_v},
+                            {"field_of_view_u_deg", degrees_across(grid.center_u, grid.tan_half_u)},
+                            {"field_of_view_v_deg", degrees_across(grid.center_v, grid.tan_half_v)},
+                            {"channels", static_cast<double>(grid.channels)}});
 }
 
 void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary) {
@@ -86,8 +92,20 @@ FileSummary summarize(const std::filesystem::path& path) {
     summary.numbers.emplace_back("format_version",
                                  static_cast<double>(hdf5::read_count(file.id(), "format_version", path)));
     if (summary.kind == FileKind::light_field) {
-        const LightFieldGrid grid = read_light_field_grid(file.id(), path);
+        const std::vector<LightFieldGrid> grids = read_light_field_grids(file.id(), path);
+        const LightFieldGrid& grid = grids.front();
         describe(grid, summary);
+        std::string faces;
+        for (const LightFieldGrid& face : grids) {
+            if (!faces.empty()) faces += ' ';
+            faces += name(face.face);
+            if (face.face == Face::front) continue;
+            summary.numbers.emplace_back(fmt::format("{}_directions_u", name(face.face)),
+                                         static_cast<double>(face.directions_u));
+            summary.numbers.emplace_back(fmt::format("{}_directions_v", name(face.face)),
+                                         static_cast<double>(face.directions_v));
+        }
+        summary.text.emplace_back("faces", faces);
         const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
         const std::vector<std::size_t> shape{grid.channels, grid.hogels_t, grid.hogels_s, grid.directions_v,
                                              grid.directions_u};

@@ -20,6 +20,24 @@ void require_positive(double value, ErrorCode code, const std::string& what, con
         throw Error(code, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
 }
 
+void require_finite(double value, ErrorCode code, const std::string& what, const char* member) {
+    if (!std::isfinite(value)) throw Error(code, fmt::format("{}: {} is {}, but must be finite", what, member, value));
+}
+
+// The cells of a side face have to lie where ζ > 0.
+void require_in_front_half(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
+    const double u_low = grid.center_u - grid.tan_half_u, u_high = grid.center_u + grid.tan_half_u;
+    const double v_low = grid.center_v - grid.tan_half_v, v_high = grid.center_v + grid.tan_half_v;
+    const bool good = grid.face == Face::front || (grid.face == Face::left && u_low >= 0) ||
+                      (grid.face == Face::right && u_high <= 0) || (grid.face == Face::top && v_high <= 0) ||
+                      (grid.face == Face::bottom && v_low >= 0);
+    if (!good)
+        throw Error(code, fmt::format("{}: the {} face reaches beyond the hologram plane; its directions are {} in U "
+                                      "and {} in V, but must lie where ζ > 0",
+                                      what, name(grid.face), fmt::format("{:g} to {:g}", u_low, u_high),
+                                      fmt::format("{:g} to {:g}", v_low, v_high)));
+}
+
 Shape<5> radiance_shape(const LightFieldGrid& grid, const HogelRange& range) {
     return {grid.channels, range.nt, range.ns, grid.directions_v, grid.directions_u};
 }
@@ -49,6 +67,9 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
     require_positive(grid.pitch, code, what, "hogel pitch");
     require_positive(grid.tan_half_u, code, what, "tan_half_u");
     require_positive(grid.tan_half_v, code, what, "tan_half_v");
+    require_finite(grid.center_u, code, what, "center_u");
+    require_finite(grid.center_v, code, what, "center_v");
+    require_in_front_half(grid, code, what);
     require_positive(grid.step_u(), code, what, "the step between directions in u");
     require_positive(grid.step_v(), code, what, "the step between directions in v");
     require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
@@ -60,6 +81,43 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
             code, fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
                               "be addressed",
                               what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
+}
+
+bool LightFieldGrid::sees(Vec3 way) const {
+    const Vec3 q = to_face(face, way);
+    if (!(q.z > 0)) return false;
+    const double k = column(q.x / q.z), l = row(q.y / q.z);
+    return k >= -0.5 && k <= static_cast<double>(directions_u) - 0.5 && l >= -0.5 &&
+           l <= static_cast<double>(directions_v) - 0.5;
+}
+
+bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b) {
+    return a.hogels_s == b.hogels_s && a.hogels_t == b.hogels_t && a.pitch == b.pitch && a.channels == b.channels;
+}
+
+std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid) {
+    if (grid.directions_u % 2 != 0 || grid.directions_v % 2 != 0)
+        throw Error(ErrorCode::usage, fmt::format("a hemicube needs even numbers of directions, not {}x{}",
+                                                  grid.directions_u, grid.directions_v));
+    std::vector<LightFieldGrid> faces;
+    for (const Face face : all_faces) {
+        LightFieldGrid& g = faces.emplace_back(grid);
+        g.face = face;
+        g.center_u = g.center_v = 0;
+        g.tan_half_u = g.tan_half_v = 1;
+        if (face == Face::left || face == Face::right) {
+            g.directions_u /= 2;
+            g.tan_half_u = 0.5;
+            g.center_u = face == Face::left ? 0.5 : -0.5;
+        }
+        if (face == Face::top || face == Face::bottom) {
+            g.directions_v /= 2;
+            g.tan_half_v = 0.5;
+            g.center_v = face == Face::bottom ? 0.5 : -0.5;
+        }
+        validate(g, ErrorCode::usage, "hemicube");
+    }
+    return faces;
 }
 
 LightFieldTile::LightFieldTile(const LightFieldGrid& grid, const HogelRange& r, bool with_depth)

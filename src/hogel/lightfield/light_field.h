@@ -2,28 +2,41 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "hogel/core/array.h"
 #include "hogel/core/progress.h"
+#include "hogel/lightfield/face.h"
 
 namespace hogel {
 
 /// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, section 1). A ray crosses the hologram
-/// plane at the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Perspective directions: uniform in U,
-/// V.
+/// plane at the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Perspective directions: uniform in U
+/// and V. On a side of a hemicube U and V are those of the face's own picture: right/forward and up/forward.
 struct LightFieldGrid {
     std::size_t hogels_s = 0, hogels_t = 0;          ///< S columns, T rows of hogels
     double pitch = 0;                                ///< d, metres between hogels
     std::size_t directions_u = 0, directions_v = 0;  ///< n_U, n_V samples of direction
-    double tan_half_u = 0, tan_half_v = 0;           ///< directions fill |U| <= tan_half_u, |V| <= tan_half_v
+    double tan_half_u = 0, tan_half_v = 0;           ///< |U - center_u| <= tan_half_u, |V - center_v| <= tan_half_v
     std::size_t channels = 3;                        ///< 1, or 3 for R, G, B
+    double center_u = 0, center_v = 0;               ///< middle of the directions
+    Face face = Face::front;                         ///< in whose picture directions are uniform
 
     double s(double i) const { return (i + 0.5 - 0.5 * static_cast<double>(hogels_s)) * pitch; }
     double t(double j) const { return (0.5 * static_cast<double>(hogels_t) - j - 0.5) * pitch; }
     double step_u() const { return 2 * tan_half_u / static_cast<double>(directions_u); }  ///< ΔU
     double step_v() const { return 2 * tan_half_v / static_cast<double>(directions_v); }  ///< ΔV
-    double u(double k) const { return (k + 0.5 - 0.5 * static_cast<double>(directions_u)) * step_u(); }
-    double v(double l) const { return (0.5 * static_cast<double>(directions_v) - l - 0.5) * step_v(); }
+    double u(double k) const { return center_u + (k + 0.5 - 0.5 * static_cast<double>(directions_u)) * step_u(); }
+    double v(double l) const { return center_v + (0.5 * static_cast<double>(directions_v) - l - 0.5) * step_v(); }
+    /// The way back: the column of directions at U, the row at V, whole numbers at samples.
+    double column(double U) const {
+        return (U - center_u) / step_u() + (0.5 * static_cast<double>(directions_u) - 0.5);
+    }
+    double row(double V) const { return (0.5 * static_cast<double>(directions_v) - 0.5) - (V - center_v) / step_v(); }
+    /// The way along the ray (U, V) as (x, y, ζ), one step forward as the face looks: (U, V, 1) for the front.
+    Vec3 along(double U, double V) const { return from_face(face, {U, V, 1}); }
+    /// Whether the way (x, y, ζ) from a hogel is one of the directions, or in the cell around one.
+    bool sees(Vec3 way) const;
     std::size_t directions() const { return directions_u * directions_v; }
     std::size_t hogels() const { return hogels_s * hogels_t; }
     double samples() const { return static_cast<double>(channels * directions()) * static_cast<double>(hogels()); }
@@ -33,6 +46,14 @@ struct LightFieldGrid {
 /// Throws Error(code) naming `what` and the member that is wrong: nothing to sample, not finite, not positive, or more
 /// samples than can be addressed.
 void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
+
+/// Whether two light fields have the same hogels in the same places, and as many channels.
+bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
+
+/// The five faces of a hemicube around the hogels of `grid`, front first: all directions with ζ > 0, the front |U|, |V|
+/// <= 1 with the directions of `grid`, the sides with as many along the front's edges and half as many away from it.
+/// Throws Error(usage) unless the numbers of directions are even.
+std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid);
 
 /// A rectangle of hogels with all their directions: the unit of work.
 struct HogelRange {

@@ -226,5 +226,93 @@ TEST(LightFieldGrid, default_tiles_fit_in_their_budget) {
             }
 }
 
+TEST(LightFieldGrid, off_centre_directions_are_around_their_middle_and_column_and_row_lead_back) {
+    LightFieldGrid g = small_grid();
+    g.center_u = 0.5;
+    g.center_v = -0.25;
+    EXPECT_DOUBLE_EQ(g.u(0), 0.5 - 0.3);
+    EXPECT_DOUBLE_EQ(g.u(3), 0.5 + 0.3);
+    EXPECT_DOUBLE_EQ(g.v(0), -0.25 + 0.2);
+    for (double k : {-0.5, 0.0, 1.0, 2.7}) {
+        EXPECT_NEAR(g.column(g.u(k)), k, 1e-12);
+        EXPECT_NEAR(g.row(g.v(k)), k, 1e-12);
+    }
+}
+
+TEST(Face, turns_there_and_back_and_looks_where_its_name_says) {
+    const Vec3 p{0.3, -0.7, 1.1};
+    for (const Face face : all_faces) EXPECT_EQ(from_face(face, to_face(face, p)), p);
+    EXPECT_EQ(from_face(Face::front, {0, 0, 1}), (Vec3{0, 0, 1}));
+    EXPECT_EQ(from_face(Face::left, {0, 0, 1}), (Vec3{-1, 0, 0}));
+    EXPECT_EQ(from_face(Face::right, {0, 0, 1}), (Vec3{1, 0, 0}));
+    EXPECT_EQ(from_face(Face::top, {0, 0, 1}), (Vec3{0, 1, 0}));
+    EXPECT_EQ(from_face(Face::bottom, {0, 0, 1}), (Vec3{0, -1, 0}));
+    // A turn, not a reflection: right × up of the picture is its backward in (x, y, −ζ).
+    for (const Face face : all_faces) {
+        const auto world = [&](Vec3 q) {
+            const Vec3 w = from_face(face, q);
+            return Vec3{w.x, w.y, -w.z};
+        };
+        EXPECT_EQ(cross(world({1, 0, 0}), world({0, 1, 0})), -world({0, 0, 1})) << name(face);
+    }
+}
+
+TEST(Hemicube, has_every_direction_behind_the_hologram_in_one_face) {
+    LightFieldGrid grid = small_grid();
+    grid.directions_u = 8;
+    grid.directions_v = 6;
+    const std::vector<LightFieldGrid> faces = hemicube(grid);
+    ASSERT_EQ(faces.size(), 5u);
+    std::vector<std::size_t> rays(5);
+    for (double x = -1; x < 1; x += 0.0173)
+        for (double y = -1; y < 1; y += 0.0191) {
+            if (x * x + y * y >= 1) continue;
+            const Vec3 way{x, y, std::sqrt(1 - x * x - y * y)};
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < 5; ++i) {
+                rays[i] += faces[i].sees(way) ? 1 : 0;
+                count += faces[i].sees(way) ? 1 : 0;
+            }
+            ASSERT_EQ(count, 1u) << x << " " << y;
+            for (const LightFieldGrid& face : faces) ASSERT_FALSE(face.sees({x, y, -way.z}));
+        }
+    for (std::size_t count : rays) EXPECT_GT(count, 500u);
+    // Every sample's own way leads to it.
+    for (const LightFieldGrid& face : faces)
+        for (std::size_t l = 0; l < face.directions_v; ++l)
+            for (std::size_t k = 0; k < face.directions_u; ++k) {
+                const Vec3 way = face.along(face.u(double(k)), face.v(double(l)));
+                EXPECT_GT(way.z, 0);
+                EXPECT_TRUE(face.sees(way));
+            }
+}
+
+TEST(Hemicube, pictures_continue_each_other) {
+    LightFieldGrid grid = small_grid();
+    grid.directions_u = 8;
+    grid.directions_v = 6;
+    const std::vector<LightFieldGrid> faces = hemicube(grid);
+    const auto way = [&](std::size_t i, double k, double l) {
+        return normalize(faces[i].along(faces[i].u(k), faces[i].v(l)));
+    };
+    for (double along : {-0.5, 1.0, 3.3, 5.5}) {
+        EXPECT_NEAR(length(way(0, 7.5, along) - way(2, -0.5, along)), 0, 1e-12);  // front and right
+        EXPECT_NEAR(length(way(0, -0.5, along) - way(1, 3.5, along)), 0, 1e-12);  // front and left
+        EXPECT_NEAR(length(way(0, along, -0.5) - way(3, along, 2.5)), 0, 1e-12);  // front and top
+        EXPECT_NEAR(length(way(0, along, 5.5) - way(4, along, -0.5)), 0, 1e-12);  // front and bottom
+    }
+}
+
+TEST(Hemicube, refuses_what_cannot_be_halved_or_reaches_beyond_the_plane) {
+    LightFieldGrid grid = small_grid();
+    EXPECT_THROW(hemicube(grid), Error);  // three rows of directions
+    grid.face = Face::left;
+    EXPECT_THROW(validate(grid, ErrorCode::usage, "light field"), Error);
+    grid.center_u = grid.tan_half_u;
+    validate(grid, ErrorCode::usage, "light field");
+    grid.face = Face::right;
+    EXPECT_THROW(validate(grid, ErrorCode::usage, "light field"), Error);
+}
+
 }  // namespace
 }  // namespace hogel

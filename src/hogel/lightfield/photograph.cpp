@@ -58,21 +58,22 @@ struct Between {
     std::size_t high(std::size_t count) const { return std::min(low + 1, count - 1); }
 };
 
-// The film of one camera while hogels stream past.
+// The film of one camera while the hogels of one face after the other stream past.
 class Exposure {
   public:
-    Exposure(const LightFieldGrid& grid, const Camera& camera, std::size_t lens_count)
-        : grid_(grid),
+    Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count)
+        : faces_(std::move(faces)),
+          grid_(faces_.front()),
           camera_(camera),
           points_(lens_points(camera.pupil, lens_count)),
-          image_(camera.picture.width, camera.picture.height, grid.channels) {}
+          image_(camera.picture.width, camera.picture.height, grid_.channels) {}
 
-    // Adds all rays that cross the hologram plane in a cell whose upper left hogel is in `cells`; the tile holds these
-    // hogels and their right and lower neighbours.
-    void add(const LightFieldTile& tile, const HogelRange& cells) {
+    // Adds all rays of a face that cross the hologram plane in a cell whose upper left hogel is in `cells`; the tile
+    // holds these hogels and their right and lower neighbours.
+    void add(std::size_t face, const LightFieldTile& tile, const HogelRange& cells) {
         // What each point of the lens sees of each hogel.
         Array<float, 4> seen({points_.size(), tile.range.nt, tile.range.ns, grid_.channels});
-        parallel_for(points_.size(), [&](std::size_t i) { look(tile, points_[i], seen[i]); });
+        parallel_for(points_.size(), [&](std::size_t i) { look(face, tile, points_[i], seen[i]); });
         parallel_for(camera_.picture.height, [&](std::size_t row) {
             for (std::size_t i = 0; i < points_.size(); ++i) expose(row, points_[i], tile.range, cells, seen[i]);
         });
@@ -85,19 +86,20 @@ class Exposure {
     }
 
   private:
-    void look(const LightFieldTile& tile, const LensPoint& point, View<float, 3> seen) const {
+    void look(std::size_t face, const LightFieldTile& tile, const LensPoint& point, View<float, 3> seen) const {
+        const LightFieldGrid& grid = faces_[face];
         const double lens_x = camera_.eye.x + point.x, lens_y = camera_.eye.y + point.y, distance = camera_.eye.z;
-        const double half_u = 0.5 * static_cast<double>(grid_.directions_u) - 0.5;
-        const double half_v = 0.5 * static_cast<double>(grid_.directions_v) - 0.5;
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
-            const double V = (grid_.t(static_cast<double>(tile.range.t0 + t)) - lens_y) / distance;
-            const Between v(half_v - V / grid_.step_v(), grid_.directions_v);
+            const double V = (grid.t(static_cast<double>(tile.range.t0 + t)) - lens_y) / distance;
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
-                const double U = (grid_.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
-                const Between u(U / grid_.step_u() + half_u, grid_.directions_u);
+                const double U = (grid.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
+                const Vec3 way = to_face(grid.face, {U, V, 1});
+                if (!(way.z > 0) || shown_before(face, {U, V, 1})) continue;
+                const Between u(grid.column(way.x / way.z), grid.directions_u);
+                const Between v(grid.row(way.y / way.z), grid.directions_v);
                 if (u.outside || v.outside) continue;
-                const std::size_t u1 = u.high(grid_.directions_u), v1 = v.high(grid_.directions_v);
-                for (std::size_t c = 0; c < grid_.channels; ++c) {
+                const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
+                for (std::size_t c = 0; c < grid.channels; ++c) {
                     const View<const float, 2> hogel = tile.radiance.view()[c][t][s];
                     const float top = mix(hogel(v.low, u.low), hogel(v.low, u1), u.high_weight);
                     const float bottom = mix(hogel(v1, u.low), hogel(v1, u1), u.high_weight);
@@ -105,6 +107,12 @@ class Exposure {
                 }
             }
         }
+    }
+
+    // Faces may overlap; a direction belongs to the first that has it.
+    bool shown_before(std::size_t face, Vec3 way) const {
+        return std::any_of(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face),
+                           [&](const LightFieldGrid& earlier) { return earlier.sees(way); });
     }
 
     void expose(std::size_t row, const LensPoint& point, const HogelRange& held, const HogelRange& cells,
@@ -138,7 +146,8 @@ class Exposure {
         }
     }
 
-    LightFieldGrid grid_;
+    std::vector<LightFieldGrid> faces_;
+    LightFieldGrid grid_;  // whose hogels and channels are those of all faces
     Camera camera_;
     std::vector<LensPoint> points_;
     Image image_;
@@ -147,6 +156,11 @@ class Exposure {
 // A block of cells between hogels, and the hogels at its corners.
 struct Block {
     HogelRange cells, hogels;
+};
+
+struct FaceBlock {
+    std::size_t face;
+    Block block;
 };
 
 std::vector<Block> blocks(const LightFieldGrid& grid) {
@@ -164,27 +178,46 @@ std::vector<Block> blocks(const LightFieldGrid& grid) {
     return list;
 }
 
+std::vector<LightFieldGrid> grids_of(std::span<const LightFieldSource* const> faces) {
+    if (faces.empty()) throw Error(ErrorCode::usage, "a photograph of no light field");
+    std::vector<LightFieldGrid> grids;
+    for (const LightFieldSource* face : faces) {
+        grids.push_back(face->grid());
+        if (!same_hogels(grids.front(), grids.back()))
+            throw Error(ErrorCode::usage, "the light fields of one photograph differ in their hogels or channels");
+    }
+    return grids;
+}
+
 }  // namespace
 
 std::vector<Image> photograph(const LightFieldSource& light_field, std::span<const Camera> cameras,
                               std::size_t pupil_samples, const Progress& progress) {
-    const LightFieldGrid& grid = light_field.grid();
+    const LightFieldSource* const only = &light_field;
+    return photograph({&only, 1}, cameras, pupil_samples, progress);
+}
+
+std::vector<Image> photograph(std::span<const LightFieldSource* const> faces, std::span<const Camera> cameras,
+                              std::size_t pupil_samples, const Progress& progress) {
+    const std::vector<LightFieldGrid> grids = grids_of(faces);
     std::vector<Exposure> exposures;
     for (const Camera& camera : cameras) {
         validate(camera);
-        exposures.emplace_back(grid, camera, std::max<std::size_t>(pupil_samples, 1));
+        exposures.emplace_back(grids, camera, std::max<std::size_t>(pupil_samples, 1));
     }
-    const std::vector<Block> list = blocks(grid);
+    std::vector<FaceBlock> list;
+    for (std::size_t face = 0; face < faces.size(); ++face)
+        for (const Block& block : blocks(grids[face])) list.push_back({face, block});
     // Reading may mean rendering, so some blocks are read at a time; they are exposed in order.
     parallel_ordered<LightFieldTile>(
         list.size(), thread_count(),
         [&](std::size_t i) {
-            LightFieldTile tile(grid, list[i].hogels, false);
-            light_field.read(tile);
+            LightFieldTile tile(grids[list[i].face], list[i].block.hogels, false);
+            faces[list[i].face]->read(tile);
             return tile;
         },
         [&](std::size_t i, LightFieldTile& tile) {
-            for (Exposure& exposure : exposures) exposure.add(tile, list[i].cells);
+            for (Exposure& exposure : exposures) exposure.add(list[i].face, tile, list[i].block.cells);
             report(progress, static_cast<double>(i + 1) / static_cast<double>(list.size()));
         });
     std::vector<Image> images;

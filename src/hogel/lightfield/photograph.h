@@ -17,4 +17,9 @@ namespace hogel {
 std::vector<Image> photograph(const LightFieldSource& light_field, std::span<const Camera> cameras,
                               std::size_t pupil_samples = 64, const Progress& progress = {});
 
+/// The same of several light fields of the same hogels, such as the faces of a hemicube: a ray is looked up in the
+/// first of them that has its direction. Throws Error(usage) where there is none, or where hogels or channels differ.
+std::vector<Image> photograph(std::span<const LightFieldSource* const> faces, std::span<const Camera> cameras,
+                              std::size_t pupil_samples = 64, const Progress& progress = {});
+
 }  // namespace hogel

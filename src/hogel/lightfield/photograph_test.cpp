@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -107,6 +108,58 @@ TEST(GeometricPhotograph, is_the_same_for_any_number_of_threads) {
     const ThreadLimit one(1);
     const Image alone = photograph(light_field, std::span(&camera, 1))[0];
     for (std::size_t i = 0; i < all.pixels.size(); ++i) ASSERT_EQ(all.pixels.data()[i], alone.pixels.data()[i]);
+}
+
+// The hemicube of a patterned plane close behind the hologram, from everywhere: what the line of sight meets.
+TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes) {
+    LightFieldGrid grid{40, 30, 200_um, 64, 64, 1, 1, 1};
+    const double depth = 0.4_mm;
+    const auto f = [](double x, double y) { return 2 + std::sin(700 * x) + std::cos(500 * y); };
+    std::vector<LightField> faces;
+    for (const LightFieldGrid& face : hemicube(grid)) {
+        LightField& light_field = faces.emplace_back(face);
+        for (std::size_t t = 0; t < face.hogels_t; ++t)
+            for (std::size_t s = 0; s < face.hogels_s; ++s)
+                for (std::size_t v = 0; v < face.directions_v; ++v)
+                    for (std::size_t u = 0; u < face.directions_u; ++u) {
+                        const Vec3 way = face.along(face.u(double(u)), face.v(double(v)));
+                        light_field.radiance(0, t, s, v, u) = static_cast<float>(
+                            f(face.s(double(s)) + way.x / way.z * depth, face.t(double(t)) + way.y / way.z * depth));
+                    }
+    }
+    std::vector<const LightFieldSource*> sources;
+    for (const LightField& face : faces) sources.push_back(&face);
+    const double far = 0.3, distance = 0.1;
+    for (const Vec3 eye :
+         {Vec3{0, 0, distance}, Vec3{far, 0, distance}, Vec3{-far, 0.02, distance}, Vec3{0.01, far, distance},
+          Vec3{0.02, -far, distance}, Vec3{distance, 0.01, distance}, Vec3{-far, far, distance}}) {
+        Camera camera = camera_at(eye, 0);
+        camera.pupil = 1_mm;
+        const Image image = photograph(sources, std::span(&camera, 1), 64)[0];
+        const Image front = photograph(faces[0], std::span(&camera, 1), 64)[0];
+        for (std::size_t row = 2; row < 28; ++row)
+            for (std::size_t column = 2; column < 38; ++column) {
+                const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
+                const double reach = (eye.z + depth) / eye.z;
+                const double expected = f(eye.x + (x - eye.x) * reach, eye.y + (y - eye.y) * reach);
+                ASSERT_NEAR(image.pixels(row, column, 0), expected, 0.03)
+                    << eye.x << " " << eye.y << " pixel " << column << "," << row;
+                if (std::max(std::abs(eye.x), std::abs(eye.y)) == far) {
+                    ASSERT_EQ(front.pixels(row, column, 0), 0);
+                }
+            }
+    }
+}
+
+TEST(GeometricPhotograph, refuses_faces_that_do_not_belong_together) {
+    LightFieldGrid grid = coarse;
+    const LightField a(grid);
+    grid.hogels_s /= 2;
+    const LightField b(grid);
+    const Camera camera = camera_at({0, 0, 0.1}, 0);
+    const std::array<const LightFieldSource*, 2> both{&a, &b};
+    EXPECT_THROW(photograph(both, std::span(&camera, 1)), Error);
+    EXPECT_THROW(photograph(std::span<const LightFieldSource* const>(), std::span(&camera, 1)), Error);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ class MvrRenderer final : public LightFieldSource {
         Interval row, depth;
         for (const Vec3& p : triangle) {
             depth.include(-p.z);
-            row.include(0.5 * static_cast<double>(grid_.directions_v) - 0.5 + (p.y - hogel_t) / p.z / grid_.step_v());
+            row.include(grid_.row((hogel_t - p.y) / p.z));
         }
         if (touches_hologram(depth)) return {0, grid_.directions_v};
         return samples_between(row.low, row.high, grid_.directions_v);
@@ -128,9 +128,7 @@ class MvrRenderer final : public LightFieldSource {
         Interval column, depth;
         for (std::size_t i = 0; i < slice.corners; ++i) {
             depth.include(slice.depth[i]);
-            for (double s : {first, last})
-                column.include(0.5 * static_cast<double>(grid_.directions_u) - 0.5 +
-                               (slice.x[i] - s) / slice.depth[i] / grid_.step_u());
+            for (double s : {first, last}) column.include(grid_.column((slice.x[i] - s) / slice.depth[i]));
         }
         if (touches_hologram(depth)) return {0, grid_.directions_u};
         return samples_between(column.low, column.high, grid_.directions_u);

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "hogel/render/raytrace_internal.h"
@@ -16,16 +18,15 @@ class RaytraceRenderer final : public LightFieldSource {
   public:
     RaytraceRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
         : scene_(std::move(scene)), grid_(grid), caster_(scene_->positions, triangles(*scene_)) {
-        double low = std::numeric_limits<double>::infinity(), high = -low;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        low_ = {infinity, infinity, infinity};
+        high_ = -low_;
         for (const ShadedScene::Triangle& triangle : scene_->triangles)
             for (std::uint32_t vertex : triangle.vertices) {
-                low = std::min(low, -scene_->positions[vertex].z);
-                high = std::max(high, -scene_->positions[vertex].z);
+                const Vec3& p = scene_->positions[vertex];
+                low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, -p.z)};
+                high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, -p.z)};
             }
-        // Rays start a little in front of the nearest point and end a little behind the farthest.
-        const double margin = 1e-3 * (high - low) + 1e-9;
-        near_ = low - margin;
-        far_ = high + margin;
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -46,29 +47,41 @@ class RaytraceRenderer final : public LightFieldSource {
         return list;
     }
 
+    // How many steps forward the rays of a hogel begin and end: a little before the nearest point and a little behind
+    // the farthest.
+    std::pair<double, double> steps(Vec3 hogel) const {
+        const double a = to_face(grid_.face, low_ - hogel).z, b = to_face(grid_.face, high_ - hogel).z;
+        const double low = std::min(a, b), high = std::max(a, b), margin = 1e-3 * (high - low) + 1e-9;
+        return {low - margin, high + margin};
+    }
+
     void trace(LightFieldTile& tile, std::size_t t, std::size_t s, std::size_t v0, std::size_t u0) const {
         const std::size_t nv = std::min(bundle, grid_.directions_v - v0),
                           nu = std::min(bundle, grid_.directions_u - u0);
-        const double hogel_s = grid_.s(static_cast<double>(tile.range.s0 + s));
-        const double hogel_t = grid_.t(static_cast<double>(tile.range.t0 + t));
+        const Vec3 hogel{grid_.s(static_cast<double>(tile.range.s0 + s)),
+                         grid_.t(static_cast<double>(tile.range.t0 + t)), 0};
+        const auto [near, far] = steps(hogel);
         std::array<Vec3, bundle * bundle> origins, directions;
         std::array<RayHit, bundle * bundle> hits;
-        // x = s + Uζ, y = t + Vζ, z = −ζ: with direction (U, V, −1) the distance along the ray is ζ − near.
         for (std::size_t v = 0; v < nv; ++v)
             for (std::size_t u = 0; u < nu; ++u) {
-                const double U = grid_.u(static_cast<double>(u0 + u)), V = grid_.v(static_cast<double>(v0 + v));
-                origins[v * nu + u] = {hogel_s + U * near_, hogel_t + V * near_, -near_};
-                directions[v * nu + u] = {U, V, -1};
+                const Vec3 way =
+                    grid_.along(grid_.u(static_cast<double>(u0 + u)), grid_.v(static_cast<double>(v0 + v)));
+                const Vec3 start = hogel + way * near;
+                // z = −ζ: with this direction the distance along the ray is counted in steps.
+                origins[v * nu + u] = {start.x, start.y, -start.z};
+                directions[v * nu + u] = {way.x, way.y, -way.z};
             }
         const std::size_t n = nv * nu;
-        caster_.closest(std::span(origins).first(n), std::span(directions).first(n), far_ - near_,
+        caster_.closest(std::span(origins).first(n), std::span(directions).first(n), far - near,
                         std::span(hits).first(n));
         for (std::size_t v = 0; v < nv; ++v)
             for (std::size_t u = 0; u < nu; ++u) {
                 const RayHit& hit = hits[v * nu + u];
                 VisiblePoint point;
                 if (hit.triangle != RayHit::miss)
-                    point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2, near_ + hit.distance};
+                    point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2,
+                             -directions[v * nu + u].z * (near + hit.distance)};
                 store(tile, *scene_, point, t, s, v0 + v, u0 + u);
             }
     }
@@ -76,7 +89,7 @@ class RaytraceRenderer final : public LightFieldSource {
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
     RayCaster caster_;
-    double near_ = 0, far_ = 0;  // ζ
+    Vec3 low_, high_;  // the scene's box in (x, y, ζ)
 };
 
 }  // namespace

@@ -101,13 +101,11 @@ std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint 
                                       const HogelRange& range) {
     const double s = grid.s(static_cast<double>(range.s0) + camera.s);
     const double t = grid.t(static_cast<double>(range.t0) + camera.t);
-    const double half_u = 0.5 * static_cast<double>(grid.directions_u) - 0.5;
-    const double half_v = 0.5 * static_cast<double>(grid.directions_v) - 0.5;
     std::array<ProjectedPoint, 3> points;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& [x, y, depth] = triangle[i];
-        points[i] = {half_u + (x - s) / (depth * grid.step_u()), half_v - (y - t) / (depth * grid.step_v()),
-                     camera.s / depth, camera.t / depth, 1 / depth};
+        points[i] = {grid.column((x - s) / depth), grid.row((y - t) / depth), camera.s / depth, camera.t / depth,
+                     1 / depth};
     }
     return points;
 }

@@ -18,7 +18,7 @@ struct LinearInDirection {
 
 // A vertex as a hogel sees it: the position relative to the hogel's centre, and where it falls in the hogel's picture.
 struct SeenVertex {
-    double x, y, depth;  // x − s, y − t, ζ
+    double x, y, depth;  // x − s, y − t, ζ; on a side of a hemicube right, up and forward in its picture
     double k, l;         // column and row of the picture, if ζ is not too near to zero
 };
 
@@ -66,20 +66,25 @@ class ZbufferRenderer final : public LightFieldSource {
                 for (std::size_t i = 0; i < scene_->triangles.size(); ++i) scan_convert(i, vertices, picture);
                 for (std::size_t v = 0; v < grid_.directions_v; ++v)
                     for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        store(tile, *scene_, picture[v * grid_.directions_u + u], t, s, v, u);
+                        store_in_metres(tile, picture[v * grid_.directions_u + u], t, s, v, u);
             }
     }
 
   private:
     void project(std::size_t s, std::size_t t, std::vector<SeenVertex>& vertices) const {
         const double hogel_s = grid_.s(static_cast<double>(s)), hogel_t = grid_.t(static_cast<double>(t));
-        const double half_u = 0.5 * static_cast<double>(grid_.directions_u) - 0.5;
-        const double half_v = 0.5 * static_cast<double>(grid_.directions_v) - 0.5;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Vec3& p = scene_->positions[i];
-            const double x = p.x - hogel_s, y = p.y - hogel_t, depth = -p.z;
-            vertices[i] = {x, y, depth, x / depth / grid_.step_u() + half_u, half_v - y / depth / grid_.step_v()};
+            const auto [x, y, depth] = to_face(grid_.face, {p.x - hogel_s, p.y - hogel_t, -p.z});
+            vertices[i] = {x, y, depth, grid_.column(x / depth), grid_.row(y / depth)};
         }
+    }
+
+    // The picture counts depth in steps forward.
+    void store_in_metres(LightFieldTile& tile, VisiblePoint point, std::size_t t, std::size_t s, std::size_t v,
+                         std::size_t u) const {
+        point.depth *= grid_.along(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))).z;
+        store(tile, *scene_, point, t, s, v, u);
     }
 
     void scan_convert(std::size_t index, const std::vector<SeenVertex>& vertices,

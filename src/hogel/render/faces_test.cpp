@@ -1,0 +1,157 @@
+// The sides of a hemicube, and directions that are not centred: what a renderer makes of them against the front of the
+// same scene turned, where geometry alone says what is to be seen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+#include "hogel/render/renderer.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+const LightFieldGrid front{5, 4, 1_mm, 22, 18, 1, 1, 3};
+
+// Flat triangles of random colours, some far aside, from 0.2 to 8 mm behind the hologram or on both sides of it.
+ShadedScene random_scene(std::mt19937& random, bool behind) {
+    std::uniform_real_distribution<double> aside(-16e-3, 16e-3), depth(behind ? 0.2e-3 : -4e-3, 8e-3),
+        step(-9e-3, 9e-3);
+    std::uniform_real_distribution<float> colour(0, 1);
+    ShadedScene scene;
+    scene.background = {0.5f, 0.5f, 0.5f};
+    for (std::uint32_t i = 0; i < 24; ++i) {
+        const Vec3 middle{aside(random), aside(random), -depth(random)};
+        const Rgb flat{colour(random), colour(random), colour(random)};
+        for (int corner = 0; corner < 3; ++corner) {
+            Vec3 p = middle + Vec3{step(random), step(random), step(random)};
+            if (behind) p.z = std::min(p.z, -0.1e-3);
+            scene.positions.push_back(p);
+            scene.radiance.push_back(flat);
+        }
+        scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
+    }
+    scene.texture_coordinates.resize(scene.positions.size());
+    return scene;
+}
+
+LightField render(std::string_view name, const ShadedScene& scene, const LightFieldGrid& grid) {
+    LightField light_field(grid, true);
+    copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), grid), light_field);
+    return light_field;
+}
+
+class Faces : public ::testing::TestWithParam<std::string> {};
+std::vector<std::string> names() {
+    std::vector<std::string> list;
+    for (const RendererInfo& info : renderers()) list.emplace_back(info.name);
+    return list;
+}
+INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(names()),
+                         [](const auto& parameter) { return parameter.param; });
+
+const RendererInfo& info(std::string_view name) { return *std::ranges::find(renderers(), name, &RendererInfo::name); }
+
+// What face `grid` of each hogel sees must be what the front of a single hogel sees of the scene turned around it. Only
+// a ray along an edge may see one thing or the other.
+void compare_with_turned_scene(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
+    const LightField seen = render(name, scene, grid);
+    std::size_t hits = 0, different = 0;
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s) {
+            ShadedScene turned = scene;
+            for (Vec3& p : turned.positions) {
+                const Vec3 q = to_face(grid.face, {p.x - grid.s(double(s)), p.y - grid.t(double(t)), -p.z});
+                p = {q.x, q.y, -q.z};
+            }
+            LightFieldGrid one = grid;
+            one.hogels_s = one.hogels_t = 1;
+            one.face = Face::front;
+            const LightField expected = render("raytrace", turned, one);
+            for (std::size_t v = 0; v < grid.directions_v; ++v)
+                for (std::size_t u = 0; u < grid.directions_u; ++u) {
+                    const double way = grid.along(grid.u(double(u)), grid.v(double(v))).z;
+                    const double depth = expected.depth(0, 0, v, u) * way, found = seen.depth(t, s, v, u);
+                    hits += std::isfinite(depth) ? 1 : 0;
+                    bool same = found == depth || std::abs(found - depth) < 1e-7;
+                    for (std::size_t c = 0; c < 3; ++c)
+                        same = same && std::abs(seen.radiance(c, t, s, v, u) - expected.radiance(c, 0, 0, v, u)) < 1e-5;
+                    different += same ? 0 : 1;
+                }
+        }
+    EXPECT_GT(hits, grid.hogels() * grid.directions() / 10) << hogel::name(grid.face);
+    EXPECT_LE(different, grid.hogels() * grid.directions() / 2000) << hogel::name(grid.face);
+}
+
+TEST_P(Faces, are_the_front_of_the_scene_turned) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 4; ++round) {
+        const bool behind = round % 2 == 0;
+        const ShadedScene scene = random_scene(random, behind);
+        if (!behind && !info(GetParam()).straddles) continue;
+        for (const LightFieldGrid& face : hemicube(front))
+            if (face.face == Face::front || info(GetParam()).sides) compare_with_turned_scene(GetParam(), scene, face);
+    }
+}
+
+TEST_P(Faces, off_centre_directions_are_the_front_of_the_scene_too) {
+    std::mt19937 random(4);
+    const ShadedScene scene = random_scene(random, true);
+    LightFieldGrid aside = front;
+    aside.center_u = 0.7;
+    aside.center_v = -0.4;
+    compare_with_turned_scene(GetParam(), scene, aside);
+    // Off-centre samples that coincide with centred ones see the same.
+    LightFieldGrid part = front;
+    part.directions_u = 6;
+    part.tan_half_u = front.tan_half_u * 6 / 22;
+    part.center_u = front.u(18.5);
+    const LightField whole = render(GetParam(), scene, front), right = render(GetParam(), scene, part);
+    for (std::size_t t = 0; t < front.hogels_t; ++t)
+        for (std::size_t s = 0; s < front.hogels_s; ++s)
+            for (std::size_t v = 0; v < front.directions_v; ++v)
+                for (std::size_t u = 0; u < 6; ++u)
+                    ASSERT_NEAR(whole.radiance(0, t, s, v, 16 + u), right.radiance(0, t, s, v, u), 1e-5);
+}
+
+TEST_P(Faces, sides_are_the_same_bytes_in_any_tiling) {
+    if (!info(GetParam()).sides) GTEST_SKIP();
+    std::mt19937 random(5);
+    const ShadedScene scene = random_scene(random, !info(GetParam()).straddles);
+    for (const LightFieldGrid& face : hemicube(front)) {
+        const LightField whole = render(GetParam(), scene, face);
+        const auto renderer = make_renderer(GetParam(), std::make_shared<const ShadedScene>(scene), face);
+        for (const HogelRange& range : {HogelRange{0, 0, 1, 1}, HogelRange{2, 1, 3, 2}, HogelRange{4, 3, 1, 1},
+                                        HogelRange{0, 2, 5, 1}, HogelRange{3, 0, 1, 4}}) {
+            LightFieldTile tile(face, range, true), expected(face, range, true);
+            renderer->read(tile);
+            whole.read(expected);
+            EXPECT_TRUE(std::ranges::equal(tile.radiance.elements(), expected.radiance.elements()));
+            EXPECT_TRUE(std::ranges::equal(tile.depth.elements(), expected.depth.elements()));
+        }
+    }
+}
+
+TEST_P(Faces, that_a_renderer_does_not_reach_are_refused) {
+    const LightFieldGrid side = hemicube(front)[1];
+    const auto scene = std::make_shared<const ShadedScene>();
+    if (info(GetParam()).sides) {
+        make_renderer(GetParam(), scene, side);
+        return;
+    }
+    try {
+        make_renderer(GetParam(), scene, side);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("front face alone, not the left"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace hogel
