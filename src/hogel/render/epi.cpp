@@ -34,33 +34,49 @@ struct StripOrigin {
 class EpiRenderer final : public LightFieldSource {
   public:
     EpiRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), frame_(grid), clusters_(*scene_, frame_) {}
+        : scene_(std::move(scene)), grid_(grid), axes_(grid), frame_(grid), clusters_(*scene_, frame_) {
+        const Rgb& b = scene_->background;
+        const std::array values{grid.channels == 3 ? b.r : luminance(b), b.g, b.b,
+                                std::numeric_limits<float>::infinity()};
+        std::ranges::copy(values, background_);
+    }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
 
     // Whole rows if they are not too large, or else parts of equal length; several rows if they are small.
     HogelRange preferred_tile() const override {
+        const HogelRange all{0, 0, grid_.hogels_s, grid_.hogels_t};
+        const std::size_t length = axes_.fast_hogels(all);
         const std::size_t hogel_bytes = (grid_.channels + 1) * grid_.directions() * sizeof(float);
         const std::size_t most = std::max<std::size_t>(1, most_tile_bytes / hogel_bytes);
-        const std::size_t parts = (grid_.hogels_s + most - 1) / most, ns = (grid_.hogels_s + parts - 1) / parts;
-        const std::size_t rows = std::max<std::size_t>(1, default_tile(grid_).hogels() / ns);
-        return {0, 0, ns, std::min(grid_.hogels_t, rows)};
+        const std::size_t parts = (length + most - 1) / most, part = (length + parts - 1) / parts;
+        const std::size_t rows =
+            std::min(axes_.slow_hogels(all), std::max<std::size_t>(1, default_tile(grid_).hogels() / part));
+        return axes_.turned() ? HogelRange{0, 0, rows, part} : HogelRange{0, 0, part, rows};
     }
 
     void read(LightFieldTile& tile) const override {
-        const std::size_t columns = std::min(tile.range.ns, std::max<std::size_t>(16, most_words / grid_.directions_u));
-        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * grid_.directions_u);
+        const HogelRange& range = tile.range;
+        const std::size_t hogels = axes_.fast_hogels(range), directions = axes_.fast_directions();
+        const std::size_t columns = std::min(hogels, std::max<std::size_t>(16, most_words / directions));
+        const std::size_t first_row = axes_.turned() ? range.s0 : range.t0;
+        const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
+        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions);
         Work work;
-        for (std::size_t v = 0; v < grid_.directions_v; ++v)
-            for (std::size_t t = 0; t < tile.range.nt; ++t) {
-                for (std::size_t s = 0; s < tile.range.ns; s += columns) {
-                    const EpipolarPlane plane{words.data(), std::min(columns, tile.range.ns - s), grid_.directions_u,
-                                              frame_.first_column + static_cast<std::int32_t>(tile.range.s0 + s),
-                                              frame_.first_direction};
+        for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow)
+            for (std::size_t row = 0; row < axes_.slow_hogels(range); ++row) {
+                const EpipolarFrame::Plane place = frame_.plane(first_row + row, slow);
+                for (std::size_t column = 0; column < hogels; column += columns) {
+                    const EpipolarPlane plane{words.data(), std::min(columns, hogels - column), directions,
+                                              frame_.first_column() + static_cast<std::int32_t>(first_column + column),
+                                              frame_.first_direction()};
                     std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
-                    draw_plane(plane, frame_.row(tile.range.t0 + t), frame_.slope(v), work);
-                    shade_plane(tile, plane, work, t, s, v);
+                    draw_plane(plane, place, work);
+                    if (axes_.turned())
+                        shade_turned_plane(tile, plane, work, row, column, slow);
+                    else
+                        shade_plane(tile, plane, work, row, column, slow);
                 }
             }
     }
@@ -72,10 +88,12 @@ class EpiRenderer final : public LightFieldSource {
         std::vector<StripEnds> ends;
         std::vector<StripOrigin> origins;
         Occlusion occlusion;
+        std::array<std::vector<float>, 4> turned;  // values of a plane whose columns lie far apart in the tile
     };
 
     // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
-    void draw_plane(const EpipolarPlane& plane, double row, double slope, Work& work) const {
+    void draw_plane(const EpipolarPlane& plane, const EpipolarFrame::Plane& place, Work& work) const {
+        const double row = place.row, slope = place.slope;
         work.strips.clear();
         work.ends.clear();
         work.origins.clear();
@@ -85,14 +103,16 @@ class EpiRenderer final : public LightFieldSource {
             draw(std::span(work.strips).subspan(drawn), drawn, plane);
             drawn = work.strips.size();
         };
+        const auto may_show = [&](const TriangleClusters::Bounds& bounds) {
+            return bounds.may_cross(row, slope) && !work.occlusion.hides(bounds, plane, place.shift, place.z0);
+        };
         for (const TriangleClusters::Group& group : clusters_.groups) {
-            if (!group.bounds.may_cross(row, slope) || work.occlusion.hides(group.bounds, plane)) continue;
+            if (!may_show(group.bounds)) continue;
             for (const std::uint32_t cluster : group.clusters) {
-                const TriangleClusters::Bounds& bounds = clusters_.bounds[cluster];
-                if (!bounds.may_cross(row, slope) || work.occlusion.hides(bounds, plane)) continue;
+                if (!may_show(clusters_.bounds[cluster])) continue;
                 std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
                 for (; crossed != 0; crossed &= crossed - 1)
-                    add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), row, slope, work);
+                    add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), place, work);
             }
             if (work.strips.size() < next_update) continue;
             draw_rest();
@@ -102,25 +122,29 @@ class EpiRenderer final : public LightFieldSource {
         draw_rest();
     }
 
-    void add_strip(std::size_t cluster, std::size_t place, double row, double slope, Work& work) const {
+    void add_strip(std::size_t cluster, std::size_t number, const EpipolarFrame::Plane& place, Work& work) const {
         const ClusterCorners& all = clusters_.corners[cluster];
         std::array<double, 3> x, z, height;
         for (std::size_t i = 0; i < 3; ++i) {
-            x[i] = all.x[i][place];
-            z[i] = all.z[i][place];
+            x[i] = all.x[i][number];
+            z[i] = all.z[i][number];
             // As in `crossing`, to the last bit.
-            height[i] = (all.y[i][place] - slope * z[i]) - row;
+            height[i] = (all.y[i][number] - place.slope * z[i]) - place.row;
         }
-        const auto [lone, next, last, end0, end1] = cut_triangle(x, z, height);
+        auto [lone, next, last, end0, end1] = cut_triangle(x, z, height);
+        for (Cut* end : {&end0, &end1}) {
+            end->x += place.shift;
+            end->z -= place.z0;
+        }
         work.strips.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
                                static_cast<float>(end1.z)});
 
-        const std::size_t index = cluster * cluster_size + place;
+        const std::size_t index = cluster * cluster_size + number;
         const auto& radiance = clusters_.radiance[index];
         const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
         StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end1.x, end0.z, end1.z, {}, {}});
-        set_values(ends.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], end0.z);
-        set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], end1.z);
+        set_values(ends.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], place.deepening * end0.z);
+        set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], place.deepening * end1.z);
         if (!scene_->textures.empty()) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
     }
 
@@ -128,7 +152,7 @@ class EpiRenderer final : public LightFieldSource {
         values[0] = grid_.channels == 1 ? luminance(radiance) : radiance.r;
         values[1] = radiance.g;
         values[2] = radiance.b;
-        values[3] = static_cast<float>(frame_.metres_deep(z));
+        values[3] = static_cast<float>(frame_.metres(z));
     }
 
     void shade_plane(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t t, std::size_t s,
@@ -139,39 +163,62 @@ class EpiRenderer final : public LightFieldSource {
                                colour ? &tile.radiance(2, t, s, v, 0) : nullptr,
                                tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : nullptr},
                               {stride, stride, stride, stride}};
-        const Rgb& b = scene_->background;
-        const float background[4] = {colour ? b.r : luminance(b), b.g, b.b, std::numeric_limits<float>::infinity()};
-        shade(plane, work.ends, background, out);
-        if (!scene_->textures.empty())
-            for (std::size_t column = 0; column < plane.columns; ++column)
-                shade_textured(tile, plane, column, work, t, s + column, v);
+        shade(plane, work.ends, background_, out);
+        shade_textured(tile, plane, work, t, s, v);
+    }
+
+    // The same where a row of directions is a column of the tile's.
+    void shade_turned_plane(LightFieldTile& tile, const EpipolarPlane& plane, Work& work, std::size_t row,
+                            std::size_t first, std::size_t slow) const {
+        ShadedPlane out{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (i == 3 ? tile.depth.size() == 0 : i >= grid_.channels) continue;
+            work.turned[i].resize(plane.columns * plane.directions);
+            out.values[i] = work.turned[i].data();
+            out.strides[i] = plane.directions;
+        }
+        shade(plane, work.ends, background_, out);
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!out.values[i]) continue;
+            for (std::size_t column = 0; column < plane.columns; ++column) {
+                float* to = i == 3 ? &tile.depth(first + column, row, 0, slow)
+                                   : &tile.radiance(i, first + column, row, 0, slow);
+                const float* from = out.values[i] + column * plane.directions;
+                for (std::size_t k = 0; k < plane.directions; ++k) to[k * grid_.directions_u] = from[k];
+            }
+        }
+        shade_textured(tile, plane, work, row, first, slow);
     }
 
     // Samples of textured triangles once more, with the texture.
-    void shade_textured(LightFieldTile& tile, const EpipolarPlane& plane, std::size_t column, const Work& work,
-                        std::size_t t, std::size_t s, std::size_t v) const {
-        const double n = plane.first_column + static_cast<double>(column), K = plane.first_direction;
-        for (std::size_t u = 0; u < plane.directions; ++u) {
-            const std::uint64_t word = plane.words[column * plane.directions + u];
-            if (word == EpipolarPlane::nothing) continue;
-            const std::size_t number = word & 0xffffffff;
+    void shade_textured(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t row,
+                        std::size_t first, std::size_t slow) const {
+        if (scene_->textures.empty()) return;
+        for (std::size_t i = 0; i < plane.columns * plane.directions; ++i) {
+            if (plane.words[i] == EpipolarPlane::nothing) continue;
+            const std::size_t column = i / plane.directions, k = i % plane.directions;
+            const std::size_t number = plane.words[i] & 0xffffffff;
             const StripOrigin& from = work.origins[number];
             if (scene_->triangles[from.triangle].texture == ShadedScene::no_texture) continue;
             const StripEnds& strip = work.ends[number];
-            const float w = part_of_strip(strip, n, K + static_cast<double>(u));
+            const float w = part_of_strip(strip, plane.first_column + static_cast<double>(column),
+                                          plane.first_direction + static_cast<double>(k));
             std::array<float, 3> b;
             b[from.lone] = (1 - w) * from.weight0 + w * from.weight1;
             b[(from.lone + 1) % 3] = (1 - w) * (1 - from.weight0);
             b[(from.lone + 2) % 3] = w * (1 - from.weight1);
             const float depth = strip.value0[3] + w * (strip.value1[3] - strip.value0[3]);
+            const auto [t, s, v, u] = axes_.sample(row, first + column, slow, k);
             store(tile, *scene_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
         }
     }
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
+    RowAxes axes_;
     EpipolarFrame frame_;
     TriangleClusters clusters_;
+    float background_[4];  // as StripEnds has its values
 };
 
 }  // namespace

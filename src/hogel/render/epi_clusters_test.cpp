@@ -55,30 +55,44 @@ TEST(TriangleClusters, are_passed_over_only_if_no_triangle_is_crossed_and_mostly
     };
     std::size_t crossed = 0, passed_over = 0, in_vain = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
-        for (std::size_t v = 0; v < grid.directions_v; ++v)
+        for (std::size_t v = 0; v < grid.directions_v; ++v) {
+            const EpipolarFrame::Plane plane = frame.plane(t, v);
             for (std::size_t i = 0; i < clusters.corners.size(); ++i) {
-                const bool meets = crossing_plain(clusters.corners[i], frame.row(t), frame.slope(v)) != 0;
-                const bool may = clusters.bounds[i].may_cross(frame.row(t), frame.slope(v));
+                const bool meets = crossing_plain(clusters.corners[i], plane.row, plane.slope) != 0;
+                const bool may = clusters.bounds[i].may_cross(plane.row, plane.slope);
                 ASSERT_TRUE(may || !meets) << t << " " << v << " " << i;
-                ASSERT_TRUE(group_of(i).bounds.may_cross(frame.row(t), frame.slope(v)) || !meets);
+                ASSERT_TRUE(group_of(i).bounds.may_cross(plane.row, plane.slope) || !meets);
                 (meets ? crossed : may ? in_vain : passed_over) += 1;
             }
+        }
     EXPECT_GT(crossed, 1000u);
     EXPECT_GT(passed_over, 2 * crossed);
     EXPECT_LT(in_vain, crossed);
 }
 
-// A ray runs through (s, t) in the plane z = 0 and on to x = s + Uζ: in samples too.
+// The points of a ray of any face lie in its epipolar plane, and the ray is straight there.
 TEST(EpipolarFrame, counts_in_samples) {
-    for (const LightFieldGrid& g : {grid, LightFieldGrid{8, 9, 0.5e-3, 21, 30, 0.5, 0.4, 3}}) {
+    LightFieldGrid aside = grid;
+    aside.center_u = 0.3;
+    aside.center_v = -0.2;
+    std::vector<LightFieldGrid> grids{grid, {8, 9, 0.5e-3, 21, 30, 0.5, 0.4, 3}, aside};
+    for (const LightFieldGrid& face : hemicube({8, 9, 0.5e-3, 20, 30, 1, 1, 3})) grids.push_back(face);
+    for (const LightFieldGrid& g : grids) {
         const EpipolarFrame frame(g);
-        for (std::size_t i = 0; i < g.hogels_s; ++i)
-            for (std::size_t k = 0; k < g.directions_u; ++k) {
-                const double depth = 3e-3, S = g.s(double(i)), T = g.t(2), U = g.u(double(k)), V = g.v(5);
-                const Vec3 p = frame.in_samples({S + U * depth, T + V * depth, -depth});
-                EXPECT_NEAR(p.x - (frame.first_direction + double(k)) * p.z, frame.first_column + double(i), 1e-12);
-                EXPECT_NEAR(p.y - frame.slope(5) * p.z, frame.row(2), 1e-12);
-                EXPECT_NEAR(frame.metres_deep(p.z), depth, 1e-15);
+        const HogelRange all{0, 0, g.hogels_s, g.hogels_t};
+        for (std::size_t i = 0; i < frame.axes().fast_hogels(all); ++i)
+            for (std::size_t k = 0; k < frame.axes().fast_directions(); ++k) {
+                const auto [t, s, v, u] = frame.axes().sample(2, i, 5, k);
+                const Vec3 way = g.along(g.u(double(u)), g.v(double(v)));
+                const double steps = 3e-3;
+                const Vec3 p =
+                    frame.in_samples({g.s(double(s)) + steps * way.x, g.t(double(t)) + steps * way.y, -steps * way.z});
+                const EpipolarFrame::Plane plane = frame.plane(2, 5);
+                const double x = p.x + plane.shift, z = p.z - plane.z0;
+                EXPECT_NEAR(x - (frame.first_direction() + double(k)) * z, frame.first_column() + double(i), 1e-11);
+                EXPECT_NEAR(p.y - plane.slope * p.z, plane.row, 1e-11);
+                EXPECT_NEAR(frame.metres(z), steps, 1e-14);
+                EXPECT_NEAR(plane.deepening, way.z, 1e-14);
             }
     }
 }

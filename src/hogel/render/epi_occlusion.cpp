@@ -22,19 +22,22 @@ void Occlusion::update(const EpipolarPlane& plane) {
     worth_asking_ = 4 * static_cast<std::size_t>(covered) >= cells_.size();
 }
 
-bool Occlusion::hides(const TriangleClusters::Bounds& box, const EpipolarPlane& plane) const {
+bool Occlusion::hides(const TriangleClusters::Bounds& box, const EpipolarPlane& plane, double shift, double z0) const {
     if (!worth_asking_) return false;
-    // Depths of strips are rounded to single precision; this is beyond any rounding.
-    const auto nearest = static_cast<float>(box.z_low - 1e-6 * std::abs(box.z_low));
+    const double x_low = box.x_low + shift, x_high = box.x_high + shift;
+    const double z_low = box.z_low - z0, z_high = box.z_high - z0;
+    // Depths of strips are rounded to single precision, and may be differences of larger numbers; this is beyond any
+    // rounding.
+    const auto nearest = static_cast<float>(z_low - 1e-6 * std::abs(z_low) - 1e-12 * std::abs(z0));
     const std::uint32_t near_bits = ordered_bits(nearest);
     const double first = plane.first_column, last = first + static_cast<double>(plane.columns) - 1;
     for (std::size_t k = 0; k < plane.directions; k += cell_directions) {
         // The columns that see the box in the cell's directions, and one more on either side for rounding.
         const double Ka = static_cast<double>(plane.first_direction) + static_cast<double>(k);
         const double Kb = Ka + static_cast<double>(std::min(cell_directions, plane.directions - k) - 1);
-        const auto [least, most] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});
-        const double n_low = std::max(first, std::floor(box.x_low - most) - 1);
-        const double n_high = std::min(last, std::ceil(box.x_high - least) + 1);
+        const auto [least, most] = std::minmax({Ka * z_low, Ka * z_high, Kb * z_low, Kb * z_high});
+        const double n_low = std::max(first, std::floor(x_low - most) - 1);
+        const double n_high = std::min(last, std::ceil(x_high - least) + 1);
         if (!(n_low <= n_high)) continue;
         const auto begin = static_cast<std::size_t>(n_low - first) / cell_columns;
         const auto end = static_cast<std::size_t>(n_high - first) / cell_columns;

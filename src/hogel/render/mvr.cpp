@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hogel/render/oblique_triangle_internal.h"
+#include "hogel/render/row_axes_internal.h"
 #include "hogel/render/row_tile_internal.h"
 #include "hogel/render/span_internal.h"
 
@@ -21,7 +22,8 @@ struct Interval {
 };
 
 // What the rays of one t and one V can see of a triangle: the points (x, ζ) in the plane of these rays between some
-// corners, two as a rule. A slice is a line of points; a triangle that all but lies in the plane is all of it.
+// corners, two as a rule. A slice is a line of points; a triangle that all but lies in the plane is all of it. On a
+// side of a hemicube ζ is the distance forward, and on the left and right x, t and V change places with y, s and U.
 struct Slice {
     std::uint32_t triangle = 0, corners = 0;
     std::array<double, 5> x{}, depth{};  // on two edges at most, and at three vertices
@@ -36,34 +38,38 @@ struct Slice {
 class MvrRenderer final : public LightFieldSource {
   public:
     MvrRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {}
+        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(triangles_with_area(*scene_)) {}
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
-    HogelRange preferred_tile() const override { return row_tile(grid_); }
+    HogelRange preferred_tile() const override { return row_tile(grid_, axes_.turned()); }
 
     // Source: [K] fig. 5.8.
     void read(LightFieldTile& tile) const override {
-        std::vector<std::vector<Slice>> tables(grid_.directions_v);
-        Array<NearestTriangle, 2> picture({grid_.directions_u, tile.range.ns});
-        for (std::size_t t = 0; t < tile.range.nt; ++t) {
-            const double hogel_t = grid_.t(static_cast<double>(tile.range.t0 + t));
+        const std::size_t hogels = axes_.fast_hogels(tile.range);
+        std::vector<std::vector<Slice>> tables(axes_.slow_directions());
+        Array<NearestTriangle, 2> picture({axes_.fast_directions(), hogels});
+        for (std::size_t row = 0; row < axes_.slow_hogels(tile.range); ++row) {
+            const double place = axes_.slow_hogel(tile.range, row);
             for (std::vector<Slice>& table : tables) table.clear();
-            for (std::uint32_t index : triangles_) slice_triangle(index, hogel_t, tables);
-            for (std::size_t v = 0; v < grid_.directions_v; ++v) {
+            for (std::uint32_t index : triangles_) slice_triangle(index, place, tables);
+            for (std::size_t slow = 0; slow < tables.size(); ++slow) {
                 std::ranges::fill(picture.elements(), NearestTriangle{});
-                for (const Slice& slice : tables[v]) scan_convert(slice, v, hogel_t, tile.range, picture);
-                for (std::size_t s = 0; s < tile.range.ns; ++s)
-                    for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        store(tile, *scene_, grid_, picture(u, s), t, s, v, u);
+                for (const Slice& slice : tables[slow]) scan_convert(slice, slow, row, tile.range, picture);
+                for (std::size_t i = 0; i < hogels; ++i)
+                    for (std::size_t fast = 0; fast < axes_.fast_directions(); ++fast) {
+                        const auto [t, s, v, u] = axes_.sample(row, i, slow, fast);
+                        store(tile, *scene_, grid_, picture(fast, i), t, s, v, u);
+                    }
             }
         }
     }
 
   private:
-    std::array<Vec3, 3> corners(std::uint32_t index) const {
+    std::array<RowAxes::Seen, 3> corners(std::uint32_t index, double place) const {
         const auto& [a, b, c] = scene_->triangles[index].vertices;
-        return {scene_->positions[a], scene_->positions[b], scene_->positions[c]};
+        return {axes_.seen(scene_->positions[a], place), axes_.seen(scene_->positions[b], place),
+                axes_.seen(scene_->positions[c], place)};
     }
 
     // Where points have no direction, or rounding makes one up.
@@ -72,70 +78,77 @@ class MvrRenderer final : public LightFieldSource {
         return depth.low < least && depth.high > -least;
     }
 
-    // The rows of directions in which a triangle is seen from row t of hogels.
-    Span rows(const std::array<Vec3, 3>& triangle, double hogel_t) const {
+    // The rows of directions in which a triangle is seen from a row of hogels.
+    Span rows(const std::array<RowAxes::Seen, 3>& triangle) const {
         Interval row, depth;
-        for (const Vec3& p : triangle) {
-            depth.include(-p.z);
-            row.include(grid_.row((hogel_t - p.y) / p.z));
+        for (const RowAxes::Seen& p : triangle) {
+            depth.include(p.forward);
+            row.include(axes_.slow_index(p.slow / p.forward));
         }
-        if (touches_hologram(depth)) return {0, grid_.directions_v};
-        return samples_between(row.low, row.high, grid_.directions_v);
+        if (touches_hologram(depth)) return {0, axes_.slow_directions()};
+        return samples_between(row.low, row.high, axes_.slow_directions());
     }
 
-    void slice_triangle(std::uint32_t index, double hogel_t, std::vector<std::vector<Slice>>& tables) const {
-        const std::array<Vec3, 3> triangle = corners(index);
+    void slice_triangle(std::uint32_t index, double place, std::vector<std::vector<Slice>>& tables) const {
+        const std::array<RowAxes::Seen, 3> triangle = corners(index, place);
         const double margin = scan_margin * grid_.pitch;
-        const Span seen_in = rows(triangle, hogel_t);
+        const Span seen_in = rows(triangle);
         for (std::size_t v = seen_in.first; v < seen_in.end; ++v) {
             // The heights of the corners above the plane y = t + Vζ of the rays.
             std::array<double, 3> height;
             for (std::size_t i = 0; i < 3; ++i)
-                height[i] = triangle[i].y - hogel_t + grid_.v(static_cast<double>(v)) * triangle[i].z;
+                height[i] = triangle[i].slow - axes_.slow_direction(v) * triangle[i].forward;
             Slice slice{index};
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::size_t j = (i + 1) % 3;
-                const Vec3 &a = triangle[i], &b = triangle[j];
-                if (std::abs(height[i]) <= margin) slice.include(a.x, -a.z);
+                const RowAxes::Seen &a = triangle[i], &b = triangle[j];
+                if (std::abs(height[i]) <= margin) slice.include(a.fast, a.forward);
                 if ((height[i] < 0) == (height[j] < 0) || height[i] == 0 || height[j] == 0) continue;
                 const double f = height[i] / (height[i] - height[j]);
-                slice.include(a.x + f * (b.x - a.x), -a.z - f * (b.z - a.z));
+                slice.include(a.fast + f * (b.fast - a.fast), a.forward + f * (b.forward - a.forward));
             }
             if (slice.corners > 0) tables[v].push_back(slice);
         }
     }
 
     // A polygon slice track: for each U the slice covers the s between the places x − Uζ of its corners.
-    void scan_convert(const Slice& slice, std::size_t v, double hogel_t, const HogelRange& range,
+    void scan_convert(const Slice& slice, std::size_t slow, std::size_t row, const HogelRange& range,
                       Array<NearestTriangle, 2>& picture) const {
-        const double first = grid_.s(static_cast<double>(range.s0));
-        const Span columns = columns_of_directions(slice, first, grid_.s(static_cast<double>(range.s0 + range.ns - 1)));
-        for (std::size_t u = columns.first; u < columns.end; ++u) {
-            const double U = grid_.u(static_cast<double>(u));
+        const std::size_t count = axes_.fast_hogels(range);
+        const double first = axes_.fast_hogel(range, 0);
+        const Span columns = columns_of_directions(slice, first, axes_.fast_hogel(range, count - 1));
+        for (std::size_t fast = columns.first; fast < columns.end; ++fast) {
+            const double U = axes_.fast_direction(fast);
             Interval s;
             for (std::size_t i = 0; i < slice.corners; ++i)
-                s.include((slice.x[i] - U * slice.depth[i] - first) / grid_.pitch);
-            const Span hogels = samples_between(s.low, s.high, range.ns);
+                s.include(axes_.fast_sign() * (slice.x[i] - U * slice.depth[i] - first) / grid_.pitch);
+            const Span hogels = samples_between(s.low, s.high, count);
             if (hogels.first == hogels.end) continue;
-            const ObliqueTriangle triangle(*scene_, slice.triangle, U, grid_.v(static_cast<double>(v)));
-            for (std::size_t i = hogels.first; i < hogels.end; ++i)
-                see(picture(u, i), slice.triangle, triangle, grid_.s(static_cast<double>(range.s0 + i)), hogel_t);
+            const auto [t0, s0, v, u] = axes_.sample(row, 0, slow, fast);
+            const ObliqueTriangle triangle(*scene_, slice.triangle, grid_, static_cast<double>(u),
+                                           static_cast<double>(v));
+            for (std::size_t i = hogels.first; i < hogels.end; ++i) {
+                const std::size_t along_s = axes_.turned() ? 0 : i, along_t = axes_.turned() ? i : 0;
+                see(picture(fast, i), slice.triangle, triangle, grid_.s(static_cast<double>(range.s0 + s0 + along_s)),
+                    grid_.t(static_cast<double>(range.t0 + t0 + along_t)));
+            }
         }
     }
 
-    // The columns of directions in which a slice is seen from hogels between two s.
+    // The columns of directions in which a slice is seen from hogels between two places.
     Span columns_of_directions(const Slice& slice, double first, double last) const {
         Interval column, depth;
         for (std::size_t i = 0; i < slice.corners; ++i) {
             depth.include(slice.depth[i]);
-            for (double s : {first, last}) column.include(grid_.column((slice.x[i] - s) / slice.depth[i]));
+            for (double place : {first, last}) column.include(axes_.fast_index((slice.x[i] - place) / slice.depth[i]));
         }
-        if (touches_hologram(depth)) return {0, grid_.directions_u};
-        return samples_between(column.low, column.high, grid_.directions_u);
+        if (touches_hologram(depth)) return {0, axes_.fast_directions()};
+        return samples_between(column.low, column.high, axes_.fast_directions());
     }
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
+    RowAxes axes_;
     std::vector<std::uint32_t> triangles_;
 };
 

@@ -57,8 +57,9 @@ class ObliqueRenderer final : public LightFieldSource {
         for (std::size_t v = 0; v < grid_.directions_v; ++v)
             for (std::size_t u = 0; u < grid_.directions_u; ++u) {
                 std::ranges::fill(picture.elements(), NearestTriangle{});
-                const double U = grid_.u(static_cast<double>(u)), V = grid_.v(static_cast<double>(v));
-                for (std::uint32_t index : triangles_) scan_convert(index, U, V, tile.range, picture);
+                for (std::uint32_t index : triangles_)
+                    scan_convert(ObliqueTriangle(*scene_, index, grid_, static_cast<double>(u), static_cast<double>(v)),
+                                 index, tile.range, picture);
                 for (std::size_t t = 0; t < tile.range.nt; ++t)
                     for (std::size_t s = 0; s < tile.range.ns; ++s)
                         store(tile, *scene_, grid_, picture(t, s), t, s, v, u);
@@ -66,9 +67,8 @@ class ObliqueRenderer final : public LightFieldSource {
     }
 
   private:
-    void scan_convert(std::uint32_t index, double U, double V, const HogelRange& range,
+    void scan_convert(const ObliqueTriangle& triangle, std::uint32_t index, const HogelRange& range,
                       Array<NearestTriangle, 2>& picture) const {
-        const ObliqueTriangle triangle(*scene_, index, U, V);
         const TriangleInHogels in_hogels(triangle, grid_, range);
         const Span rows = in_hogels.rows(range.nt);
         for (std::size_t t = rows.first; t < rows.end; ++t) {

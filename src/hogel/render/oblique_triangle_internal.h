@@ -22,6 +22,7 @@ namespace hogel {
 /// (above it if the edge is level), as if the ray ran a little to the left (and, much less, above) of where it does.
 class ObliqueTriangle {
   public:
+    /// Along the slopes U = dx/dζ and V = dy/dζ.
     ObliqueTriangle(const ShadedScene& scene, std::size_t index, double U, double V) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3& p = scene.positions[scene.triangles[index].vertices[i]];
@@ -30,6 +31,10 @@ class ObliqueTriangle {
             t_[i] = p.y - V * depth_[i];
         }
     }
+
+    /// Along a ray in column u and row v of a light field's directions, on whatever face.
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid, double u, double v)
+        : ObliqueTriangle(scene, index, grid.along(grid.u(u), grid.v(v))) {}
 
     const std::array<double, 3>& s() const { return s_; }
     const std::array<double, 3>& t() const { return t_; }
@@ -64,6 +69,9 @@ class ObliqueTriangle {
     }
 
   private:
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, Vec3 way)
+        : ObliqueTriangle(scene, index, way.x / way.z, way.y / way.z) {}
+
     // Whether a triangle that lies to the left of the edge A → B (to the right for side = −1) has the points on it.
     static bool owns_edge(double ax, double ay, double bx, double by, double side) {
         const double rise = side * (by - ay), run = side * (bx - ax);
@@ -96,8 +104,7 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
                   const NearestTriangle& seen, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     VisiblePoint point;
     if (seen.triangle != NearestTriangle::none) {
-        const ObliqueTriangle triangle(scene, seen.triangle, grid.u(static_cast<double>(u)),
-                                       grid.v(static_cast<double>(v)));
+        const ObliqueTriangle triangle(scene, seen.triangle, grid, static_cast<double>(u), static_cast<double>(v));
         const ObliqueTriangle::Hit hit =
             triangle.at(grid.s(static_cast<double>(tile.range.s0 + s)), grid.t(static_cast<double>(tile.range.t0 + t)));
         point = {seen.triangle, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,8 +18,8 @@ namespace hogel {
 namespace {
 
 constexpr std::array infos{
-    RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)", true, true},
-    RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn", true, true},
+    RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)"},
+    RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
     RendererInfo{"simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false},
     RendererInfo{"simplex3d", "the same in three dimensions, for one row of hogels after the other", false},
     RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
@@ -35,11 +34,6 @@ std::span<const RendererInfo> renderers() { return infos; }
 std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                                 const LightFieldGrid& grid) {
     validate(grid, ErrorCode::usage, "light field to render");
-    const auto chosen = std::ranges::find(infos, name, &RendererInfo::name);
-    if (chosen != infos.end() && !chosen->sides && grid.face != Face::front)
-        throw Error(ErrorCode::usage, fmt::format("renderer '{}' renders the front face alone, not the {}; 'raytrace' "
-                                                  "and 'zbuffer' render every face",
-                                                  name, hogel::name(grid.face)));
     if (name == "raytrace") return make_raytrace_renderer(std::move(scene), grid);
     if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
     if (name == "simplex") return make_simplex_renderer(std::move(scene), grid);

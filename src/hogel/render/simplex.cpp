@@ -12,6 +12,8 @@ class SimplexRenderer final : public LightFieldSource {
     SimplexRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
         : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
         near_ = near_plane(*scene_, "simplex");
+        // Only on a side of a hemicube: in front the triangles are cut.
+        if (grid.face != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -27,8 +29,8 @@ class SimplexRenderer final : public LightFieldSource {
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
                 simplices.clear();
-                append_projected_volume(part, sides.one, grid_, tile.range, simplices);
-                append_projected_volume(part, sides.other, grid_, tile.range, simplices);
+                append_projected_volume(part, sides.one, grid_, tile.range, simplices, nearest_forward_);
+                append_projected_volume(part, sides.other, grid_, tile.range, simplices, nearest_forward_);
                 clip_to_view(simplices, grid_);
                 for (const Simplex<4>& simplex : simplices) scan_convert(index, simplex, tile.range, buffer);
             }
@@ -49,7 +51,7 @@ class SimplexRenderer final : public LightFieldSource {
                 const SliceInHogels slice(at_uv);
                 const Span rows = slice.rows(range.nt);
                 if (rows.first == rows.end) return;
-                const ObliqueTriangle triangle(*scene_, index, grid_.u(u), grid_.v(v));
+                const ObliqueTriangle triangle(*scene_, index, grid_, u, v);
                 const View<NearestTriangle, 2> hogels =
                     buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
                 for (std::size_t t = rows.first; t < rows.end; ++t) {
@@ -66,6 +68,7 @@ class SimplexRenderer final : public LightFieldSource {
     LightFieldGrid grid_;
     std::vector<std::uint32_t> triangles_;
     double near_ = 0;  // ζ
+    double nearest_forward_ = 0;
 };
 
 }  // namespace

@@ -16,6 +16,8 @@ class Simplex3dRenderer final : public LightFieldSource {
     Simplex3dRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
         : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
         near_ = near_plane(*scene_, "simplex3d");
+        // Only on a side of a hemicube: in front the triangles are cut.
+        if (grid.face != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -31,7 +33,7 @@ class Simplex3dRenderer final : public LightFieldSource {
                 for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                     simplices.clear();
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
-                        append_projected_volume(part, line, grid_, tile.range, simplices);
+                        append_projected_volume(part, line, grid_, tile.range, simplices, nearest_forward_);
                     clip_to_view(simplices, grid_);
                     for (const Simplex<3>& simplex : simplices) scan_convert(index, simplex, t, tile.range, buffer);
                 }
@@ -51,7 +53,7 @@ class Simplex3dRenderer final : public LightFieldSource {
                 const double s0 = at_uv[0][axis::s] / at_uv[0][axis::q], s1 = at_uv[1][axis::s] / at_uv[1][axis::q];
                 const Span columns = samples_between(std::min(s0, s1), std::max(s0, s1), range.ns);
                 if (columns.first == columns.end) return;
-                const ObliqueTriangle triangle(*scene_, index, grid_.u(u), grid_.v(v));
+                const ObliqueTriangle triangle(*scene_, index, grid_, u, v);
                 const View<NearestTriangle, 1> hogels =
                     buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
                 for (std::size_t s = columns.first; s < columns.end; ++s)
@@ -64,6 +66,7 @@ class Simplex3dRenderer final : public LightFieldSource {
     LightFieldGrid grid_;
     std::vector<std::uint32_t> triangles_;
     double near_ = 0;  // ζ
+    double nearest_forward_ = 0;
 };
 
 }  // namespace

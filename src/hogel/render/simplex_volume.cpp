@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hogel/core/error.h"
+#include "hogel/render/simplex_slice_internal.h"
 
 namespace hogel {
 namespace {
@@ -58,6 +59,31 @@ class Facing {
     const HogelRange& range_;
 };
 
+// A point as a camera sees it, before the division: to the right and up in its picture, the camera's place, forward.
+ProjectedPoint as_seen(const std::array<double, 3>& point, CameraPoint camera, const LightFieldGrid& grid,
+                       const HogelRange& range) {
+    const double s = grid.s(static_cast<double>(range.s0) + camera.s);
+    const double t = grid.t(static_cast<double>(range.t0) + camera.t);
+    const auto [right, up, forward] = to_face(grid.face, {point[0] - s, point[1] - t, point[2]});
+    return {right, up, camera.s, camera.t, forward};
+}
+
+ProjectedPoint divided(const ProjectedPoint& seen, const LightFieldGrid& grid) {
+    const auto [right, up, s, t, forward] = seen;
+    return {grid.column(right / forward), grid.row(up / forward), s / forward, t / forward, 1 / forward};
+}
+
+// Cuts simplices of seen points where they come too near, and divides them.
+template <std::size_t N>
+void append_divided(std::vector<std::array<ProjectedPoint, N>>& seen, double nearest, const LightFieldGrid& grid,
+                    std::vector<std::array<ProjectedPoint, N>>& simplices) {
+    if (nearest > 0) clip(seen, axis::q, nearest, true);
+    for (const std::array<ProjectedPoint, N>& simplex : seen) {
+        std::array<ProjectedPoint, N>& appended = simplices.emplace_back();
+        for (std::size_t i = 0; i < N; ++i) appended[i] = divided(simplex[i], grid);
+    }
+}
+
 }  // namespace
 
 DeepTriangle deep_triangle(const ShadedScene& scene, std::size_t index) {
@@ -97,16 +123,19 @@ std::vector<DeepTriangle> clip_to_near_plane(const DeepTriangle& triangle, doubl
     return triangles;
 }
 
+double nearest_forward(const LightFieldGrid& grid, double near) {
+    double steepest = 0;
+    for (const double u : {-1.0, 1.0})
+        for (const double v : {-1.0, 1.0})
+            steepest = std::max(steepest,
+                                grid.along(grid.center_u + u * grid.tan_half_u, grid.center_v + v * grid.tan_half_v).z);
+    return near / steepest;
+}
+
 std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint camera, const LightFieldGrid& grid,
                                       const HogelRange& range) {
-    const double s = grid.s(static_cast<double>(range.s0) + camera.s);
-    const double t = grid.t(static_cast<double>(range.t0) + camera.t);
     std::array<ProjectedPoint, 3> points;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto& [x, y, depth] = triangle[i];
-        points[i] = {grid.column((x - s) / depth), grid.row((y - t) / depth), camera.s / depth, camera.t / depth,
-                     1 / depth};
-    }
+    for (std::size_t i = 0; i < 3; ++i) points[i] = divided(as_seen(triangle[i], camera, grid, range), grid);
     return points;
 }
 
@@ -130,26 +159,30 @@ std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std
 }
 
 void append_projected_volume(const DeepTriangle& triangle, const std::vector<CameraPoint>& region,
-                             const LightFieldGrid& grid, const HogelRange& range, std::vector<Simplex<4>>& simplices) {
-    if (region.size() < 3) return;
-    std::vector<std::array<ProjectedPoint, 3>> seen_from;
-    for (const CameraPoint& corner : region) seen_from.push_back(project(triangle, corner, grid, range));
+                             const LightFieldGrid& grid, const HogelRange& range, std::vector<Simplex<4>>& simplices,
+                             double nearest) {
+    std::vector<Simplex<4>> undivided;
     for (std::size_t i = 2; i < region.size(); ++i) {
-        const std::array corners{std::size_t{0}, i - 1, i};
+        const std::array corners{region[0], region[i - 1], region[i]};
         for (const auto& path : product_paths<5>(2)) {
-            Simplex<4>& simplex = simplices.emplace_back();
-            for (std::size_t k = 0; k < 5; ++k) simplex[k] = seen_from[corners[path[k].first]][path[k].second];
+            Simplex<4>& simplex = undivided.emplace_back();
+            for (std::size_t k = 0; k < 5; ++k)
+                simplex[k] = as_seen(triangle[path[k].second], corners[path[k].first], grid, range);
         }
     }
+    append_divided(undivided, nearest, grid, simplices);
 }
 
 void append_projected_volume(const DeepTriangle& triangle, const CameraLine& line, const LightFieldGrid& grid,
-                             const HogelRange& range, std::vector<Simplex<3>>& simplices) {
-    const std::array seen_from{project(triangle, line.first, grid, range), project(triangle, line.last, grid, range)};
+                             const HogelRange& range, std::vector<Simplex<3>>& simplices, double nearest) {
+    const std::array ends{line.first, line.last};
+    std::vector<Simplex<3>> undivided;
     for (const auto& path : product_paths<4>(1)) {
-        Simplex<3>& simplex = simplices.emplace_back();
-        for (std::size_t k = 0; k < 4; ++k) simplex[k] = seen_from[path[k].first][path[k].second];
+        Simplex<3>& simplex = undivided.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k)
+            simplex[k] = as_seen(triangle[path[k].second], ends[path[k].first], grid, range);
     }
+    append_divided(undivided, nearest, grid, simplices);
 }
 
 }  // namespace hogel

@@ -13,7 +13,7 @@ namespace hogel {
 
 /// The coordinates of a projected point: U and V as column and row of the picture, S = s/ζ and T = t/ζ with s and t as
 /// column and row of hogels counted from the tile's first, and Q = 1/ζ. In these samples lie at whole numbers of U, V,
-/// S/Q and T/Q.
+/// S/Q and T/Q. On a side of a hemicube ζ is replaced by the distance forward, which depends on the camera's point too.
 namespace axis {
 enum : std::size_t { u, v, s, t, q };
 }
@@ -36,6 +36,9 @@ double near_plane(const ShadedScene& scene, std::string_view renderer);
 
 /// The part of a triangle at depths of at least `near` > 0, as no, one or two triangles. Source: [K] 5.7.
 std::vector<DeepTriangle> clip_to_near_plane(const DeepTriangle& triangle, double near);
+
+/// The distance forward nearer than which a face sees nothing deeper than `near`.
+double nearest_forward(const LightFieldGrid& grid, double near);
 
 /// A place on the camera plane: column and row of hogels, counted from the tile's first.
 struct CameraPoint {
@@ -65,13 +68,15 @@ std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std
 /// Appends the volume of a triangle seen from a convex region of camera points, all on one side of it. A region of
 /// three corners gives a (2,2)-simploid and 6 simplices, four corners a (2,1,1)-simploid and 12, five corners both and
 /// 18. Source: [K] 5.7.1, fig. 5.17 and 5.22. Differs: a quadrilateral is taken as the two triangles that its twelve
-/// simplices form anyway.
+/// simplices form anyway. On a side of a hemicube a triangle may lie before a hogel and behind its neighbour; simplices
+/// are cut at the distance `nearest` forward before the division.
 void append_projected_volume(const DeepTriangle& triangle, const std::vector<CameraPoint>& region,
-                             const LightFieldGrid& grid, const HogelRange& range, std::vector<Simplex<4>>& simplices);
+                             const LightFieldGrid& grid, const HogelRange& range, std::vector<Simplex<4>>& simplices,
+                             double nearest = 0);
 
 /// Appends the volume in (S, U, V) of a triangle seen from a line of camera points of one t: a (2,1)-simploid, 3
 /// simplices. Source: [K] fig. 5.17c.
 void append_projected_volume(const DeepTriangle& triangle, const CameraLine& line, const LightFieldGrid& grid,
-                             const HogelRange& range, std::vector<Simplex<3>>& simplices);
+                             const HogelRange& range, std::vector<Simplex<3>>& simplices, double nearest = 0);
 
 }  // namespace hogel
