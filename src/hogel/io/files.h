@@ -17,11 +17,11 @@ namespace hogel {
 
 enum class SampleType { half, single };
 
-/// A light field in an HDF5 file: dataset "radiance" [c][t][s][v][u] (half or single floats), optional dataset "depth"
-/// [t][s][v][u] (single, metres), each one contiguous piece of the file; all of the sampling in attributes of
-/// "radiance". docs/files.md names every attribute. Opening reads the header alone; files of that layout are read by
-/// all threads at once, chunked or compressed ones from elsewhere by one at a time. Throws Error(bad_input) for
-/// anything damaged, foreign, truncated or inconsistent.
+/// Opens a light field: a compressed one (open_stream() in codec/stream.h) or one in an HDF5 file: dataset "radiance"
+/// [c][t][s][v][u] (half or single floats), optional dataset "depth" [t][s][v][u] (single, metres), each one contiguous
+/// piece of the file; all of the sampling in attributes of "radiance". docs/files.md names every attribute. Opening
+/// reads the header alone; files of that layout are read by all threads at once, chunked or compressed ones from
+/// elsewhere by one at a time. Throws Error(bad_input) for anything damaged, foreign, truncated or inconsistent.
 std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path);
 
 struct LightFieldFileOptions {

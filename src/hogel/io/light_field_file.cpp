@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "hogel/codec/stream.h"
 #include "hogel/core/error.h"
 #include "hogel/io/dataset_internal.h"
 #include "hogel/io/files.h"
@@ -125,6 +126,7 @@ LightFieldGrid read_light_field_grid(hid_t file, const std::filesystem::path& pa
 }
 
 std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path) {
+    if (is_stream(path)) return open_stream(path);
     return std::make_unique<LightFieldReader>(path);
 }
 
