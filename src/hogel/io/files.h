@@ -52,8 +52,8 @@ std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::p
 
 enum class FileKind { light_field, hologram, picture, mesh, unknown };
 
-/// What a file is, by its contents where it is HDF5 and by its extension otherwise. Throws Error(bad_input) for a file
-/// that is missing or cannot be read.
+/// What a file is, by its contents where it is HDF5 or a compressed light field and by its extension otherwise. Throws
+/// Error(bad_input) for a file that is missing or cannot be read.
 FileKind file_kind(const std::filesystem::path& path);
 
 /// What `hogel info` prints of a light field or hologram file: name and value, in SI units.

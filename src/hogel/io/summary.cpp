@@ -83,8 +83,7 @@ FileKind kind_of(hid_t file, const std::filesystem::path& path) {
 }  // namespace
 
 FileKind file_kind(const std::filesystem::path& path) {
-    if (is_stream(path)) return FileKind::light_field;
-    if (!hdf5::is_hdf5(path)) return kind_by_extension(path);
+    if (!hdf5::is_hdf5(path)) return is_stream(path) ? FileKind::light_field : kind_by_extension(path);
     const hdf5::Session session;
     const hdf5::Handle file = hdf5::open_file(path);
     return kind_of(file.id(), path);
