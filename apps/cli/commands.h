@@ -9,6 +9,8 @@ void add_make(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
 void add_hologram(CLI::App& app, Session& session);
 void add_photo(CLI::App& app, Session& session);
+void add_compress(CLI::App& app, Session& session);
+void add_decompress(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
 void add_info(CLI::App& app, Session& session);
 void add_scenes(CLI::App& app, Session& session);

@@ -19,6 +19,8 @@ struct Defaults {
     double field_of_view = 16_deg;  ///< full angle, 2θ
     double front = 0.3;             ///< how much of a fitted mesh stands in front of the plane
 
+    double sqnr = 40;  ///< decibels of a compressed light field
+
     // hologram
     double pitch = 1.5625_um;  ///< 32 samples a hogel; blue must still be diffracted over the field of view
     double red = 633_nm, green = 532_nm, blue = 460_nm;

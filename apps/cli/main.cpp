@@ -37,6 +37,8 @@ void build(CLI::App& app, Session& session) {
     add_render(app, session);
     add_hologram(app, session);
     add_photo(app, session);
+    add_compress(app, session);
+    add_decompress(app, session);
     add_compare(app, session);
     add_info(app, session);
     add_scenes(app, session);

@@ -3,12 +3,15 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace hogel {
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
     tbb::parallel_for(std::size_t{0}, n, body, tbb::simple_partitioner());
 }
+
+void isolate(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }
 
 struct ThreadLimit::Limit {
     explicit Limit(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}

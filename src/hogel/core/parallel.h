@@ -16,6 +16,10 @@ template <class Result>
 void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
                       const std::function<void(std::size_t, Result&)>& merge);
 
+/// Runs body on this thread, which while it waits for parallel loops inside does nothing but their work. For whoever
+/// holds something that other loops' bodies wait for.
+void isolate(const std::function<void()>& body);
+
 /// Limits the whole process to a number of threads while it lives; 0 means all that the machine has.
 class ThreadLimit {
   public:

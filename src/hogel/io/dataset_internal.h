@@ -6,8 +6,8 @@
 #include <mutex>
 
 #include "hogel/core/output_file.h"
+#include "hogel/core/raw_file.h"
 #include "hogel/io/hdf5_internal.h"
-#include "hogel/io/raw_file_internal.h"
 
 namespace hogel {
 

@@ -17,12 +17,12 @@ namespace hogel {
 
 enum class SampleType { half, single };
 
-/// A light field in an HDF5 file: dataset "radiance" [c][t][s][v][u] (half or single floats), optional dataset "depth"
-/// [t][s][v][u] (single, metres), each one contiguous piece of the file; all of the sampling in attributes of
-/// "radiance". docs/files.md names every attribute. Opening reads the header alone; files of that layout are read by
-/// all threads at once, chunked or compressed ones from elsewhere by one at a time. A file may hold the sides of a
-/// hemicube beside the front; this opens the front. Throws Error(bad_input) for anything damaged, foreign, truncated or
-/// inconsistent.
+/// Opens a light field: a compressed one (open_stream() in codec/stream.h) or one in an HDF5 file: dataset "radiance"
+/// [c][t][s][v][u] (half or single floats), optional dataset "depth" [t][s][v][u] (single, metres), each one contiguous
+/// piece of the file; all of the sampling in attributes of "radiance". docs/files.md names every attribute. Opening
+/// reads the header alone; files of that layout are read by all threads at once, chunked or compressed ones from
+/// elsewhere by one at a time. A file may hold the sides of a hemicube beside the front; this opens the front. Throws
+/// Error(bad_input) for anything damaged, foreign, truncated or inconsistent.
 std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path);
 
 /// All faces that a light field file holds, in the order of all_faces: the front, and whichever sides there are.
@@ -62,8 +62,8 @@ std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::p
 
 enum class FileKind { light_field, hologram, picture, mesh, unknown };
 
-/// What a file is, by its contents where it is HDF5 and by its extension otherwise. Throws Error(bad_input) for a file
-/// that is missing or cannot be read.
+/// What a file is, by its contents where it is HDF5 or a compressed light field and by its extension otherwise. Throws
+/// Error(bad_input) for a file that is missing or cannot be read.
 FileKind file_kind(const std::filesystem::path& path);
 
 /// What `hogel info` prints of a light field or hologram file: name and value, in SI units.

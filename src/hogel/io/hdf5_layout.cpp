@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "hogel/core/error.h"
+#include "hogel/core/raw_file.h"
 #include "hogel/io/hdf5_internal.h"
-#include "hogel/io/raw_file_internal.h"
 
 namespace hogel::hdf5 {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "hogel/codec/stream.h"
 #include "hogel/core/error.h"
 #include "hogel/io/dataset_internal.h"
 #include "hogel/io/files.h"
@@ -153,10 +154,14 @@ std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesy
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path) {
+    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    if (is_stream(path)) {
+        faces.push_back(open_stream(path));
+        return faces;
+    }
     const hdf5::Session session;
     const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
-    std::vector<std::unique_ptr<LightFieldSource>> faces;
     for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
         faces.push_back(std::make_unique<LightFieldReader>(file.id(), grid, path, raw));
     return faces;

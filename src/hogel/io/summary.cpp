@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "hogel/codec/stream.h"
 #include "hogel/io/dataset_internal.h"
 #include "hogel/io/files.h"
 #include "hogel/io/grids_internal.h"
@@ -65,6 +66,19 @@ void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary) {
     add("center_y_m", plane.center_y);
 }
 
+void describe(const StreamInfo& info, FileSummary& summary) {
+    const LightFieldGrid& grid = info.grid;
+    const double pixels = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
+    describe(grid, summary);
+    summary.text.insert(summary.text.end(), {{"format", "hogel compressed light field"}, {"coder", info.method.coder}});
+    if (!info.method.transform.empty()) summary.text.emplace_back("transform", info.method.transform);
+    summary.numbers.insert(summary.numbers.end(), {{"format_version", static_cast<double>(info.version)},
+                                                   {"tile_s", static_cast<double>(info.tile.ns)},
+                                                   {"tile_t", static_cast<double>(info.tile.nt)},
+                                                   {"pixels_per_bit", pixels / (8 * summary.numbers.front().second)}});
+    summary.text.insert(summary.text.end(), info.metadata.begin(), info.metadata.end());
+}
+
 FileKind kind_of(hid_t file, const std::filesystem::path& path) {
     if (!hdf5::has_attribute(file, "format", path)) return FileKind::unknown;
     const std::string format = hdf5::read_text(file, "format", path);
@@ -75,7 +89,7 @@ FileKind kind_of(hid_t file, const std::filesystem::path& path) {
 }  // namespace
 
 FileKind file_kind(const std::filesystem::path& path) {
-    if (!hdf5::is_hdf5(path)) return kind_by_extension(path);
+    if (!hdf5::is_hdf5(path)) return is_stream(path) ? FileKind::light_field : kind_by_extension(path);
     const hdf5::Session session;
     const hdf5::Handle file = hdf5::open_file(path);
     return kind_of(file.id(), path);
@@ -86,6 +100,10 @@ FileSummary summarize(const std::filesystem::path& path) {
     summary.kind = file_kind(path);
     summary.numbers.emplace_back("bytes", static_cast<double>(std::filesystem::file_size(path)));
     if (summary.kind != FileKind::light_field && summary.kind != FileKind::hologram) return summary;
+    if (is_stream(path)) {
+        describe(read_stream_info(path), summary);
+        return summary;
+    }
     const hdf5::Session session;
     const hdf5::Handle file = hdf5::open_file(path);
     summary.text.emplace_back("format", hdf5::read_text(file.id(), "format", path));

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "hogel/core/error.h"
-#include "hogel/io/raw_file_internal.h"
+#include "hogel/core/raw_file.h"
 
 namespace hogel {
 namespace {

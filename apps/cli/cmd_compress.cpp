@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "commands.h"
+#include "hogel/codec/compress.h"
+#include "hogel/transform/transform.h"
+#include "inputs.h"
+#include "outputs.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string input, output;
+    CompressionOptions compression;
+    Counts tile;
+};
+
+std::unique_ptr<LightFieldSource> open_input(const std::string& name) {
+    if (input_kind(name) != InputKind::light_field)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", name));
+    return open_light_field(name);
+}
+
+int compress_file(Options options, const Session& session) {
+    const auto source = open_input(options.input);
+    require_writable(options.output);
+    CompressionOptions& compression = options.compression;
+    CompressionTarget& target = compression.target;
+    if (!target.sqnr && !target.pixels_per_bit && !target.step) target.sqnr = defaults.sqnr;
+    if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
+    compression.metadata = describe_run(session);
+    if (source->has_depth()) session.say("hogel: the depth is left out");
+    Stage stage(session, "compressing");
+    const CompressionResult result = compress(*source, options.output, compression, stage.progress());
+    session.say(fmt::format("{}: {}, {:.2f} dB, {:.4g} pixels per bit, coded {} {}", options.output,
+                            format_bytes(static_cast<double>(result.bytes)), result.sqnr, result.pixels_per_bit,
+                            result.passes, result.passes == 1 ? "time" : "times"));
+    return 0;
+}
+
+}  // namespace
+
+void add_compress(CLI::App& app, Session& session) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = add_command(app, session, "compress", "Compress a light field",
+                                    "  hogel compress pumpkin.h5 -o pumpkin.hgl\n"
+                                    "  hogel compress pumpkin.h5 -o small.hgl --ppb 20\n"
+                                    "  hogel compress pumpkin.h5 -o k.hgl --coder ezw --transform ai33 --sqnr 30",
+                                    [options, &session] { return compress_file(*options, session); });
+    CodingMethod& method = options->compression.method;
+    CompressionTarget& target = options->compression.target;
+    command->add_option("input", options->input, "Light field")->type_name("X.h5|X.hgl")->required();
+    command->add_option("-o,--output", options->output, "Compressed light field to write")
+        ->type_name("FILE.hgl")
+        ->required();
+    CLI::Option* sqnr =
+        command
+            ->add_option("--sqnr", target.sqnr,
+                         fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr))
+            ->type_name("DB");
+    CLI::Option* ppb = command->add_option("--ppb", target.pixels_per_bit, "Size: rays, with all their colours, a bit")
+                           ->type_name("N")
+                           ->excludes(sqnr);
+    command->add_option("--step", target.step, "The quantiser's step, in units of radiance")
+        ->type_name("N")
+        ->excludes(sqnr)
+        ->excludes(ppb);
+    command->add_option("--coder", method.coder, fmt::format("{}", fmt::join(coder_names(), ", ")))
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--transform", method.transform, fmt::format("{}", fmt::join(transform_names(), ", ")))
+        ->type_name("NAME")
+        ->capture_default_str();
+    add_counts(command, "--tile", options->tile, "Hogels across and down that are coded together; 0: as suits")
+        ->default_str("");
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,170 @@
+#include "hogel/codec/classic_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/codec/bytes_internal.h"
+#include "hogel/codec/colour_internal.h"
+#include "hogel/coding/ezw.h"
+#include "hogel/coding/jpeg4d.h"
+#include "hogel/coding/quantise.h"
+#include "hogel/coding/threepass.h"
+#include "hogel/core/parallel.h"
+#include "hogel/transform/transform.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t samples_of_tile = std::size_t{1} << 24;
+
+class ClassicCoder : public TileCoder {
+  public:
+    explicit ClassicCoder(std::string_view name) : transform_(transform(name)) {}
+
+    HogelRange preferred_tile(const LightFieldGrid& grid) const override {
+        HogelRange tile{0, 0, 1, 1};
+        const std::size_t hogel = grid.directions() * grid.channels;
+        while (2 * tile.hogels() * hogel <= samples_of_tile && (tile.ns < grid.hogels_s || tile.nt < grid.hogels_t)) {
+            const bool widen = tile.ns < grid.hogels_s && (tile.ns <= tile.nt || tile.nt >= grid.hogels_t);
+            (widen ? tile.ns : tile.nt) *= 2;
+        }
+        return tile;
+    }
+
+    Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes) const override {
+        LightFieldTile work = tile;
+        separate_colours(work.radiance);
+        const Pyramid pyramid = pyramid_of(tile);
+        const std::size_t channels = tile.radiance.extent(0);
+        std::vector<double> energies(channels);
+        std::vector<std::vector<std::uint8_t>> codes(channels);
+        for (std::size_t c = 0; c < channels; ++c) transform_.forward(pyramid, work.radiance[c].elements());
+        for (std::size_t c = 0; c < channels; ++c) energies[c] = energy(work.radiance[c].elements());
+        parallel_for(channels,
+                     [&](std::size_t c) { codes[c] = encode_channel(pyramid, work.radiance[c].elements(), step); });
+        shorten(codes, most_bytes);
+        ByteWriter writer;
+        for (const auto& code : codes) {
+            writer.put(static_cast<std::uint32_t>(code.size()));
+            writer.put(std::span(code));
+        }
+        decode(writer.bytes, work);
+        Encoded encoded{std::move(writer.bytes), 0};
+        for (std::size_t i = 0; i < work.radiance.size(); ++i) {
+            const double error = static_cast<double>(tile.radiance.data()[i]) - work.radiance.data()[i];
+            encoded.squared_error += error * error;
+        }
+        return encoded;
+    }
+
+    void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
+        ByteReader reader(bytes, "tile");
+        const Pyramid pyramid = pyramid_of(tile);
+        std::vector<std::span<const std::uint8_t>> codes;
+        for (std::size_t c = 0; c < tile.radiance.extent(0); ++c)
+            codes.push_back(reader.take(reader.take<std::uint32_t>()));
+        if (reader.left() > 0) reader.damaged("bytes are left over");
+        parallel_for(codes.size(), [&](std::size_t c) {
+            decode_channel(pyramid, codes[c], tile.radiance[c].elements());
+            transform_.inverse(pyramid, tile.radiance[c].elements());
+        });
+        join_colours(tile.radiance);
+    }
+
+  protected:
+    virtual std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                                     double step) const = 0;
+    virtual void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                                std::span<float> values) const = 0;
+
+  private:
+    static Pyramid pyramid_of(const LightFieldTile& tile) {
+        const Shape<5>& shape = tile.radiance.shape();
+        return Pyramid::interleaved({shape.begin() + 1, shape.end()});
+    }
+    // Cuts embedded codes so that with their lengths they take `most` bytes, each by the same part.
+    static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t most) {
+        std::size_t all = 0;
+        for (const auto& code : codes) all += code.size();
+        const std::size_t lengths = 4 * codes.size();
+        if (most == no_limit || all + lengths <= most) return;
+        std::size_t room = most > lengths ? most - lengths : 0;
+        for (auto& code : codes) {
+            const std::size_t size = code.size(), kept = all > 0 ? room * size / all : 0;
+            code.resize(kept);
+            all -= size;
+            room -= kept;
+        }
+    }
+
+    Transform transform_;
+};
+
+// Steps below what a coder can tell apart do not make anything finer.
+double usable_step(std::span<const float> values, double step) {
+    return std::max(step, static_cast<double>(largest_magnitude(values)) * 0x1p-29);
+}
+
+class ThreePassCoder final : public ClassicCoder {
+    using ClassicCoder::ClassicCoder;
+    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                             double step) const override {
+        return three_pass_encode(pyramid, values, usable_step(values, step));
+    }
+    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                        std::span<float> values) const override {
+        three_pass_decode(pyramid, code, values);
+    }
+};
+
+class EzwCoder final : public ClassicCoder {
+  public:
+    using ClassicCoder::ClassicCoder;
+    bool embedded() const override { return true; }
+
+  private:
+    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                             double step) const override {
+        const double signal = energy(values), error = static_cast<double>(values.size()) * step * step / 12;
+        if (signal <= error) return {};
+        EzwLimit limit;
+        limit.sqnr = 10 * std::log10(signal / error);
+        return ezw_encode(pyramid, values, limit);
+    }
+    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                        std::span<float> values) const override {
+        ezw_decode(pyramid, code, values);
+    }
+};
+
+class Jpeg4dCoder final : public ClassicCoder {
+    using ClassicCoder::ClassicCoder;
+    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                             double step) const override {
+        // The table's entry for constant blocks is 16 in two dimensions, 256 in four.
+        return jpeg4d_encode(pyramid, values, usable_step(values, step / 256));
+    }
+    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                        std::span<float> values) const override {
+        jpeg4d_decode(pyramid, code, values);
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method) {
+    const bool blocks = !transform(method.transform).is_wavelet();
+    if (blocks != (method.coder == "jpeg4d"))
+        throw Error(ErrorCode::usage,
+                    fmt::format("coder {} does not go with transform {}; expected {}", method.coder, method.transform,
+                                blocks                     ? "jpeg4d with dct8"
+                                : method.coder == "jpeg4d" ? "dct8"
+                                                           : "a wavelet"));
+    if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform);
+    if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform);
+    return std::make_unique<ThreePassCoder>(method.transform);
+}
+
+}  // namespace hogel

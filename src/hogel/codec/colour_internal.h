@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+
+#include "hogel/core/array.h"
+
+namespace hogel {
+
+// R, G, B to one luminance-like and two chrominance-like channels and back, in place: the orthonormal DCT of three
+// points, so that an error has the same energy in either. One channel stays as it is.
+void separate_colours(View<float, 5> radiance);
+void join_colours(View<float, 5> radiance);
+
+}  // namespace hogel

@@ -1,0 +1,266 @@
+#include "hogel/codec/compress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "hogel/codec/search_internal.h"
+#include "hogel/codec/stream_internal.h"
+#include "hogel/core/error.h"
+#include "hogel/core/parallel.h"
+
+namespace hogel {
+namespace {
+
+constexpr double sqnr_tolerance = 0.1, rate_tolerance = 0.02;
+constexpr std::size_t sampled = 8;  // tiles coded to guess the step
+constexpr int most_passes = 12;
+
+double decibels(double signal, double error) {
+    return error > 0 ? 10 * std::log10(signal / error) : std::numeric_limits<double>::infinity();
+}
+
+// What coding tiles with a step gave.
+struct Outcome {
+    double signal = 0, error = 0, bytes = 0, samples = 0;
+
+    double sqnr() const { return decibels(signal, error); }
+    void add(const Outcome& other) {
+        signal += other.signal;
+        error += other.error;
+        bytes += other.bytes;
+        samples += other.samples;
+    }
+};
+
+class Compression {
+  public:
+    Compression(const LightFieldSource& source, const TileCoder& coder, const StreamInfo& info, StreamWriter& writer,
+                const Progress& progress)
+        : source_(source), coder_(coder), tiling_(info.grid, info.tile), writer_(writer), progress_(progress) {}
+
+    const Tiling& tiling() const { return tiling_; }
+
+    // Codes these tiles, and writes them where that is wanted.
+    Outcome code(std::span<const std::size_t> tiles, double step, bool write,
+                 std::span<const std::size_t> most_bytes = {}) {
+        if (write) {
+            writer_.restart();
+            sizes_.clear();
+        }
+        Outcome sum;
+        parallel_ordered<Coded>(
+            tiles.size(), default_in_flight(),
+            [&](std::size_t i) {
+                return code_tile(tiling_[tiles[i]], step, most_bytes.empty() ? TileCoder::no_limit : most_bytes[i]);
+            },
+            [&](std::size_t i, Coded& coded) {
+                sum.add(coded.outcome);
+                if (write) {
+                    writer_.append(coded.bytes);
+                    sizes_.push_back(coded.bytes.size());
+                }
+                report(progress_, static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
+            });
+        return sum;
+    }
+    // The sums over the signal alone.
+    Outcome look(std::span<const std::size_t> tiles) {
+        Outcome sum;
+        parallel_ordered<Outcome>(
+            tiles.size(), default_in_flight(), [&](std::size_t i) { return read(tiling_[tiles[i]]).second; },
+            [&](std::size_t, Outcome& outcome) { sum.add(outcome); });
+        return sum;
+    }
+    // Of the tiles last written.
+    const std::vector<std::size_t>& sizes() const { return sizes_; }
+
+  private:
+    struct Coded {
+        std::vector<std::uint8_t> bytes;
+        Outcome outcome;
+    };
+
+    std::pair<LightFieldTile, Outcome> read(const HogelRange& range) const {
+        LightFieldTile tile(source_.grid(), range, false);
+        source_.read(tile);
+        Outcome outcome;
+        for (const float value : tile.radiance.elements()) outcome.signal += static_cast<double>(value) * value;
+        if (!std::isfinite(outcome.signal))
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("radiance is not finite everywhere in hogels {} to {} of rows {} to {}", range.s0,
+                                    range.s0 + range.ns - 1, range.t0, range.t0 + range.nt - 1));
+        outcome.samples = static_cast<double>(tile.radiance.size());
+        return {std::move(tile), outcome};
+    }
+
+    Coded code_tile(const HogelRange& range, double step, std::size_t most_bytes) const {
+        auto [tile, outcome] = read(range);
+        TileCoder::Encoded encoded = coder_.encode(tile, step, most_bytes);
+        outcome.error = encoded.squared_error;
+        outcome.bytes = static_cast<double>(encoded.bytes.size());
+        return {std::move(encoded.bytes), outcome};
+    }
+
+    const LightFieldSource& source_;
+    const TileCoder& coder_;
+    Tiling tiling_;
+    StreamWriter& writer_;
+    const Progress& progress_;
+    std::vector<std::size_t> sizes_;
+};
+
+std::vector<std::size_t> all_tiles(const Tiling& tiling) {
+    std::vector<std::size_t> tiles(tiling.count());
+    std::iota(tiles.begin(), tiles.end(), 0);
+    return tiles;
+}
+
+// Some tiles, spread over the light field.
+std::vector<std::size_t> some_tiles(const Tiling& tiling) {
+    std::vector<std::size_t> tiles;
+    for (std::size_t i = 0; i < sampled; ++i) tiles.push_back((2 * i + 1) * tiling.count() / (2 * sampled));
+    return tiles;
+}
+
+// Sizes that are `room` bytes together, each the same part of what it was.
+std::vector<std::size_t> cut(const std::vector<std::size_t>& sizes, double room) {
+    std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+    auto bytes = static_cast<std::size_t>(std::max(room, 0.0));
+    std::vector<std::size_t> result;
+    for (const std::size_t size : sizes) {
+        result.push_back(left > 0 ? static_cast<std::size_t>(static_cast<double>(bytes) * static_cast<double>(size) /
+                                                             static_cast<double>(left))
+                                  : 0);
+        left -= size;
+        bytes -= result.back();
+    }
+    return result;
+}
+
+void check(const CompressionTarget& target) {
+    if (target.sqnr.has_value() + target.pixels_per_bit.has_value() + target.step.has_value() != 1)
+        throw Error(ErrorCode::usage, "compression: expected exactly one of an SQNR, a rate and a step");
+    if (target.sqnr && !(*target.sqnr > 0 && *target.sqnr <= 120))
+        throw Error(ErrorCode::usage, fmt::format("an SQNR of {} dB was asked for, expected 0 to 120", *target.sqnr));
+    if (target.pixels_per_bit && !(*target.pixels_per_bit > 0 && std::isfinite(*target.pixels_per_bit)))
+        throw Error(ErrorCode::usage, fmt::format("{} pixels per bit were asked for, expected a positive number",
+                                                  *target.pixels_per_bit));
+    if (target.step && !(*target.step > 0 && std::isfinite(*target.step)))
+        throw Error(ErrorCode::usage, fmt::format("a step of {} was asked for, expected a positive one", *target.step));
+}
+
+// What the figure that is searched for must lie between: an SQNR, or the logarithm of the number of bytes. Both fall
+// with the logarithm of the step.
+struct Band {
+    double low, high;
+    bool above_is_better;  // of the two nearest misses, the one above the band is the better; else the one below
+    double slope;
+};
+
+Band band_of(const CompressionTarget& target, double pixels, bool embedded) {
+    if (target.sqnr) return {*target.sqnr, *target.sqnr + sqnr_tolerance, true, -5.5};
+    const double bytes = std::log2(pixels / *target.pixels_per_bit / 8);
+    // An embedded stream is made a little too long, and then cut.
+    if (embedded) return {bytes, bytes + std::log2(1 + rate_tolerance), true, -0.9};
+    return {bytes + std::log2(1 - rate_tolerance), bytes, false, -0.9};
+}
+
+// Searches with some tiles or all. Returns the logarithm of the step, and leaves the last outcome.
+class StepSearch {
+  public:
+    StepSearch(Compression& compression, const Band& band, std::function<double(const Outcome&)> figure)
+        : compression_(compression), band_(band), figure_(std::move(figure)) {}
+
+    double run(std::span<const std::size_t> tiles, bool write, double start) {
+        Search search(band_.low, band_.high, start, slope_);
+        for (int pass = 0; pass < most_passes; ++pass) {
+            const double place = search.next();
+            outcome_ = compression_.code(tiles, std::exp2(place), write);
+            ++passes_;
+            const bool found = search.tell(figure_(outcome_));
+            slope_ = search.slope();
+            if (found) return place;
+            const bool narrow =
+                search.above() && search.below() && *search.below() - *search.above() < least_difference;
+            if (narrow) break;
+        }
+        const std::optional<double> best = band_.above_is_better ? search.above() : search.below();
+        const double place = best.value_or(search.next());
+        if (write) {
+            outcome_ = compression_.code(tiles, std::exp2(place), write);
+            ++passes_;
+        }
+        return place;
+    }
+    const Outcome& outcome() const { return outcome_; }
+    int passes() const { return passes_; }
+
+  private:
+    static constexpr double least_difference = 1e-5;
+    Compression& compression_;
+    Band band_;
+    std::function<double(const Outcome&)> figure_;
+    double slope_ = band_.slope;
+    Outcome outcome_;
+    int passes_ = 0;
+};
+
+}  // namespace
+
+CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
+                           const CompressionOptions& options, const Progress& progress) {
+    check(options.target);
+    const LightFieldGrid& grid = source.grid();
+    const std::unique_ptr<TileCoder> coder = make_tile_coder(options.method);
+    StreamInfo info{grid, options.tile.value_or(coder->preferred_tile(grid)), options.method, options.metadata};
+    info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
+    info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
+    StreamWriter writer(path, info);
+    Compression compression(source, *coder, info, writer, progress);
+    const CompressionTarget& target = options.target;
+    const std::vector<std::size_t> all = all_tiles(compression.tiling());
+    const double pixels = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
+
+    CompressionResult result;
+    Outcome outcome;
+    if (target.step) {
+        result.step = *target.step;
+        outcome = compression.code(all, result.step, true);
+        result.passes = 1;
+    } else {
+        const std::vector<std::size_t> some = all.size() >= 3 * sampled ? some_tiles(compression.tiling()) : all;
+        const Outcome seen = compression.look(some);
+        // Detail of the step's size everywhere has an error of step²/12.
+        const double rms = std::sqrt(seen.signal / seen.samples);
+        double place =
+            std::log2(rms > 0 ? rms * (target.sqnr ? std::sqrt(12) * std::pow(10, -*target.sqnr / 20) : 0.1) : 1);
+        StepSearch search(compression, band_of(target, pixels, coder->embedded()), [&](const Outcome& o) {
+            if (target.sqnr) return o.sqnr();
+            const double overhead = static_cast<double>(writer.overhead(all.size()));
+            return std::log2(o.bytes * (grid.samples() / o.samples) + overhead);
+        });
+        if (some.size() < all.size()) place = search.run(some, false, place);
+        place = search.run(all, true, place);
+        outcome = search.outcome();
+        result.step = std::exp2(place);
+        result.passes = search.passes();
+        const double most = std::floor(pixels / target.pixels_per_bit.value_or(pixels) / 8);
+        if (target.pixels_per_bit && coder->embedded() && static_cast<double>(writer.size()) > most) {
+            const double room = most - static_cast<double>(writer.overhead(all.size()));
+            outcome = compression.code(all, result.step, true, cut(compression.sizes(), room));
+            ++result.passes;
+        }
+    }
+    result.bytes = writer.size();
+    writer.finish();
+    result.sqnr = outcome.sqnr();
+    result.pixels_per_bit = pixels / (8 * static_cast<double>(result.bytes));
+    return result;
+}
+
+}  // namespace hogel

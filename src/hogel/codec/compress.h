@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "hogel/codec/stream.h"
+#include "hogel/core/progress.h"
+
+namespace hogel {
+
+/// What to give up for a small file: exactly one of the three.
+struct CompressionTarget {
+    std::optional<double> sqnr;            ///< 10 log10(Σ f² / Σ (f − f')²) in decibels, over all samples
+    std::optional<double> pixels_per_bit;  ///< rays (with all their channels) a bit of the whole file
+    std::optional<double> step;            ///< the quantiser's, in units of radiance, as it is
+};
+
+struct CompressionOptions {
+    CodingMethod method;
+    CompressionTarget target;
+    std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
+    Metadata metadata;
+};
+
+struct CompressionResult {
+    std::uint64_t bytes = 0;
+    double sqnr = 0, pixels_per_bit = 0;
+    double step = 0;  ///< the one that was found
+    int passes = 0;   ///< how often the light field was read and coded, whole
+};
+
+/// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads; memory: some tiles a thread.
+/// The step that meets the target is found by coding, first some of the tiles and then all, until
+///   an SQNR is met or exceeded by at most 0.1 dB,
+///   or the rate is met to within 2% (a file is never larger than asked for; exact where the coder is embedded).
+/// Where that cannot be (a light field of few samples), the file is the smallest that has the SQNR, or the best that
+/// has the rate. Depth is not stored. The file appears when it is complete.
+/// Throws Error(usage) for a target or method that makes no sense, Error(bad_input) for radiance that is not finite,
+/// Error(cannot_write).
+CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
+                           const CompressionOptions& options, const Progress& progress = {});
+
+}  // namespace hogel

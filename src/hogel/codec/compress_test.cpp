@@ -1,0 +1,160 @@
+#include "hogel/codec/compress.h"
+
+#include <gtest/gtest.h>
+
+#include "hogel/codec/search_internal.h"
+#include "hogel/codec/test_fields_internal.h"
+#include "hogel/core/error.h"
+#include "hogel/core/parallel.h"
+#include "hogel/transform/transform.h"
+
+namespace hogel {
+namespace {
+
+LightField decoded(const std::filesystem::path& path) {
+    const auto source = open_stream(path);
+    LightField field(source->grid());
+    copy(*source, field);
+    return field;
+}
+
+std::vector<CodingMethod> all_methods() {
+    std::vector<CodingMethod> methods;
+    for (const std::string_view name : transform_names())
+        if (name == "dct8")
+            methods.push_back({"jpeg4d", "dct8"});
+        else
+            methods.push_back({name.size() % 2 == 0 ? "ezw" : "threepass", std::string(name)});
+    return methods;
+}
+
+CompressionOptions with_sqnr(const CodingMethod& method, double sqnr) {
+    CompressionOptions options;
+    options.method = method;
+    options.target.sqnr = sqnr;
+    return options;
+}
+
+ErrorCode code_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        return error.code();
+    }
+    return ErrorCode{0};
+}
+
+// The signal-to-noise ratio that was asked for is what whoever decodes the file measures, with every transform: in the
+// signal, not in the coefficients.
+TEST(Compress, gives_the_sqnr_that_was_asked_for) {
+    const TestFolder folder;
+    const LightField field = textured_planes(8, 6, 24, 20, 1);
+    for (const CodingMethod& method : all_methods()) {
+        const CompressionResult result = compress(field, folder / "a.hgl", with_sqnr(method, 25));
+        const double measured = sqnr_of(field, decoded(folder / "a.hgl"));
+        EXPECT_NEAR(measured, result.sqnr, 1e-6) << method.transform;
+        EXPECT_GE(measured, 25) << method.transform;
+        EXPECT_LE(measured, 25.1) << method.transform;
+        EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "a.hgl"));
+    }
+}
+
+TEST(Compress, gives_the_rate_that_was_asked_for) {
+    const TestFolder folder;
+    const LightField field = textured_planes(8, 6, 24, 20, 3);
+    const double pixels = 8 * 6 * 24 * 20;
+    for (const CodingMethod& method : {CodingMethod{"threepass", "ai33"}, {"ezw", "cdf97"}, {"jpeg4d", "dct8"}}) {
+        CompressionOptions options;
+        options.method = method;
+        options.target.pixels_per_bit = 2.5;
+        compress(field, folder / "a.hgl", options);
+        const double bytes = static_cast<double>(std::filesystem::file_size(folder / "a.hgl"));
+        EXPECT_LE(bytes, pixels / 2.5 / 8) << method.coder;
+        EXPECT_GE(bytes, (method.coder == "ezw" ? 1 : 0.95) * pixels / 2.5 / 8 - 1) << method.coder;
+    }
+}
+
+TEST(Compress, sizes_of_all_kinds_come_back) {
+    const TestFolder folder;
+    struct Case {
+        std::size_t s, t, u, v, channels;
+    };
+    for (const Case& c : {Case{1, 1, 1, 1, 1}, {1, 1, 7, 5, 3}, {13, 1, 11, 1, 1}, {3, 5, 2, 17, 3}, {1, 9, 31, 3, 1}})
+        for (const CodingMethod& method : {CodingMethod{"threepass", "cdf97"}, {"ezw", "haar"}, {"jpeg4d", "dct8"}}) {
+            const LightField field = textured_planes(c.s, c.t, c.u, c.v, c.channels);
+            CompressionOptions options = with_sqnr(method, 40);
+            options.tile = HogelRange{0, 0, 4, 3};
+            compress(field, folder / "a.hgl", options);
+            const LightField other = decoded(folder / "a.hgl");
+            EXPECT_EQ(other.grid(), field.grid());
+            EXPECT_GE(sqnr_of(field, other), 40) << method.coder << " " << c.s << "x" << c.t << "x" << c.u;
+        }
+}
+
+TEST(Compress, nothing_to_see_takes_nearly_no_bytes) {
+    const TestFolder folder;
+    const LightField dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
+    for (const CodingMethod& method : all_methods()) {
+        const CompressionResult result = compress(dark, folder / "a.hgl", with_sqnr(method, 40));
+        EXPECT_LT(result.bytes, 250u);
+        EXPECT_EQ(result.sqnr, std::numeric_limits<double>::infinity());
+        const LightField other = decoded(folder / "a.hgl");
+        for (const float value : other.radiance.elements()) ASSERT_EQ(value, 0);
+    }
+}
+
+TEST(Compress, bytes_do_not_depend_on_threads) {
+    const TestFolder folder;
+    const LightField field = textured_planes(9, 7, 16, 16, 3);
+    CompressionOptions options = with_sqnr({"threepass", "cdf97"}, 30);
+    options.tile = HogelRange{0, 0, 4, 4};
+    std::vector<std::vector<std::uint8_t>> files;
+    for (const std::size_t threads : {1, 2, 7}) {
+        const ThreadLimit limit(threads);
+        compress(field, folder / "a.hgl", options);
+        files.push_back(bytes_of_file(folder / "a.hgl"));
+    }
+    EXPECT_EQ(files[0], files[1]);
+    EXPECT_EQ(files[0], files[2]);
+}
+
+TEST(Compress, asks_that_make_no_sense_are_refused) {
+    const TestFolder folder;
+    LightField field = textured_planes(2, 2, 4, 4, 1);
+    const auto refused = [&](const CompressionOptions& options) {
+        return code_of([&] { compress(field, folder / "a.hgl", options); });
+    };
+    EXPECT_EQ(refused({}), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"threepass", "cdf97"}, -1)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"threepass", "cdf98"}, 30)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"zip", "cdf97"}, 30)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"threepass", "dct8"}, 30)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"jpeg4d", "haar"}, 30)), ErrorCode::usage);
+    CompressionOptions both = with_sqnr({"threepass", "cdf97"}, 30);
+    both.target.pixels_per_bit = 8;
+    EXPECT_EQ(refused(both), ErrorCode::usage);
+    field.radiance(0, 1, 1, 2, 3) = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(refused(with_sqnr({"threepass", "cdf97"}, 30)), ErrorCode::bad_input);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
+}
+
+TEST(Search, finds_the_band_of_a_falling_function) {
+    for (const double start : {-12.0, 0.0, 3.0, 11.0}) {
+        Search search(29.5, 30, start, -5.5);
+        int asked = 0;
+        // Steeper here and flatter there, with a little disorder.
+        const auto value = [](double x) { return 40 - 3 * x - 0.2 * x * std::abs(x) + 0.05 * std::sin(40 * x); };
+        while (!search.tell(value(search.next()))) ASSERT_LT(++asked, 12) << start;
+        EXPECT_GE(value(search.next()), 29.5);
+        EXPECT_LE(value(search.next()), 30);
+    }
+    // A function that jumps over the band leaves the places on either side.
+    Search search(29.5, 30, 0, -5.5);
+    for (int i = 0; i < 40; ++i) search.tell(search.next() < 1.25 ? 40 : 20);
+    EXPECT_NEAR(search.above().value(), 1.25, 1e-3);
+    EXPECT_NEAR(search.below().value(), 1.25, 1e-3);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "hogel/codec/bytes_internal.h"
+#include "hogel/codec/stream_internal.h"
+
+namespace hogel {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// As in PNG: not text, and damaged by what damages line ends.
+constexpr std::array<std::uint8_t, 8> magic{0x89, 'H', 'G', 'L', '\r', '\n', 0x1A, '\n'};
+constexpr std::size_t prefix = magic.size() + 8;  // then version and length of the header
+constexpr std::size_t entry_bytes = 12, footer_bytes = 12;
+constexpr std::uint32_t most_header = 1 << 24;
+
+Bytes header_of(const StreamInfo& info) {
+    ByteWriter fields;
+    const LightFieldGrid& grid = info.grid;
+    for (const std::size_t count : {grid.channels, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v})
+        fields.put(std::uint64_t{count});
+    for (const double number : {grid.pitch, grid.tan_half_u, grid.tan_half_v}) fields.put(number);
+    fields.put(std::uint64_t{info.tile.ns});
+    fields.put(std::uint64_t{info.tile.nt});
+    fields.put(std::string_view(info.method.coder));
+    fields.put(std::string_view(info.method.transform));
+    fields.put(static_cast<std::uint32_t>(info.metadata.size()));
+    for (const auto& [name, value] : info.metadata) {
+        fields.put(std::string_view(name));
+        fields.put(std::string_view(value));
+    }
+    ByteWriter header;
+    header.put(std::span(magic));
+    header.put(StreamInfo::version);
+    header.put(static_cast<std::uint32_t>(fields.bytes.size()));
+    header.put(std::span(fields.bytes));
+    header.put(checksum(header.bytes));
+    return std::move(header.bytes);
+}
+
+StreamInfo read_fields(ByteReader& reader) {
+    StreamInfo info;
+    LightFieldGrid& grid = info.grid;
+    for (std::size_t* count : {&grid.channels, &grid.hogels_s, &grid.hogels_t, &grid.directions_u, &grid.directions_v})
+        *count = reader.take<std::uint64_t>();
+    for (double* number : {&grid.pitch, &grid.tan_half_u, &grid.tan_half_v}) *number = reader.take_double();
+    info.tile.ns = reader.take<std::uint64_t>();
+    info.tile.nt = reader.take<std::uint64_t>();
+    info.method.coder = reader.take_text();
+    info.method.transform = reader.take_text();
+    const auto words = reader.take<std::uint32_t>();
+    for (std::uint32_t i = 0; i < words; ++i) {
+        std::string name = reader.take_text();
+        info.metadata.emplace_back(std::move(name), reader.take_text());
+    }
+    return info;
+}
+
+bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
+    if (tile.ns == 0 || tile.nt == 0 || tile.ns > grid.hogels_s || tile.nt > grid.hogels_t) return false;
+    std::size_t room = most_tile_samples;
+    for (const std::size_t extent : {grid.channels, tile.ns, tile.nt, grid.directions_u, grid.directions_v})
+        room /= extent;
+    return room > 0;
+}
+
+}  // namespace
+
+Tiling::Tiling(const LightFieldGrid& grid, const HogelRange& size)
+    : hogels_s_(grid.hogels_s),
+      hogels_t_(grid.hogels_t),
+      across_((grid.hogels_s - 1) / size.ns + 1),
+      down_((grid.hogels_t - 1) / size.nt + 1),
+      size_(size) {}
+
+HogelRange Tiling::operator[](std::size_t tile) const {
+    const std::size_t s0 = tile % across_ * size_.ns, t0 = tile / across_ * size_.nt;
+    return {s0, t0, std::min(size_.ns, hogels_s_ - s0), std::min(size_.nt, hogels_t_ - t0)};
+}
+
+StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& info)
+    : output_(path), file_(output_.temporary(), RawFile::Mode::create, path) {
+    if (!tile_fits(info.grid, info.tile))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field has, "
+                                "and at most {} samples in each",
+                                path.string(), info.tile.ns, info.tile.nt, most_tile_samples));
+    const Bytes header = header_of(info);
+    file_.write(0, header.data(), header.size());
+    first_ = next_ = header.size();
+}
+
+void StreamWriter::restart() {
+    next_ = first_;
+    index_.clear();
+}
+
+void StreamWriter::append(std::span<const std::uint8_t> tile) {
+    file_.write(next_, tile.data(), tile.size());
+    next_ += tile.size();
+    index_.push_back({tile.size(), checksum(tile)});
+}
+
+std::uint64_t StreamWriter::overhead(std::size_t tiles) const { return first_ + tiles * entry_bytes + footer_bytes; }
+
+void StreamWriter::finish() {
+    ByteWriter index;
+    for (const Entry& entry : index_) {
+        index.put(entry.bytes);
+        index.put(entry.checksum);
+    }
+    index.put(next_);
+    index.put(checksum(index.bytes));
+    file_.write(next_, index.bytes.data(), index.bytes.size());
+    file_.resize(next_ + index.bytes.size());
+    file_.close();
+    output_.commit();
+}
+
+StreamReader::StreamReader(const std::filesystem::path& path) : file_(path, RawFile::Mode::read, path) {
+    const std::uint64_t size = file_.size();
+    if (size < prefix + 4) damaged("it is too short for a compressed light field");
+    Bytes header(prefix);
+    file_.read(0, header.data(), prefix);
+    if (!std::equal(magic.begin(), magic.end(), header.begin())) damaged("it is not a compressed light field");
+    const std::string what = fmt::format("cannot read '{}'", path.string());
+    ByteReader begin(std::span<const std::uint8_t>(header).subspan(magic.size()), what);
+    if (const auto found = begin.take<std::uint32_t>(); found != StreamInfo::version)
+        damaged(fmt::format("it has version {} of the format, expected {}", found, StreamInfo::version));
+    const auto length = begin.take<std::uint32_t>();
+    if (length > most_header || length + prefix + 4 > size) damaged("its header is longer than the file");
+    header.resize(prefix + length + 4);
+    file_.read(prefix, header.data() + prefix, length + 4);
+    ByteReader end(std::span<const std::uint8_t>(header).last(4), what);
+    if (end.take<std::uint32_t>() != checksum(std::span(header).first(prefix + length)))
+        damaged("its header is damaged");
+    ByteReader fields(std::span<const std::uint8_t>(header).subspan(prefix, length), what);
+    info_ = read_fields(fields);
+    if (fields.left() > 0) damaged("its header has bytes left over");
+    validate(info_.grid, ErrorCode::bad_input, what);
+    if (!tile_fits(info_.grid, info_.tile)) damaged("its header has impossible tiles");
+    tiling_.emplace(info_.grid, info_.tile);
+
+    const std::uint64_t tiles = tiling_->count(), most = size - header.size();
+    if (most < footer_bytes || tiles > (most - footer_bytes) / entry_bytes) damaged("it is truncated");
+    Bytes index(tiles * entry_bytes + footer_bytes);
+    file_.read(size - index.size(), index.data(), index.size());
+    ByteReader entries(index, what);
+    std::uint64_t offset = header.size();
+    for (std::uint64_t tile = 0; tile < tiles; ++tile) {
+        const auto bytes = entries.take<std::uint64_t>();
+        index_.push_back({offset, bytes, entries.take<std::uint32_t>()});
+        if (bytes > size - offset) damaged("it is truncated, or its index is damaged");
+        offset += bytes;
+    }
+    const bool in_place = entries.take<std::uint64_t>() == offset && offset + index.size() == size;
+    if (!in_place || entries.take<std::uint32_t>() != checksum(std::span(index).first(index.size() - 4)))
+        damaged("it is truncated, or its index is damaged");
+}
+
+Bytes StreamReader::read(std::size_t tile) const {
+    Bytes bytes(index_[tile].bytes);
+    file_.read(index_[tile].offset, bytes.data(), bytes.size());
+    if (checksum(bytes) != index_[tile].checksum) damaged(fmt::format("tile {} is damaged", tile));
+    return bytes;
+}
+
+void StreamReader::damaged(const std::string& why) const {
+    throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", file_.name().string(), why));
+}
+
+bool is_stream(const std::filesystem::path& path) {
+    const RawFile file(path, RawFile::Mode::read, path);
+    std::array<std::uint8_t, magic.size()> begin{};
+    if (file.size() < begin.size()) return false;
+    file.read(0, begin.data(), begin.size());
+    return begin == magic;
+}
+
+StreamInfo read_stream_info(const std::filesystem::path& path) { return StreamReader(path).info(); }
+
+}  // namespace hogel

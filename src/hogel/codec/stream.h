@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "hogel/codec/tile_coder.h"
+#include "hogel/image/image.h"
+#include "hogel/lightfield/light_field.h"
+
+namespace hogel {
+
+/// What the header of a compressed light field (.hgl, docs/format.md) says.
+struct StreamInfo {
+    static constexpr std::uint32_t version = 1;  ///< of the format
+    LightFieldGrid grid;
+    HogelRange tile;  ///< size of the tiles that are coded apart, s0 = t0 = 0
+    CodingMethod method;
+    Metadata metadata;
+};
+
+/// True for a plain file that begins as a stream does. Throws Error(bad_input) where there is no such file.
+bool is_stream(const std::filesystem::path& path);
+
+/// Reads the header and the index alone, and checks both. Throws Error(bad_input).
+StreamInfo read_stream_info(const std::filesystem::path& path);
+
+/// A compressed light field, decoded where it is read: a tile when it is first asked for. The tiles last decoded are
+/// kept, as many as `memory` bytes hold, at least one. Throws Error(bad_input) for a file that is damaged, truncated or
+/// of another version; damage inside a tile shows when that tile is read.
+std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path,
+                                              std::size_t memory = std::size_t{1} << 29);
+
+}  // namespace hogel

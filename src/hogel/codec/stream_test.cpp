@@ -1,0 +1,142 @@
+#include "hogel/codec/stream.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "hogel/codec/bytes_internal.h"
+#include "hogel/codec/compress.h"
+#include "hogel/codec/test_fields_internal.h"
+#include "hogel/core/error.h"
+#include "hogel/core/parallel.h"
+
+namespace hogel {
+namespace {
+
+CompressionOptions small_tiles(const char* coder, const char* transform) {
+    CompressionOptions options;
+    options.method = {coder, transform};
+    options.target.step = 0.02;
+    options.tile = HogelRange{0, 0, 3, 2};
+    options.metadata = {{"what", "a test"}, {"", "Ελλάδα"}};
+    return options;
+}
+
+TEST(Stream, checksum_is_the_one_of_png) {
+    const std::string text = "123456789";
+    EXPECT_EQ(checksum({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0xCBF43926u);
+}
+
+TEST(Stream, header_says_what_was_written) {
+    const TestFolder folder;
+    const LightField field = textured_planes(7, 5, 8, 6, 3);
+    compress(field, folder / "a.hgl", small_tiles("ezw", "haar"));
+    EXPECT_TRUE(is_stream(folder / "a.hgl"));
+    const StreamInfo info = read_stream_info(folder / "a.hgl");
+    EXPECT_EQ(info.grid, field.grid());
+    EXPECT_EQ(info.tile, (HogelRange{0, 0, 3, 2}));
+    EXPECT_EQ(info.method, (CodingMethod{"ezw", "haar"}));
+    EXPECT_EQ(info.metadata, (Metadata{{"what", "a test"}, {"", "Ελλάδα"}}));
+}
+
+// Any range of hogels, from any thread and with room for one tile or all, gives the same samples.
+TEST(Stream, reads_any_range_the_same) {
+    const TestFolder folder;
+    const LightField field = textured_planes(7, 5, 8, 6, 3);
+    compress(field, folder / "a.hgl", small_tiles("threepass", "cdf97"));
+    LightField whole(field.grid());
+    copy(*open_stream(folder / "a.hgl"), whole);
+    for (const std::size_t memory : {std::size_t{1}, std::size_t{5000}, std::size_t{1} << 30}) {
+        const auto source = open_stream(folder / "a.hgl", memory);
+        parallel_for(200, [&](std::size_t i) {
+            HogelRange range{i % 7, i / 7 % 5, 0, 0};
+            range.ns = 1 + i % (7 - range.s0);
+            range.nt = 1 + i % (5 - range.t0);
+            LightFieldTile tile(field.grid(), range, false), expected = tile;
+            source->read(tile);
+            whole.read(expected);
+            for (std::size_t k = 0; k < tile.radiance.size(); ++k)
+                ASSERT_EQ(tile.radiance.data()[k], expected.radiance.data()[k]);
+        });
+    }
+}
+
+// What reading a damaged file comes to: an error, or nothing.
+std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
+    try {
+        const auto source = open_stream(path);
+        LightField field(source->grid());
+        copy(*source, field);
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        return error.code();
+    }
+    return std::nullopt;
+}
+
+TEST(Stream, every_truncation_and_every_flipped_byte_is_noticed) {
+    const TestFolder folder;
+    const LightField field = textured_planes(4, 3, 4, 4, 1);
+    compress(field, folder / "a.hgl", small_tiles("threepass", "ai13"));
+    const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
+    ASSERT_EQ(outcome(folder / "a.hgl"), std::nullopt);
+    for (std::size_t length = 0; length < good.size(); length += length % 32 < 2 ? 1 : 6) {
+        write_bytes(folder / "b.hgl", {good.begin(), good.begin() + std::ptrdiff_t(length)});
+        ASSERT_EQ(outcome(folder / "b.hgl"), ErrorCode::bad_input) << "cut at " << length;
+    }
+    for (std::size_t at = 0; at < good.size(); ++at) {
+        std::vector<std::uint8_t> bad = good;
+        bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
+        write_bytes(folder / "b.hgl", bad);
+        ASSERT_EQ(outcome(folder / "b.hgl"), ErrorCode::bad_input) << "byte " << at;
+    }
+    std::vector<std::uint8_t> longer = good;
+    longer.push_back(0);
+    write_bytes(folder / "b.hgl", longer);
+    EXPECT_EQ(outcome(folder / "b.hgl"), ErrorCode::bad_input);
+}
+
+// A header whose checksum is right may still lie; it may not make the reader take memory for what it claims.
+TEST(Stream, header_that_lies_is_refused) {
+    const TestFolder folder;
+    compress(textured_planes(4, 3, 4, 4, 1), folder / "a.hgl", small_tiles("threepass", "ai13"));
+    const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
+    const std::size_t length = good[12] | std::size_t{good[13]} << 8;
+    const auto forged = [&](std::size_t field, std::uint64_t value) {
+        std::vector<std::uint8_t> bytes = good;
+        for (std::size_t i = 0; i < 8; ++i) bytes[16 + 8 * field + i] = static_cast<std::uint8_t>(value >> (8 * i));
+        const std::uint32_t sum = checksum(std::span(std::as_const(bytes)).first(16 + length));
+        for (std::size_t i = 0; i < 4; ++i) bytes[16 + length + i] = static_cast<std::uint8_t>(sum >> (8 * i));
+        write_bytes(folder / "b.hgl", bytes);
+        return outcome(folder / "b.hgl");
+    };
+    EXPECT_EQ(forged(0, 1), std::nullopt);  // that is what it was
+    for (std::size_t field = 0; field < 10; ++field)
+        for (const std::uint64_t value : {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{1} << 40, ~std::uint64_t{0},
+                                          std::uint64_t{0x7FF} << 52}) {
+            const auto code = forged(field, value);
+            EXPECT_TRUE(!code || code == ErrorCode::bad_input) << field;
+        }
+    EXPECT_EQ(forged(1, std::uint64_t{1} << 40), ErrorCode::bad_input);
+}
+
+TEST(Stream, other_versions_and_other_files_are_named) {
+    const TestFolder folder;
+    compress(textured_planes(2, 2, 4, 4, 1), folder / "a.hgl", small_tiles("threepass", "ai13"));
+    std::vector<std::uint8_t> bytes = bytes_of_file(folder / "a.hgl");
+    bytes[8] = 9;
+    write_bytes(folder / "b.hgl", bytes);
+    try {
+        open_stream(folder / "b.hgl");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("version 9"), std::string::npos);
+    }
+    write_bytes(folder / "c.hgl", {'P', 'N', 'G'});
+    EXPECT_FALSE(is_stream(folder / "c.hgl"));
+    EXPECT_EQ(outcome(folder / "c.hgl"), ErrorCode::bad_input);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hogel/lightfield/light_field.h"
+
+namespace hogel {
+
+/// What turns a tile of a light field into bytes and back. Tiles are coded apart from each other, so that any of them
+/// can be decoded without the rest. May be used by several threads at once; the same bytes for any number of them.
+class TileCoder {
+  public:
+    struct Encoded {
+        std::vector<std::uint8_t> bytes;
+        double squared_error = 0;  ///< Σ (f − f')² over the tile's radiance, of what decode() gives
+    };
+    static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
+    virtual ~TileCoder() = default;
+    /// The size of tile (s0 = t0 = 0) that it works best on.
+    virtual HogelRange preferred_tile(const LightFieldGrid& grid) const = 0;
+    /// True where encode() heeds most_bytes: any prefix of the bytes decodes to a coarser tile.
+    virtual bool embedded() const { return false; }
+    /// @param step   the quantiser's, in units of radiance: the larger, the coarser. An error is about step/√12 where
+    ///               the tile holds detail of that size, and less elsewhere.
+    virtual Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes = no_limit) const = 0;
+    /// Fills the tile's radiance. Throws Error(bad_input) for bytes that no encode() gives, where that shows.
+    virtual void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const = 0;
+};
+
+/// How the samples of a tile become bytes.
+struct CodingMethod {
+    std::string coder = "threepass";
+    std::string transform = "cdf97";  ///< empty for coders that have one of their own
+    friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
+};
+
+/// threepass|ezw|jpeg4d.
+std::vector<std::string_view> coder_names();
+
+/// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
+std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method);
+
+}  // namespace hogel
