@@ -59,7 +59,8 @@ Image photograph_of_light_field(const Options& options, const Session& session, 
         return photograph(*light_field, {&camera, 1}, options.pupil_samples, stage.progress()).front();
     }
     require_holograms(grid, options.hologram, {&camera, 1});
-    if (kind == InputKind::scene) light_field = render_once(session, std::move(light_field));
+    if (kind == InputKind::scene)
+        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
     const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
     return photograph_colours(stage, holograms, {&camera, 1}).front();

@@ -35,6 +35,7 @@ void add_render_options(CLI::App* command, RenderOptions& options);
 struct HologramOptions {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
+    std::string method = "fourier";
     std::string phase = "random";
 };
 void add_hologram_options(CLI::App* command, HologramOptions& options);
@@ -53,9 +54,13 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const Ren
 /// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
 std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options);
 
+/// Whether holograms like this need the depth of every ray.
+bool needs_depth(const HologramOptions& options);
+
 /// A light field that will be read once a colour: renders it now and keeps it, where it fits into a modest part of
-/// memory.
-std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer);
+/// memory, with its depths if asked.
+std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
+                                              bool with_depth = false);
 
 /// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
 /// photograph them: too coarse a pitch, say. To be asked before the work begins.

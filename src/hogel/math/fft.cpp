@@ -67,6 +67,8 @@ Fft2& Fft2::operator=(Fft2&&) noexcept = default;
 
 void Fft2::forward(View<std::complex<float>, 2> values) const { plans_->run(0, values); }
 void Fft2::backward(View<std::complex<float>, 2> values) const { plans_->run(1, values); }
+std::size_t Fft2::height() const { return plans_->height; }
+std::size_t Fft2::width() const { return plans_->width; }
 
 std::size_t good_fft_size(std::size_t n) {
     for (;; ++n) {
