@@ -8,6 +8,8 @@ namespace hogel::cli {
 void add_make(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
 void add_hologram(CLI::App& app, Session& session);
+void add_slm(CLI::App& app, Session& session);
+void add_print(CLI::App& app, Session& session);
 void add_photo(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
 void add_info(CLI::App& app, Session& session);
