@@ -19,7 +19,10 @@ struct Options {
 std::unique_ptr<LightFieldSource> open_input(const std::string& name) {
     if (input_kind(name) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", name));
-    return open_light_field(name);
+    std::vector<std::unique_ptr<LightFieldSource>> faces = open_light_field_faces(name);
+    if (faces.size() > 1)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is a hemicube; a compressed file holds one face", name));
+    return std::move(faces.front());
 }
 
 int compress_file(Options options, const Session& session) {

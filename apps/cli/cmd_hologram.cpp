@@ -22,7 +22,7 @@ int hologram(const Options& options, const Session& session) {
     auto light_field = open_or_render(options.input, options.render);
     require_holograms(light_field->grid(), options.hologram);
     if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
-        light_field = render_once(session, std::move(light_field));
+        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
     const auto sources = make_holograms(session, *light_field, options.hologram, 1);
 
     std::vector<FieldGrid> grids;

@@ -62,7 +62,8 @@ Image photograph_of_light_field(const Options& options, const Session& session, 
     }
     auto light_field = std::move(faces.front());
     require_holograms(grid, options.hologram, {&camera, 1});
-    if (kind == InputKind::scene) light_field = render_once(session, std::move(light_field));
+    if (kind == InputKind::scene)
+        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
     const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
     return photograph_colours(stage, holograms, {&camera, 1}).front();

@@ -8,6 +8,8 @@ namespace hogel::cli {
 void add_make(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
 void add_hologram(CLI::App& app, Session& session);
+void add_slm(CLI::App& app, Session& session);
+void add_print(CLI::App& app, Session& session);
 void add_photo(CLI::App& app, Session& session);
 void add_compress(CLI::App& app, Session& session);
 void add_decompress(CLI::App& app, Session& session);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "hogel/optics/narrow_band.h"
@@ -38,12 +39,22 @@ Tangents tangents(double field_of_view, double toward) {
     return {(low + high) / 2, (high - low) / 2};
 }
 
+// What the user calls a method or its phases, and the library's word for it.
+const std::map<std::string, Method> methods{{"fourier", Method::fourier}, {"olas", Method::overlap_add}};
+const std::map<std::string, Phases> phases{{"random", Phases::random},
+                                           {"fixed", Phases::fixed},
+                                           {"designed", Phases::designed},
+                                           {"phase-added", Phases::added},
+                                           {"phase-added-exact", Phases::added_exactly}};
+
 StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
                                      double wavelength) {
     StereogramOptions stereogram;
     stereogram.wavelength = wavelength;
     stereogram.pitch = options.pitch;
     stereogram.channel = light_field.channels == 1 ? 0 : colour_of(wavelength);
+    stereogram.method = methods.at(options.method);
+    stereogram.phases = phases.at(options.phase);
     return stereogram;
 }
 
@@ -114,9 +125,23 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
     const auto group = [](CLI::Option* option) { option->group("Hologram"); };
     group(add_wavelengths(command, options.wavelengths));
     group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
-    group(command->add_option("--phase", options.phase, "Phase of each hogel's directions")
-              ->type_name("random")
-              ->check(CLI::IsMember({"random"}).description(""))
+    group(command
+              ->add_option("--method", options.method,
+                           "fourier: one transform a hogel\n"
+                           "olas: overlapping windows, for hogels of a few samples; needs depth")
+              ->type_name("NAME")
+              ->check(CLI::IsMember(methods).description(""))
+              ->capture_default_str());
+    group(command
+              ->add_option("--phase", options.phase,
+                           "Phases of each hogel's directions\n"
+                           "random: independent everywhere\n"
+                           "fixed: the same in all hogels (olas: none, a smooth surface)\n"
+                           "designed: the same in all hogels, for a fringe of flat modulus\n"
+                           "phase-added: of spherical waves from what rays meet; needs depth\n"
+                           "phase-added-exact: the same, each ray with its own frequency")
+              ->type_name("NAME")
+              ->check(CLI::IsMember(phases).description(""))
               ->capture_default_str());
 }
 
@@ -181,10 +206,18 @@ std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const 
     return render_on_demand(load_scene(name, options), options);
 }
 
-std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer) {
+bool needs_depth(const HologramOptions& options) {
+    StereogramOptions stereogram;
+    stereogram.method = methods.at(options.method);
+    stereogram.phases = phases.at(options.phase);
+    return needs_depth(stereogram);
+}
+
+std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
+                                              bool with_depth) {
     if (renderer->grid().samples() * sizeof(float) > kept_bytes) return renderer;
     Stage stage(session, "rendering");
-    auto light_field = std::make_unique<LightField>(renderer->grid());
+    auto light_field = std::make_unique<LightField>(renderer->grid(), with_depth);
     copy(*renderer, *light_field, stage.progress());
     return light_field;
 }

@@ -42,6 +42,7 @@ void add_hemicube_option(CLI::App* command, RenderOptions& options);
 struct HologramOptions {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
+    std::string method = "fourier";
     std::string phase = "random";
 };
 void add_hologram_options(CLI::App* command, HologramOptions& options);
@@ -65,9 +66,13 @@ std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Scen
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const std::string& name,
                                                                     const RenderOptions& options);
 
+/// Whether holograms like this need the depth of every ray.
+bool needs_depth(const HologramOptions& options);
+
 /// A light field that will be read once a colour: renders it now and keeps it, where it fits into a modest part of
-/// memory.
-std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer);
+/// memory, with its depths if asked.
+std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
+                                              bool with_depth = false);
 
 /// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
 /// photograph them: too coarse a pitch, say. To be asked before the work begins.

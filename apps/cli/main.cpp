@@ -36,6 +36,8 @@ void build(CLI::App& app, Session& session) {
     add_make(app, session);
     add_render(app, session);
     add_hologram(app, session);
+    add_slm(app, session);
+    add_print(app, session);
     add_photo(app, session);
     add_compress(app, session);
     add_decompress(app, session);

@@ -22,7 +22,9 @@ Bytes header_of(const StreamInfo& info) {
     const LightFieldGrid& grid = info.grid;
     for (const std::size_t count : {grid.channels, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v})
         fields.put(std::uint64_t{count});
-    for (const double number : {grid.pitch, grid.tan_half_u, grid.tan_half_v}) fields.put(number);
+    for (const double number : {grid.pitch, grid.tan_half_u, grid.tan_half_v, grid.center_u, grid.center_v})
+        fields.put(number);
+    fields.put(name(grid.face));
     fields.put(std::uint64_t{info.tile.ns});
     fields.put(std::uint64_t{info.tile.nt});
     fields.put(std::string_view(info.method.coder));
@@ -46,7 +48,12 @@ StreamInfo read_fields(ByteReader& reader) {
     LightFieldGrid& grid = info.grid;
     for (std::size_t* count : {&grid.channels, &grid.hogels_s, &grid.hogels_t, &grid.directions_u, &grid.directions_v})
         *count = reader.take<std::uint64_t>();
-    for (double* number : {&grid.pitch, &grid.tan_half_u, &grid.tan_half_v}) *number = reader.take_double();
+    for (double* number : {&grid.pitch, &grid.tan_half_u, &grid.tan_half_v, &grid.center_u, &grid.center_v})
+        *number = reader.take_double();
+    const std::string face = reader.take_text();
+    const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return name(known); });
+    if (found == all_faces.end()) throw Error(ErrorCode::bad_input, fmt::format("there is no face '{}'", face));
+    grid.face = *found;
     info.tile.ns = reader.take<std::uint64_t>();
     info.tile.nt = reader.take<std::uint64_t>();
     info.method.coder = reader.take_text();

@@ -9,9 +9,7 @@
 #include <numbers>
 
 #include "hogel/core/units.h"
-#include "hogel/hologram/frequency_grid.h"
-#include "hogel/hologram/random_phase.h"
-#include "hogel/math/fft.h"
+#include "hogel/hologram/hogel_synthesis_internal.h"
 
 namespace hogel {
 namespace {
@@ -22,21 +20,24 @@ std::size_t samples_per_hogel(const LightFieldGrid& light_field, const Stereogra
     return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / options.pitch)));
 }
 
-// The moduli of the DFT coefficients of a range of hogels, [nt][ns][n²]: the same for every look.
-struct Moduli {
+// What the looks of a range of hogels share, [nt][ns][...].
+struct Prepared {
     HogelRange range;
     Array<float, 3> values;
 };
 
+// Hogels side by side.
 class Stereogram final : public FieldSource {
   public:
-    Stereogram(const LightFieldSource& light_field, const StereogramOptions& options)
+    Stereogram(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options)
         : light_field_(light_field),
           options_(options),
-          grid_(stereogram_grid(light_field.grid(), options)),
-          n_(samples_per_hogel(light_field.grid(), options)),
-          frequencies_(light_field.grid(), n_, options.wavelength),
-          fft_(n_, n_) {}
+          grid_(grid),
+          n_(samples_per_hogel(light_field.grid(), options)) {
+        const bool by_ray = options.phases == Phases::added || options.phases == Phases::added_exactly;
+        synthesis_ = by_ray ? make_phase_added_synthesis(light_field.grid(), n_, options)
+                            : make_fourier_synthesis(light_field.grid(), n_, options);
+    }
 
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return options_.looks; }
@@ -47,13 +48,11 @@ class Stereogram final : public FieldSource {
         HogelRange hogels{region.x0 / n_, region.y0 / n_, 0, 0};
         hogels.ns = (region.x0 + region.width - 1) / n_ + 1 - hogels.s0;
         hogels.nt = (region.y0 + region.height - 1) / n_ + 1 - hogels.t0;
-        const std::shared_ptr<const Moduli> moduli = moduli_of(hogels);
+        const std::shared_ptr<const Prepared> prepared = prepare(hogels);
         Array<Complex, 2> hogel({n_, n_});
         for (std::size_t t = hogels.t0; t < hogels.t0 + hogels.nt; ++t)
             for (std::size_t s = hogels.s0; s < hogels.s0 + hogels.ns; ++s) {
-                spread_random_phases(phases(s, t, look), moduli->values[t - hogels.t0][s - hogels.s0].elements(),
-                                     hogel.elements());
-                fft_.backward(hogel);
+                synthesis_->synthesise(prepared->values[t - hogels.t0][s - hogels.s0].elements(), {s, t, look}, hogel);
                 // The part of the hogel that the region asks for.
                 const std::size_t x0 = std::max(s * n_, region.x0),
                                   x1 = std::min((s + 1) * n_, region.x0 + region.width);
@@ -66,33 +65,27 @@ class Stereogram final : public FieldSource {
     }
 
   private:
-    // Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.
-    PhaseSeries phases(std::size_t s, std::size_t t, std::size_t look) const {
-        return {{static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)},
-                {static_cast<std::uint32_t>(look * 4 + options_.channel), static_cast<std::uint32_t>(s),
-                 static_cast<std::uint32_t>(t)}};
-    }
-
-    std::shared_ptr<const Moduli> moduli_of(const HogelRange& hogels) const {
+    std::shared_ptr<const Prepared> prepare(const HogelRange& hogels) const {
         {
             const std::lock_guard lock(recent_mutex_);
             for (const auto& entry : recent_)
                 if (entry->range == hogels) return entry;
         }
-        LightFieldTile tile(light_field_.grid(), hogels, false);
+        const bool with_depth = needs_depth(options_);
+        LightFieldTile tile(light_field_.grid(), hogels, with_depth);
         light_field_.read(tile);
-        auto moduli = std::make_shared<Moduli>();
-        moduli->range = hogels;
-        moduli->values = Array<float, 3>({hogels.nt, hogels.ns, n_ * n_});
+        auto prepared = std::make_shared<Prepared>();
+        prepared->range = hogels;
+        prepared->values = Array<float, 3>({hogels.nt, hogels.ns, synthesis_->prepared_size()});
         for (std::size_t t = 0; t < hogels.nt; ++t)
-            for (std::size_t s = 0; s < hogels.ns; ++s) {
-                const View<const float, 2> radiance = tile.radiance.view()[options_.channel][t][s];
-                frequencies_.amplitudes(radiance.elements(), moduli->values[t][s].elements());
-            }
+            for (std::size_t s = 0; s < hogels.ns; ++s)
+                synthesis_->prepare(tile.radiance.view()[options_.channel][t][s].elements(),
+                                    with_depth ? tile.depth[t][s].elements() : std::span<float>(),
+                                    prepared->values[t][s].elements());
         const std::lock_guard lock(recent_mutex_);
-        recent_.push_front(moduli);
+        recent_.push_front(prepared);
         if (recent_.size() > most_recent) recent_.pop_back();
-        return moduli;
+        return prepared;
     }
 
     // Readers take the looks of a region one after the other, each in a thread of its own.
@@ -102,11 +95,24 @@ class Stereogram final : public FieldSource {
     StereogramOptions options_;
     FieldGrid grid_;
     std::size_t n_;
-    FrequencyGrid frequencies_;
-    Fft2 fft_;
+    std::unique_ptr<HogelSynthesis> synthesis_;
     mutable std::mutex recent_mutex_;
-    mutable std::list<std::shared_ptr<const Moduli>> recent_;
+    mutable std::list<std::shared_ptr<const Prepared>> recent_;
 };
+
+// Added phases give every ray one wave, so rays farther apart than a hogel's lobes would leave gaps between them.
+void require_enough_directions(const LightFieldGrid& light_field, const StereogramOptions& options) {
+    const double step = options.wavelength / light_field.pitch;
+    if (std::max(light_field.step_u(), light_field.step_v()) <= step) return;
+    const auto enough = [&](double half) { return std::ceil(2 * half / step); };
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("a hogel of {} shows directions {:.4f} apart at {}, but the light field's are {:.4f} apart; "
+                    "added phases need {}x{} directions or more",
+                    format_length(light_field.pitch), step, format_length(options.wavelength),
+                    std::max(light_field.step_u(), light_field.step_v()), enough(light_field.tan_half_u),
+                    enough(light_field.tan_half_v)));
+}
 
 }  // namespace
 
@@ -136,6 +142,11 @@ FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOpt
                 format_length(pitch), format_length(options.wavelength),
                 std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
                 std::atan(tangent) * 180 / std::numbers::pi, format_length(options.wavelength / (2 * needed))));
+    const bool added = options.phases == Phases::added || options.phases == Phases::added_exactly;
+    if (options.method == Method::overlap_add && (added || options.phases == Phases::designed))
+        throw Error(ErrorCode::usage,
+                    "overlapping windows carry the phases of the scene's points, which are random or fixed (none)");
+    if (added) require_enough_directions(light_field, options);
     FieldGrid grid;
     grid.plane = {light_field.hogels_s * n, light_field.hogels_t * n, pitch, pitch, 0, 0};
     grid.wavelength = options.wavelength;
@@ -143,8 +154,18 @@ FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOpt
     return grid;
 }
 
+bool needs_depth(const StereogramOptions& options) {
+    return options.method == Method::overlap_add || options.phases == Phases::added ||
+           options.phases == Phases::added_exactly;
+}
+
 std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field, const StereogramOptions& options) {
-    return std::make_unique<Stereogram>(light_field, options);
+    const FieldGrid grid = stereogram_grid(light_field.grid(), options);
+    if (needs_depth(options) && !light_field.has_depth())
+        throw Error(ErrorCode::usage,
+                    "this hologram needs the depth of every ray, and the light field has none; render it with depth");
+    if (options.method == Method::overlap_add) return make_overlap_add(light_field, grid, options);
+    return std::make_unique<Stereogram>(light_field, grid, options);
 }
 
 }  // namespace hogel

@@ -23,6 +23,9 @@ class Fft2 {
     void forward(View<std::complex<float>, 2> values) const;
     void backward(View<std::complex<float>, 2> values) const;
 
+    std::size_t height() const;
+    std::size_t width() const;
+
   private:
     struct Plans;
     std::unique_ptr<Plans> plans_;

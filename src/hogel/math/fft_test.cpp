@@ -37,6 +37,27 @@ TEST(Fft2, backward_is_the_sum_of_waves_with_a_positive_exponent) {
         }
 }
 
+// Large transforms go by rows and columns: against the sums along one row of them, and back again.
+TEST(Fft2, large_ones_are_the_same_sum) {
+    const std::size_t height = 150, width = 203;
+    const Array<Complex, 2> spectrum = noise(height, width);
+    Array<Complex, 2> values = spectrum;
+    const Fft2 fft(height, width);
+    fft.backward(values);
+    for (const auto& [y, x] : {std::pair<std::size_t, std::size_t>{0, 0}, {1, 202}, {149, 17}, {77, 100}}) {
+        std::complex<double> sum = 0;
+        for (std::size_t k = 0; k < height; ++k)
+            for (std::size_t j = 0; j < width; ++j) {
+                const double turns = static_cast<double>(k * y) / height + static_cast<double>(j * x) / width;
+                sum += std::complex<double>(spectrum(k, j)) * std::polar(1.0, 2 * std::numbers::pi * turns);
+            }
+        EXPECT_LT(std::abs(std::complex<double>(values(y, x)) - sum), 2e-4) << y << " " << x;
+    }
+    fft.forward(values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        ASSERT_LT(std::abs(values.data()[i] / float(height * width) - spectrum.data()[i]), 1e-5f);
+}
+
 TEST(Fft2, forward_undoes_backward_also_on_unaligned_data) {
     const std::size_t n = 40;
     const Array<Complex, 2> original = noise(n, n);

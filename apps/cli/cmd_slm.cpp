@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <numbers>
+
+#include "commands.h"
+#include "hogel/hologram/pattern.h"
+#include "hogel/image/levels.h"
+#include "inputs.h"
+#include "outputs.h"
+
+namespace hogel::cli {
+namespace {
+
+const std::map<std::string, Encoding> encodings{{"phase", Encoding::phase},
+                                                {"double-phase", Encoding::double_phase},
+                                                {"gerchberg-saxton", Encoding::gerchberg_saxton},
+                                                {"intensity", Encoding::intensity},
+                                                {"bipolar", Encoding::bipolar},
+                                                {"burckhardt", Encoding::burckhardt},
+                                                {"lee", Encoding::lee},
+                                                {"binary", Encoding::binary}};
+
+struct Options {
+    std::string input, output, encoding = "phase", device;
+    Counts pixels{0, 0};
+    double pixel_pitch = 0;
+    std::size_t levels = 256;
+    PatternOptions pattern;
+};
+
+Modulator modulator_of(const Options& options) {
+    const bool described = options.pixels.columns > 0 || options.pixel_pitch > 0;
+    if (options.device.empty() == !described)
+        throw Error(ErrorCode::usage,
+                    "name a modulator with --device, or describe one with --pixels and --pixel-pitch");
+    if (!described) return find_modulator(options.device);
+    if (options.levels > 256) throw Error(ErrorCode::usage, "--levels: 2 to 256 were expected");
+    return {"", options.pixels.columns, options.pixels.rows, options.pixel_pitch,
+            static_cast<unsigned>(options.levels)};
+}
+
+int slm(const Options& options, const Session& session) {
+    PatternOptions pattern_options = options.pattern;
+    pattern_options.encoding = encodings.at(options.encoding);
+    pattern_options.modulator = modulator_of(options);
+    require_levels_name(options.output);
+    require_writable(options.output);
+    if (input_kind(options.input) != InputKind::hologram)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
+    const HologramFile file = open_hologram(options.input);
+    const std::size_t colours = file.fields.size();
+    if (colours != 1 && colours != 3)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
+
+    const Modulator& modulator = pattern_options.modulator;
+    Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
+    Stage stage(session, "pattern");
+    Metadata metadata = describe_run(session);
+    for (std::size_t c = 0; c < colours; ++c) {
+        const Pattern pattern = encode_pattern(*file.fields[c], pattern_options, stage.progress(c, colours));
+        for (std::size_t i = 0; i < pattern.levels.size(); ++i)
+            levels.data()[i * colours + c] = pattern.levels.data()[i];
+        const std::string name = format_length(file.fields[c]->grid().wavelength);
+        std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
+        if (pattern.reference_angle != 0)
+            line += fmt::format(", the hologram's order at {:.3f} degrees",
+                                pattern.reference_angle * 180 / std::numbers::pi);
+        session.say(line);
+        metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
+    }
+    write_levels(options.output, levels, metadata);
+    session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
+                            format_length(modulator.pitch)));
+    return 0;
+}
+
+}  // namespace
+
+void add_slm(CLI::App& app, Session& session) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = add_command(app, session, "slm", "Encode a hologram as a pattern for a light modulator",
+                                    "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um "
+                                    "--fov 2.5deg --wavelength 532nm\n"
+                                    "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase",
+                                    [options, &session] { return slm(*options, session); });
+    command->add_option("input", options->input, "Hologram")->type_name("F.h5")->required();
+    command->add_option("-o,--output", options->output, "Pattern to write: .png, .bmp or .tif, 8 bits as they are")
+        ->type_name("FILE")
+        ->required();
+    const auto group = [](CLI::Option* option) { option->group("Pattern"); };
+    group(command
+              ->add_option("--encoding", options->encoding,
+                           "phase: the field's phase alone\n"
+                           "double-phase: the modulus as the difference of two phases\n"
+                           "gerchberg-saxton: phases iterated to show the field's local spectra\n"
+                           "intensity: |F + R|² with a reference beam R\n"
+                           "bipolar: 2 Re(F R*), raised to be positive\n"
+                           "burckhardt, lee: three or four real components, in columns by turns\n"
+                           "binary: where Re(F R*) is positive")
+              ->type_name("NAME")
+              ->check(CLI::IsMember(encodings).description(""))
+              ->capture_default_str());
+    group(add_angle(command, "--reference", options->pattern.reference_angle,
+                    "Angle of the reference beam; 0: between the least and the most that will do"));
+    group(command
+              ->add_option("--clip", options->pattern.clip,
+                           "Share of the samples whose modulus may be cut to the largest")
+              ->type_name("0..1")
+              ->capture_default_str());
+    group(add_count(command, "--window", options->pattern.window, "Gerchberg-Saxton: pixels of a hogel's side"));
+    group(add_count(command, "--iterations", options->pattern.iterations, "Gerchberg-Saxton: how many"));
+    std::string devices = "Modulator:";
+    for (const Modulator& modulator : modulators())
+        devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
+                               format_length(modulator.pitch), modulator.levels);
+    const auto device = [](CLI::Option* option) { option->group("Modulator"); };
+    device(command->add_option("--device", options->device, devices)->type_name("NAME"));
+    device(add_counts(command, "--pixels", options->pixels, "Any other: pixels across and down"));
+    device(add_length(command, "--pixel-pitch", options->pixel_pitch, "Distance of its pixels"));
+    device(add_count(command, "--levels", options->levels, "Levels of its pixels"));
+}
+
+}  // namespace hogel::cli

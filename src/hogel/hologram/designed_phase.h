@@ -1,0 +1,18 @@
+#pragma once
+
+#include <complex>
+
+#include "hogel/core/array.h"
+#include "hogel/math/fft.h"
+
+namespace hogel {
+
+/// Changes the phases of a spectrum of given moduli until its fringe is nearly as strong everywhere, so that no bit of
+/// a modulator's range is kept for rare peaks: alternating projections between the moduli and a flat fringe, from the
+/// phases given. Source: Lucente, "Diffraction-specific fringe computation for electro-holography", MIT 1994; Gerchberg
+/// and Saxton 1972.
+/// @param moduli  of the DFT coefficients, shape of the transform
+/// @param phases  unit numbers, in and out
+void flatten_fringe(View<const float, 2> moduli, const Fft2& fft, View<std::complex<float>, 2> phases);
+
+}  // namespace hogel

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <complex>
+#include <memory>
+#include <span>
+
+#include "hogel/hologram/stereogram.h"
+
+namespace hogel {
+
+/// Which hogel, and which of the sets of random phases.
+struct HogelPlace {
+    std::size_t s = 0, t = 0;  ///< column and row of the hogel
+    std::size_t look = 0;
+};
+
+/// From the rays of one hogel to its square of n×n samples, in two steps: what all looks share, and the rest.
+/// Phases are counted from the hogel's centre or from its first sample, as each synthesis says.
+class HogelSynthesis {
+  public:
+    virtual ~HogelSynthesis() = default;
+    /// How many values `prepare` makes.
+    virtual std::size_t prepared_size() const = 0;
+    /// @param radiance  [n_V][n_U] of this wavelength
+    /// @param depth     [n_V][n_U], or empty where needs_depth() says no
+    virtual void prepare(std::span<const float> radiance, std::span<const float> depth,
+                         std::span<float> prepared) const = 0;
+    virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
+                            View<std::complex<float>, 2> hogel) const = 0;
+};
+
+/// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2).
+std::unique_ptr<HogelSynthesis> make_fourier_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                       const StereogramOptions& options);
+
+/// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
+std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                           const StereogramOptions& options);
+
+/// Stereograms whose windows overlap.
+std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
+                                              const StereogramOptions& options);
+
+}  // namespace hogel

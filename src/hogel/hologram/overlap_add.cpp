@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/random.h"
+#include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/math/fft.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// The window's side in samples: at least twice a hogel's, as long as the directions' spacing allows, a multiple of the
+// hogel's so that windows add up to a constant, and centred on the hogel.
+std::size_t window_side(const LightFieldGrid& light_field, const FieldGrid& grid, std::size_t hop) {
+    const double step = std::min(light_field.step_u(), light_field.step_v());
+    const double hogels = std::round(grid.wavelength / (step * light_field.pitch));
+    auto side = static_cast<std::size_t>(std::max(2.0, hogels));
+    if (hop % 2 == 1 && side % 2 == 0) ++side;
+    return side * hop;
+}
+
+// A direction of the window's Fourier transform, with the ray of the light field nearest to it.
+struct Direction {
+    std::uint32_t coefficient;  // [row][column] of the transform
+    std::uint32_t ray;          // [l][k] of the light field
+    float share;                // |a|² for unit radiance, (λ/W)²/cos θ
+    float U, V;
+    double turns_per_depth;  // 1/(λ cos θ)
+    double first_turns;      // the phase of the window's first sample, counted from its centre
+};
+
+// The stereogram whose hogels are windows that overlap: a Hann window around each hogel's centre, filled by one Fourier
+// transform with the waves of its directions, each in the phase of a spherical wave from the point that it meets; all
+// windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
+// stereograms", ACM TOG 38(6), 2019.
+class OverlapAdd final : public FieldSource {
+  public:
+    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options)
+        : light_field_(light_field),
+          options_(options),
+          grid_(grid),
+          hop_(grid.plane.width / light_field.grid().hogels_s),
+          side_(window_side(light_field.grid(), grid, hop_)),
+          fft_(side_, side_) {
+        for (std::size_t i = 0; i < side_; ++i)
+            window_.push_back(static_cast<float>(
+                std::pow(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(side_)), 2)));
+        list_directions();
+        list_brightness();
+    }
+
+    const FieldGrid& grid() const override { return grid_; }
+    std::size_t looks() const override { return options_.looks; }
+    std::size_t alignment() const override { return hop_; }
+
+    void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
+        validate(region, grid_, out.shape());
+        std::fill(out.data(), out.data() + out.size(), Complex(0));
+        const auto [s0, ns] = windows_over(region.x0, region.width, light_field_.grid().hogels_s);
+        const auto [t0, nt] = windows_over(region.y0, region.height, light_field_.grid().hogels_t);
+        // Few rows of hogels at once, to bound memory; every sample adds its windows in the same order.
+        const std::size_t rows = std::max<std::size_t>(1, band_rays / (ns * light_field_.grid().directions()));
+        Array<Complex, 2> window({side_, side_});
+        for (std::size_t t = t0; t < t0 + nt; t += rows) {
+            LightFieldTile tile(light_field_.grid(), {s0, t, ns, std::min(rows, t0 + nt - t)}, true);
+            light_field_.read(tile);
+            for (std::size_t j = 0; j < tile.range.nt; ++j)
+                for (std::size_t i = 0; i < ns; ++i) {
+                    fill(tile.radiance.view()[options_.channel][j][i].elements(), tile.depth[j][i].elements(),
+                         {s0 + i, t + j, look}, window);
+                    fft_.backward(window);
+                    add(window, s0 + i, t + j, region, out);
+                }
+        }
+    }
+
+  private:
+    static constexpr std::size_t band_rays = std::size_t{1} << 21;
+
+    void list_directions() {
+        const LightFieldGrid& rays = light_field_.grid();
+        const double step = grid_.wavelength / (static_cast<double>(side_) * grid_.plane.pitch_x);
+        const auto n = static_cast<std::ptrdiff_t>(side_);
+        const std::ptrdiff_t reach = (n - 1) / 2;
+        for (std::ptrdiff_t jy = -reach; jy <= reach; ++jy)
+            for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
+                const double sx = step * static_cast<double>(jx), sy = step * static_cast<double>(jy);
+                const double cos2 = 1 - sx * sx - sy * sy;
+                if (cos2 <= 0) continue;
+                const double cosine = std::sqrt(cos2), U = -sx / cosine, V = -sy / cosine;
+                if (std::abs(U) > rays.tan_half_u || std::abs(V) > rays.tan_half_v) continue;
+                const auto nearest = [](double at, std::size_t count) {
+                    return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, static_cast<double>(count) - 1));
+                };
+                const std::size_t k = nearest((U + rays.tan_half_u) / rays.step_u() - 0.5, rays.directions_u);
+                const std::size_t l = nearest((rays.tan_half_v - V) / rays.step_v() - 0.5, rays.directions_v);
+                // Rows run down while y runs up, so a row of the transform is −j_y.
+                const auto row = static_cast<std::size_t>((n - jy) % n),
+                           column = static_cast<std::size_t>((n + jx) % n);
+                const double first = -0.5 * static_cast<double>(n - 1) / static_cast<double>(n);
+                directions_.push_back({static_cast<std::uint32_t>(row * side_ + column),
+                                       static_cast<std::uint32_t>(l * rays.directions_u + k),
+                                       static_cast<float>(step * step / cosine), static_cast<float>(U),
+                                       static_cast<float>(V), 1 / (grid_.wavelength * cosine),
+                                       static_cast<double>(jx - jy) * first});
+            }
+    }
+
+    // Near the plane the windows that show one point overlap and interfere, far from it they lie apart. One point's
+    // windows are added up here, in one dimension, to find what makes points of all depths as bright as the light field
+    // says in the middle of the fan of directions: the energy that its rays carry there (docs/notation.md, section 3).
+    void list_brightness() {
+        const LightFieldGrid& rays = light_field_.grid();
+        const double extent = static_cast<double>(side_) * grid_.plane.pitch_x;
+        depth_step_ = 1.25 * extent * extent / grid_.wavelength / (brightness_steps - 1);
+        const double steepest = std::max(rays.tan_half_u, rays.tan_half_v);
+        const double farthest = steepest * depth_step_ * (brightness_steps - 1) / grid_.plane.pitch_x;
+        const Fft2 spectrum(1, good_fft_size(4 * side_ + 4 * static_cast<std::size_t>(farthest)));
+        for (std::size_t i = 0; i < brightness_steps; ++i) {
+            const double depth = depth_step_ * static_cast<double>(i);
+            const double u = one_dimension(depth, rays.tan_half_u, spectrum);
+            const double v = rays.tan_half_v == rays.tan_half_u ? u : one_dimension(depth, rays.tan_half_v, spectrum);
+            brightness_.push_back(static_cast<float>(u * v));
+        }
+    }
+
+    double one_dimension(double depth, double tan_half, const Fft2& fft) const {
+        const double pitch = grid_.plane.pitch_x, step = grid_.wavelength / (static_cast<double>(side_) * pitch);
+        const double hop = static_cast<double>(hop_) * pitch;
+        Array<Complex, 2> sum({1, fft.width()});
+        const auto length = static_cast<std::ptrdiff_t>(fft.width());
+        const auto reach = static_cast<std::ptrdiff_t>((side_ - 1) / 2);
+        double lit = 0;
+        for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
+            const double sine = step * static_cast<double>(j);
+            if (std::abs(sine) >= 1) continue;
+            const double U = -sine / std::sqrt(1 - sine * sine);
+            if (std::abs(U) > tan_half) continue;
+            lit += 1;
+            const double hops = std::round(-U * depth / hop), path = std::hypot(depth, hops * hop) - depth;
+            const auto first = static_cast<std::ptrdiff_t>(hops) * static_cast<std::ptrdiff_t>(hop_) + length;
+            for (std::size_t p = 0; p < side_; ++p) {
+                const double x = static_cast<double>(p) - 0.5 * static_cast<double>(side_ - 1);
+                const double turns = static_cast<double>(j) * x / static_cast<double>(side_) + path / grid_.wavelength;
+                sum.data()[(first + static_cast<std::ptrdiff_t>(p)) % length] +=
+                    Complex(std::polar<double>(window_[p], 2 * std::numbers::pi * turns));
+            }
+        }
+        fft.forward(sum);
+        // The fan reaches up to lit/2 of the window's frequencies on either side; its middle counts most.
+        const double half = 0.5 * lit * static_cast<double>(length) / static_cast<double>(side_);
+        double energy = 0, expected = 0;
+        for (std::ptrdiff_t f = -length / 2; f < length / 2; ++f) {
+            if (std::abs(static_cast<double>(f)) >= half) continue;
+            const double weight = std::pow(std::cos(0.5 * std::numbers::pi * static_cast<double>(f) / half), 2);
+            energy += weight * std::norm(sum.data()[(f + length) % length]) / static_cast<double>(length);
+            expected += weight * static_cast<double>(hop_ * side_) / static_cast<double>(length);
+        }
+        return energy > 0 ? std::sqrt(expected / energy) : 0;
+    }
+
+    float brightness(double depth) const {
+        const double at = std::min(std::abs(depth) / depth_step_, static_cast<double>(brightness_steps - 1));
+        const auto below = std::min(static_cast<std::size_t>(at), brightness_steps - 2);
+        const auto rest = static_cast<float>(at - static_cast<double>(below));
+        return (1 - rest) * brightness_[below] + rest * brightness_[below + 1];
+    }
+
+    void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
+              View<Complex, 2> window) const {
+        std::fill(window.data(), window.data() + window.size(), Complex(0));
+        for (const Direction& direction : directions_) {
+            const float light = radiance[direction.ray] * direction.share;
+            if (!(light > 0)) continue;
+            const float depth = depths[direction.ray];
+            double turns = direction.first_turns;
+            float amplitude = std::sqrt(light);
+            if (std::isfinite(depth)) {
+                turns += options_.phases == Phases::random ? turns_of_point(direction, depth, place)
+                                                           : depth * direction.turns_per_depth;
+                amplitude *= brightness(depth);
+            } else {
+                // Nothing is a surface far away, of which neighbouring windows see different points.
+                turns += random_turns(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
+                                      direction.coefficient + 1, place.look);
+                amplitude *= brightness_.back();
+            }
+            const auto angle = static_cast<float>(2 * std::numbers::pi * (turns - std::round(turns)));
+            window.data()[direction.coefficient] = {amplitude * std::cos(angle), amplitude * std::sin(angle)};
+        }
+    }
+
+    double random_turns(std::uint32_t column, std::uint32_t row, std::uint32_t direction, std::size_t look) const {
+        return philox({column, row, direction, static_cast<std::uint32_t>(look * 4 + options_.channel)},
+                      {static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)})[0] /
+               4294967296.0;
+    }
+
+    // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
+    double turns_of_point(const Direction& direction, double depth, const HogelPlace& place) const {
+        const double pitch = light_field_.grid().pitch;
+        const double columns = std::round(direction.U * depth / pitch), rows = std::round(direction.V * depth / pitch);
+        const double x = columns * pitch, y = rows * pitch;
+        const double distance = std::copysign(std::sqrt(depth * depth + x * x + y * y), depth);
+        const auto column = static_cast<std::int64_t>(place.s) + static_cast<std::int64_t>(columns);
+        const auto row = static_cast<std::int64_t>(place.t) - static_cast<std::int64_t>(rows);
+        return distance / grid_.wavelength +
+               random_turns(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), 0, place.look);
+    }
+
+    // First and number of the hogels whose windows touch samples first..first+count−1.
+    std::pair<std::size_t, std::size_t> windows_over(std::size_t first, std::size_t samples, std::size_t hogels) const {
+        const std::size_t before = (side_ - hop_) / 2;
+        const std::size_t from = first + before >= side_ ? (first + before - side_) / hop_ + 1 : 0;
+        const std::size_t to = std::min(hogels - 1, (first + samples - 1 + before) / hop_);
+        return {from, to - from + 1};
+    }
+
+    void add(View<const Complex, 2> window, std::size_t s, std::size_t t, const Region& region,
+             View<Complex, 2> out) const {
+        const auto before = static_cast<std::ptrdiff_t>((side_ - hop_) / 2);
+        // Where the window's first sample lies in the region.
+        const auto left = static_cast<std::ptrdiff_t>(s * hop_) - before - static_cast<std::ptrdiff_t>(region.x0);
+        const auto top = static_cast<std::ptrdiff_t>(t * hop_) - before - static_cast<std::ptrdiff_t>(region.y0);
+        const auto cut = [this](std::ptrdiff_t start, std::size_t length) {
+            return std::pair{static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -start)),
+                             static_cast<std::size_t>(std::min(static_cast<std::ptrdiff_t>(side_),
+                                                               static_cast<std::ptrdiff_t>(length) - start))};
+        };
+        const auto [q0, q1] = cut(top, region.height);
+        const auto [p0, p1] = cut(left, region.width);
+        for (std::size_t q = q0; q < q1; ++q) {
+            const Complex* from = &window(q, 0);
+            Complex* to = &out(static_cast<std::size_t>(top + static_cast<std::ptrdiff_t>(q)),
+                               static_cast<std::size_t>(left + static_cast<std::ptrdiff_t>(p0)));
+            for (std::size_t p = p0; p < p1; ++p) *to++ += from[p] * (window_[p] * window_[q]);
+        }
+    }
+
+    static constexpr std::size_t brightness_steps = 256;
+
+    const LightFieldSource& light_field_;
+    StereogramOptions options_;
+    FieldGrid grid_;
+    std::size_t hop_, side_;  // samples of a hogel's and a window's side
+    Fft2 fft_;
+    std::vector<float> window_;
+    std::vector<Direction> directions_;
+    std::vector<float> brightness_;  // by |ζ| in steps of depth_step_, the last for all beyond
+    double depth_step_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
+                                              const StereogramOptions& options) {
+    return std::make_unique<OverlapAdd>(light_field, grid, options);
+}
+
+}  // namespace hogel

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/hologram/plane_wave_sum.h"
+#include "hogel/hologram/surface_cells.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// Each ray is a plane wave. A ray that meets a surface at Q has at the hogel's centre the phase of a spherical wave
+// from Q, and its frequency points from Q to the centre; one that meets nothing keeps its own direction, and its phase
+// is random. A solid angle's share of the radiance makes the amplitude: |a|² = L ΔU ΔV cos³θ, which summed over rays
+// is what the frequency grid sums over its lobes (docs/notation.md, section 3).
+class PhaseAddedSynthesis final : public HogelSynthesis {
+  public:
+    PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const StereogramOptions& options)
+        : light_field_(light_field),
+          options_(options),
+          samples_(samples),
+          pitch_(light_field.pitch / static_cast<double>(samples)),
+          cells_(light_field.step_u(), light_field.step_v(), options.seed, options.channel),
+          fft_(samples, samples) {
+        if (options.phases == Phases::added_exactly) waves_.emplace(samples);
+        for (std::size_t l = 0; l < light_field.directions_v; ++l)
+            for (std::size_t k = 0; k < light_field.directions_u; ++k) {
+                const double U = light_field.u(static_cast<double>(k)), V = light_field.v(static_cast<double>(l));
+                const double cosine = 1 / std::sqrt(1 + U * U + V * V);
+                shares_.push_back(
+                    static_cast<float>(light_field.step_u() * light_field.step_v() * cosine * cosine * cosine));
+            }
+    }
+
+    std::size_t prepared_size() const override { return 2 * light_field_.directions(); }
+
+    void prepare(std::span<const float> radiance, std::span<const float> depth,
+                 std::span<float> prepared) const override {
+        for (std::size_t i = 0; i < radiance.size(); ++i)
+            prepared[i] = std::sqrt(std::max(radiance[i], 0.0f) * shares_[i]);
+        std::copy(depth.begin(), depth.end(), prepared.begin() + static_cast<std::ptrdiff_t>(radiance.size()));
+    }
+
+    void synthesise(std::span<const float> prepared, const HogelPlace& place, View<Complex, 2> hogel) const override {
+        const float* amplitudes = prepared.data();
+        const float* depths = amplitudes + light_field_.directions();
+        Array<Complex, 2> spectrum;
+        if (waves_)
+            spectrum = waves_->make_spectrum();
+        else
+            std::ranges::fill(hogel.elements(), Complex(0));
+        const double s = light_field_.s(static_cast<double>(place.s)), t = light_field_.t(static_cast<double>(place.t));
+        for (std::size_t l = 0; l < light_field_.directions_v; ++l)
+            for (std::size_t k = 0; k < light_field_.directions_u; ++k, ++amplitudes, ++depths) {
+                if (*amplitudes == 0) continue;
+                const Wave wave = wave_of(k, l, *depths, s, t, place.look);
+                if (waves_)
+                    add_exactly(*amplitudes, wave, spectrum);
+                else
+                    add(*amplitudes, wave, hogel);
+            }
+        if (waves_)
+            waves_->transform(spectrum, hogel);
+        else
+            fft_.backward(hogel);
+    }
+
+  private:
+    struct Wave {
+        double columns, rows;  // frequency, cycles a sample, along a row and down a column
+        double turns;          // phase at the hogel's centre
+    };
+
+    Wave wave_of(std::size_t k, std::size_t l, double depth, double s, double t, std::size_t look) const {
+        double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));
+        double turns = 0;
+        if (std::isfinite(depth)) {
+            // On the plane itself the rays of a hogel meet one point, but are no more in phase than nearby.
+            if (std::abs(depth) < SurfaceCells::shallowest) depth = std::copysign(SurfaceCells::shallowest, depth);
+            const SurfacePoint point = cells_.find(s + U * depth, t + V * depth, depth, look);
+            U = (point.x - s) / point.depth;
+            V = (point.y - t) / point.depth;
+            turns = point.turns + point.depth * std::sqrt(1 + U * U + V * V) / options_.wavelength;
+        } else {
+            // Nothing is a surface far away: neighbouring hogels see different cells of it.
+            turns = cells_.find(s + U, t + V, 1.0, look).turns;
+        }
+        const double to_frequency = pitch_ / (options_.wavelength * std::sqrt(1 + U * U + V * V));
+        return {-U * to_frequency, V * to_frequency, turns};
+    }
+
+    // A cell at the border of the field of view may lie just beyond what the pitch diffracts to.
+    static bool beyond(const Wave& wave) { return std::abs(wave.columns) > 0.5 || std::abs(wave.rows) > 0.5; }
+
+    static Complex at_phase(float amplitude, double turns) {
+        const auto angle = static_cast<float>(2 * std::numbers::pi * (turns - std::round(turns)));
+        return {amplitude * std::cos(angle), amplitude * std::sin(angle)};
+    }
+
+    void add_exactly(float amplitude, const Wave& wave, View<Complex, 2> spectrum) const {
+        if (beyond(wave)) return;
+        waves_->add(at_phase(amplitude, wave.turns), wave.columns, wave.rows, spectrum);
+    }
+
+    void add(float amplitude, const Wave& wave, View<Complex, 2> spectrum) const {
+        const auto n = static_cast<double>(samples_);
+        const double column = std::round(wave.columns * n), row = std::round(wave.rows * n);
+        const double reach = std::floor(0.5 * (n - 1));
+        if (std::abs(column) > reach || std::abs(row) > reach) return;
+        const double first = -0.5 * (n - 1);  // the first sample, counted from the centre
+        const double turns = wave.turns + (column + row) * first / n;
+        spectrum(static_cast<std::size_t>(row < 0 ? row + n : row),
+                 static_cast<std::size_t>(column < 0 ? column + n : column)) += at_phase(amplitude, turns);
+    }
+
+    LightFieldGrid light_field_;
+    StereogramOptions options_;
+    std::size_t samples_;
+    double pitch_;
+    SurfaceCells cells_;
+    Fft2 fft_;
+    std::optional<PlaneWaveSum> waves_;  // where every ray has its own frequency
+    std::vector<float> shares_;          // of each direction, (ΔU ΔV) cos³θ
+};
+
+}  // namespace
+
+std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                           const StereogramOptions& options) {
+    return std::make_unique<PhaseAddedSynthesis>(light_field, samples, options);
+}
+
+}  // namespace hogel

@@ -1,0 +1,31 @@
+#include "hogel/hologram/surface_cells.h"
+
+#include <cmath>
+
+#include "hogel/core/random.h"
+
+namespace hogel {
+namespace {
+
+constexpr double steps_of_depth = 64;
+
+std::uint32_t word(double whole) { return static_cast<std::uint32_t>(static_cast<std::int64_t>(whole)); }
+
+}  // namespace
+
+SurfaceCells::SurfaceCells(double step_u, double step_v, std::uint64_t seed, std::size_t channel)
+    : step_u_(step_u), step_v_(step_v), seed_(seed), channel_(channel) {}
+
+SurfacePoint SurfaceCells::find(double x, double y, double depth, std::size_t look) const {
+    const double level = std::round(steps_of_depth * std::log(std::abs(depth) / shallowest));
+    const double distance = shallowest * std::exp(level / steps_of_depth);
+    const double width = distance * step_u_, height = distance * step_v_;
+    const double column = std::floor(x / width), row = std::floor(y / height);
+    const bool in_front = depth < 0;
+    const auto bits = philox({word(column), word(row), word(2 * level + (in_front ? 1 : 0)),
+                              static_cast<std::uint32_t>(look * 4 + channel_)},
+                             {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+    return {(column + 0.5) * width, (row + 0.5) * height, in_front ? -distance : distance, bits[0] / 4294967296.0};
+}
+
+}  // namespace hogel
