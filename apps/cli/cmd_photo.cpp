@@ -50,7 +50,7 @@ Image photograph_of_hologram(const Options& options, const Session& session) {
 }
 
 Image photograph_of_light_field(const Options& options, const Session& session, InputKind kind, bool geometric) {
-    auto light_field = open_or_render(options.input, options.render);
+    auto light_field = open_or_render(session, options.input, options.render);
     const LightFieldGrid grid = light_field->grid();
     const Camera camera = make_camera(options, grid.pitch * static_cast<double>(grid.hogels_s),
                                       grid.pitch * static_cast<double>(grid.hogels_t));

@@ -19,7 +19,7 @@ int render(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_writable(options.output);
     const LightFieldGrid grid = options.render.grid();
-    const auto source = render_on_demand(load_scene(options.scene, options.render), options.render);
+    const auto source = render_on_demand(session, load_scene(options.scene, options.render), options.render);
 
     LightFieldFileOptions file = options.file;
     file.type = options.single ? SampleType::single : SampleType::half;

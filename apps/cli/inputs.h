@@ -20,6 +20,8 @@ namespace hogel::cli {
 /// How a scene becomes a light field.
 struct RenderOptions {
     std::string algorithm{defaults.algorithm};
+    std::string shading{defaults.shading};
+    std::size_t shadow_map = defaults.shadow_map;
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
     double size = defaults.size;
@@ -48,10 +50,12 @@ InputKind input_kind(const std::string& name);
 Scene load_scene(const std::string& name, const RenderOptions& options);
 
 /// The light field of a scene, rendered where it is read.
-std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const RenderOptions& options);
+std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
+                                                   const RenderOptions& options);
 
 /// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
-std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options);
+std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                 const RenderOptions& options);
 
 /// A light field that will be read once a colour: renders it now and keeps it, where it fits into a modest part of
 /// memory.

@@ -121,7 +121,7 @@ class EpiRenderer final : public LightFieldSource {
         StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end1.x, end0.z, end1.z, {}, {}});
         set_values(ends.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], end0.z);
         set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], end1.z);
-        if (!scene_->textures.empty()) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
+        if (needs_samples_) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
     }
 
     void set_values(float (&values)[4], Rgb radiance, double z) const {
@@ -142,21 +142,21 @@ class EpiRenderer final : public LightFieldSource {
         const Rgb& b = scene_->background;
         const float background[4] = {colour ? b.r : luminance(b), b.g, b.b, std::numeric_limits<float>::infinity()};
         shade(plane, work.ends, background, out);
-        if (!scene_->textures.empty())
+        if (needs_samples_)
             for (std::size_t column = 0; column < plane.columns; ++column)
-                shade_textured(tile, plane, column, work, t, s + column, v);
+                shade_samples(tile, plane, column, work, t, s + column, v);
     }
 
-    // Samples of textured triangles once more, with the texture.
-    void shade_textured(LightFieldTile& tile, const EpipolarPlane& plane, std::size_t column, const Work& work,
-                        std::size_t t, std::size_t s, std::size_t v) const {
+    // Once more the samples for which interpolating the vertices' radiance is not enough.
+    void shade_samples(LightFieldTile& tile, const EpipolarPlane& plane, std::size_t column, const Work& work,
+                       std::size_t t, std::size_t s, std::size_t v) const {
         const double n = plane.first_column + static_cast<double>(column), K = plane.first_direction;
         for (std::size_t u = 0; u < plane.directions; ++u) {
             const std::uint64_t word = plane.words[column * plane.directions + u];
             if (word == EpipolarPlane::nothing) continue;
             const std::size_t number = word & 0xffffffff;
             const StripOrigin& from = work.origins[number];
-            if (scene_->triangles[from.triangle].texture == ShadedScene::no_texture) continue;
+            if (!scene_->needs_samples(from.triangle)) continue;
             const StripEnds& strip = work.ends[number];
             const float w = part_of_strip(strip, n, K + static_cast<double>(u));
             std::array<float, 3> b;
@@ -164,7 +164,7 @@ class EpiRenderer final : public LightFieldSource {
             b[(from.lone + 1) % 3] = (1 - w) * (1 - from.weight0);
             b[(from.lone + 2) % 3] = w * (1 - from.weight1);
             const float depth = strip.value0[3] + w * (strip.value1[3] - strip.value0[3]);
-            store(tile, *scene_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
+            store(tile, *scene_, grid_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
         }
     }
 
@@ -172,6 +172,7 @@ class EpiRenderer final : public LightFieldSource {
     LightFieldGrid grid_;
     EpipolarFrame frame_;
     TriangleClusters clusters_;
+    bool needs_samples_ = scene_->lighting || !scene_->textures.empty();
 };
 
 }  // namespace

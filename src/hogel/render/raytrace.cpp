@@ -69,7 +69,7 @@ class RaytraceRenderer final : public LightFieldSource {
                 VisiblePoint point;
                 if (hit.triangle != RayHit::miss)
                     point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2, near_ + hit.distance};
-                store(tile, *scene_, point, t, s, v0 + v, u0 + u);
+                store(tile, *scene_, grid_, point, t, s, v0 + v, u0 + u);
             }
     }
 

@@ -66,7 +66,7 @@ class ZbufferRenderer final : public LightFieldSource {
                 for (std::size_t i = 0; i < scene_->triangles.size(); ++i) scan_convert(i, vertices, picture);
                 for (std::size_t v = 0; v < grid_.directions_v; ++v)
                     for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        store(tile, *scene_, picture[v * grid_.directions_u + u], t, s, v, u);
+                        store(tile, *scene_, grid_, picture[v * grid_.directions_u + u], t, s, v, u);
             }
     }
 

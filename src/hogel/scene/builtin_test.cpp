@@ -13,7 +13,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/scene/analytic.h"
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading/shading.h"
 #include "hogel/trace/ray_caster.h"
 
 namespace hogel {
