@@ -10,7 +10,7 @@
 #include "hogel/optics/photograph.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading/shading.h"
 
 namespace hogel {
 namespace {

@@ -19,7 +19,7 @@ int hologram(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
-    auto light_field = open_or_render(options.input, options.render);
+    auto light_field = open_or_render(session, options.input, options.render);
     require_holograms(light_field->grid(), options.hologram);
     if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
         light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));

@@ -128,7 +128,7 @@ int make(const Options& options, const Session& session) {
     const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
 
     timed(session, report, "light field", [&](Stage& stage) {
-        const auto renderer = render_on_demand(scene, options.render);
+        const auto renderer = render_on_demand(session, scene, options.render);
         const auto sink = create_light_field(light_field_file, report.light_field, {.metadata = report.run});
         copy(*renderer, *sink, stage.progress());
     });

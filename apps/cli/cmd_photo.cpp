@@ -50,7 +50,7 @@ Image photograph_of_hologram(const Options& options, const Session& session) {
 }
 
 Image photograph_of_light_field(const Options& options, const Session& session, InputKind kind, bool geometric) {
-    auto faces = open_or_render_faces(options.input, options.render);
+    auto faces = open_or_render_faces(session, options.input, options.render);
     const LightFieldGrid grid = faces.front()->grid();
     const Camera camera = make_camera(options, grid.pitch * static_cast<double>(grid.hogels_s),
                                       grid.pitch * static_cast<double>(grid.hogels_t));

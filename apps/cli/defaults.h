@@ -14,7 +14,9 @@ using namespace hogel::literals;
 struct Defaults {
     // light field
     std::string_view algorithm = "epi";
-    double size = 20_mm;  ///< side of the hologram
+    std::string_view shading = "vertex";
+    std::size_t shadow_map = 512;  ///< texels along a side of each of the six faces around a lamp
+    double size = 20_mm;           ///< side of the hologram
     std::size_t hogels = 400, directions = 32;
     double field_of_view = 16_deg;  ///< full angle, 2θ
     double front = 0.3;             ///< how much of a fitted mesh stands in front of the plane

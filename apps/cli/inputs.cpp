@@ -12,7 +12,7 @@
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
 #include "hogel/scene/import.h"
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading/shading.h"
 
 namespace hogel::cli {
 namespace {
@@ -46,6 +46,16 @@ const std::map<std::string, Phases> phases{{"random", Phases::random},
                                            {"designed", Phases::designed},
                                            {"phase-added", Phases::added},
                                            {"phase-added-exact", Phases::added_exactly}};
+
+std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
+    ShadingOptions shading;
+    shading.model = shading_model(options.shading);
+    shading.shadow_map = options.shadow_map;
+    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
+        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
+    Stage stage(session, "lighting");
+    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+}
 
 StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
                                      double wavelength) {
@@ -90,6 +100,13 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
     group(command->add_option("--algorithm", options.algorithm, "Renderer:" + algorithms)
               ->type_name("NAME")
               ->capture_default_str());
+    std::string shadings;
+    for (const ShadingInfo& shading : shading_models())
+        shadings += fmt::format("\n{}: {}", shading.name, shading.description);
+    group(command->add_option("--shading", options.shading, "Where light is worked out:" + shadings)
+              ->type_name("NAME")
+              ->capture_default_str());
+    group(add_count(command, "--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map"));
     group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
     group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
     group(add_length(command, "--size", options.size, "Width of the hologram"));
@@ -183,27 +200,29 @@ Scene load_scene(const std::string& name, const RenderOptions& options) {
     return scene;
 }
 
-std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const RenderOptions& options) {
-    return make_renderer(options.algorithm, std::make_shared<ShadedScene>(shade_vertices(scene)), options.grid());
+std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
+                                                   const RenderOptions& options) {
+    return make_renderer(options.algorithm, lit(session, scene, options), options.grid());
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Scene& scene,
+std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
                                                                       const RenderOptions& options) {
-    const auto shaded = std::make_shared<ShadedScene>(shade_vertices(scene));
+    const std::shared_ptr<const ShadedScene> shaded = lit(session, scene, options);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
     for (const LightFieldGrid& grid : options.grids()) faces.push_back(make_renderer(options.algorithm, shaded, grid));
     return faces;
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const std::string& name,
-                                                                    const RenderOptions& options) {
-    if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
-    return render_faces_on_demand(load_scene(name, options), options);
+std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                 const RenderOptions& options) {
+    if (input_kind(name) == InputKind::light_field) return open_light_field(name);
+    return render_on_demand(session, load_scene(name, options), options);
 }
 
-std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options) {
-    if (input_kind(name) == InputKind::light_field) return open_light_field(name);
-    return render_on_demand(load_scene(name, options), options);
+std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
+                                                                    const RenderOptions& options) {
+    if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
+    return render_faces_on_demand(session, load_scene(name, options), options);
 }
 
 bool needs_depth(const HologramOptions& options) {

@@ -20,6 +20,8 @@ namespace hogel::cli {
 /// How a scene becomes a light field.
 struct RenderOptions {
     std::string algorithm{defaults.algorithm};
+    std::string shading{defaults.shading};
+    std::size_t shadow_map = defaults.shadow_map;
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
     double size = defaults.size;
@@ -56,14 +58,17 @@ InputKind input_kind(const std::string& name);
 Scene load_scene(const std::string& name, const RenderOptions& options);
 
 /// The light field of a scene, rendered where it is read.
-std::unique_ptr<LightFieldSource> render_on_demand(const Scene& scene, const RenderOptions& options);
+std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
+                                                   const RenderOptions& options);
 
 /// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
-std::unique_ptr<LightFieldSource> open_or_render(const std::string& name, const RenderOptions& options);
+std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                 const RenderOptions& options);
 
 /// The same for all faces, the front first.
-std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Scene& scene, const RenderOptions& options);
-std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const std::string& name,
+std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
+                                                                      const RenderOptions& options);
+std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
                                                                     const RenderOptions& options);
 
 /// Whether holograms like this need the depth of every ray.

@@ -52,7 +52,7 @@ StreamInfo read_fields(ByteReader& reader) {
         *number = reader.take_double();
     const std::string face = reader.take_text();
     const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return name(known); });
-    if (found == all_faces.end()) throw Error(ErrorCode::bad_input, fmt::format("there is no face '{}'", face));
+    if (found == all_faces.end()) reader.damaged("its header names an unknown face of a hemicube");
     grid.face = *found;
     info.tile.ns = reader.take<std::uint64_t>();
     info.tile.nt = reader.take<std::uint64_t>();

@@ -61,6 +61,17 @@ TEST(Stream, reads_any_range_the_same) {
     }
 }
 
+// All of the sampling comes back, directions off centre and on the side of a hemicube too.
+TEST(Stream, keeps_the_grid) {
+    const TestFolder folder;
+    LightFieldGrid grid{3, 2, 1e-3, 4, 5, 0.5, 0.7, 1};
+    grid.center_u = 0.5;
+    grid.center_v = -0.1;
+    grid.face = Face::top;
+    compress(LightField(grid), folder / "a.hgl", small_tiles("threepass", "haar"));
+    EXPECT_TRUE(open_stream(folder / "a.hgl")->grid() == grid);
+}
+
 // What reading a damaged file comes to: an error, or nothing.
 std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
     try {

@@ -9,6 +9,7 @@
 #include "hogel/render/renderer.h"
 #include "hogel/scene/analytic.h"
 #include "hogel/scene/builtin.h"
+#include "hogel/shading/shading.h"
 
 namespace hogel {
 namespace {

@@ -145,7 +145,7 @@ class EpiRenderer final : public LightFieldSource {
         StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end1.x, end0.z, end1.z, {}, {}});
         set_values(ends.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], place.deepening * end0.z);
         set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], place.deepening * end1.z);
-        if (!scene_->textures.empty()) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
+        if (needs_samples_) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
     }
 
     void set_values(float (&values)[4], Rgb radiance, double z) const {
@@ -164,7 +164,7 @@ class EpiRenderer final : public LightFieldSource {
                                tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : nullptr},
                               {stride, stride, stride, stride}};
         shade(plane, work.ends, background_, out);
-        shade_textured(tile, plane, work, t, s, v);
+        shade_samples(tile, plane, work, t, s, v);
     }
 
     // The same where a row of directions is a column of the tile's.
@@ -187,19 +187,19 @@ class EpiRenderer final : public LightFieldSource {
                 for (std::size_t k = 0; k < plane.directions; ++k) to[k * grid_.directions_u] = from[k];
             }
         }
-        shade_textured(tile, plane, work, row, first, slow);
+        shade_samples(tile, plane, work, row, first, slow);
     }
 
-    // Samples of textured triangles once more, with the texture.
-    void shade_textured(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t row,
+    // Once more the samples for which interpolating the vertices' radiance is not enough.
+    void shade_samples(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t row,
                         std::size_t first, std::size_t slow) const {
-        if (scene_->textures.empty()) return;
+        if (!needs_samples_) return;
         for (std::size_t i = 0; i < plane.columns * plane.directions; ++i) {
             if (plane.words[i] == EpipolarPlane::nothing) continue;
             const std::size_t column = i / plane.directions, k = i % plane.directions;
             const std::size_t number = plane.words[i] & 0xffffffff;
             const StripOrigin& from = work.origins[number];
-            if (scene_->triangles[from.triangle].texture == ShadedScene::no_texture) continue;
+            if (!scene_->needs_samples(from.triangle)) continue;
             const StripEnds& strip = work.ends[number];
             const float w = part_of_strip(strip, plane.first_column + static_cast<double>(column),
                                           plane.first_direction + static_cast<double>(k));
@@ -209,7 +209,7 @@ class EpiRenderer final : public LightFieldSource {
             b[(from.lone + 2) % 3] = w * (1 - from.weight1);
             const float depth = strip.value0[3] + w * (strip.value1[3] - strip.value0[3]);
             const auto [t, s, v, u] = axes_.sample(row, first + column, slow, k);
-            store(tile, *scene_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
+            store(tile, *scene_, grid_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
         }
     }
 
@@ -219,6 +219,7 @@ class EpiRenderer final : public LightFieldSource {
     EpipolarFrame frame_;
     TriangleClusters clusters_;
     float background_[4];  // as StripEnds has its values
+    bool needs_samples_ = scene_->lighting || !scene_->textures.empty();
 };
 
 }  // namespace

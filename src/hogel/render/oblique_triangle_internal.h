@@ -110,7 +110,7 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
         point = {seen.triangle, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),
                  static_cast<float>(hit.weights[2]), hit.depth};
     }
-    store(tile, scene, point, t, s, v, u);
+    store(tile, scene, grid, point, t, s, v, u);
 }
 
 /// The triangles that can be seen at all. One thinner than 1e-12 of its length covers no sample but by rounding.

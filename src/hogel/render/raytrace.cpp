@@ -82,7 +82,7 @@ class RaytraceRenderer final : public LightFieldSource {
                 if (hit.triangle != RayHit::miss)
                     point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2,
                              -directions[v * nu + u].z * (near + hit.distance)};
-                store(tile, *scene_, point, t, s, v0 + v, u0 + u);
+                store(tile, *scene_, grid_, point, t, s, v0 + v, u0 + u);
             }
     }
 

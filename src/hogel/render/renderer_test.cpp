@@ -374,7 +374,7 @@ TEST(Renderers, agree_on_textures_with_and_without_depth) {
     picture->pixels = Array<float, 3>({4, 5, 3});
     for (std::size_t i = 0; i < picture->pixels.size(); ++i)
         picture->pixels.data()[i] = 0.5f + 0.5f * std::sin(float(3 * i));
-    scene.textures.push_back(picture);
+    scene.textures.emplace_back(picture);
     const auto vertex = [&](Vec3 p, Rgb radiance, float u, float v) {
         scene.positions.push_back(p);
         scene.radiance.push_back(radiance);

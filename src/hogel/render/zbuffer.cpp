@@ -84,7 +84,7 @@ class ZbufferRenderer final : public LightFieldSource {
     void store_in_metres(LightFieldTile& tile, VisiblePoint point, std::size_t t, std::size_t s, std::size_t v,
                          std::size_t u) const {
         point.depth *= grid_.along(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))).z;
-        store(tile, *scene_, point, t, s, v, u);
+        store(tile, *scene_, grid_, point, t, s, v, u);
     }
 
     void scan_convert(std::size_t index, const std::vector<SeenVertex>& vertices,

@@ -16,12 +16,16 @@ namespace {
 constexpr std::array scenes{
     BuiltinScene{"pumpkin", "a jack-o'-lantern with a candle inside, by moonlight"},
     BuiltinScene{"tower", "a bell tower with clock, open belfry and bell, in evening sun"},
+    BuiltinScene{"church", "the nave of a church, cut open along its length, in the light of 30 lamps"},
+    BuiltinScene{"chandelier", "sixteen candles, brass and crystal"},
+    BuiltinScene{"billiards", "a pool table under its lamps, just after the break"},
     BuiltinScene{"plane", "a picture parallel to the hologram, behind it (has a closed form)"},
     BuiltinScene{"two-planes", "a small picture in front of the hologram, a large one behind it (has a closed form)"},
     BuiltinScene{"sphere", "a diffuse ball about the centre of the hologram (has a closed form)"},
     BuiltinScene{"point", "a tiny bright disc behind the hologram (has a closed form)"},
 };
-constexpr std::array makers{&make_pumpkin, &make_tower, &make_plane, &make_two_planes, &make_sphere, &make_point};
+constexpr std::array makers{&make_pumpkin, &make_tower,      &make_church, &make_chandelier, &make_billiards,
+                            &make_plane,   &make_two_planes, &make_sphere, &make_point};
 static_assert(scenes.size() == makers.size());
 
 }  // namespace

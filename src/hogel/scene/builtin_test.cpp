@@ -2,14 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "hogel/core/error.h"
 #include "hogel/scene/analytic.h"
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading/shading.h"
 #include "hogel/trace/ray_caster.h"
 
 namespace hogel {
@@ -70,40 +74,104 @@ TEST(Analytic, names_what_it_knows) {
 }
 
 TEST(Builtin, scenes_fill_the_hologram_and_straddle_it) {
-    for (const char* name : {"pumpkin", "tower"}) {
+    for (const char* name : {"pumpkin", "tower", "church", "chandelier", "billiards"}) {
         const Scene scene = make_builtin_scene(name, size);
         EXPECT_NO_THROW(validate(scene));
         const auto [low, high] = bounds(scene);
-        EXPECT_NEAR(std::max(high.x - low.x, high.y - low.y), 0.88 * size, 0.03 * size) << name;
+        EXPECT_NEAR(std::max(high.x - low.x, high.y - low.y), 0.92 * size, 0.05 * size) << name;
         EXPECT_LT(low.z, -0.2 * size) << name;
-        EXPECT_GT(low.z, -0.35 * size) << name;
+        EXPECT_GT(low.z, -0.45 * size) << name;
         EXPECT_NEAR(high.z, -low.z, 0.05 * size) << name;
     }
 }
 
-TEST(Builtin, the_pumpkin_has_the_triangles_of_the_one_in_the_thesis) {
-    EXPECT_NEAR(static_cast<double>(triangle_count(make_builtin_scene("pumpkin", size))), 16318, 163);
+// The sizes of the scenes of [K] fig. 5.26 to 5.30, whose stand-ins these are.
+struct Showpiece {
+    const char* name;
+    double triangles;
+    std::size_t lights;
+    std::vector<std::string> closed;  ///< meshes without a rim
+};
+
+std::vector<Showpiece> showpieces() {
+    return {{"pumpkin", 16318, 2, {"candle"}},
+            {"church", 93459, 30, {"floor slab", "wood", "brass", "globes"}},
+            {"chandelier", 113338, 5, {"brass", "candles", "flames", "crystal"}},
+            {"billiards", 64444, 4, {"frame", "sights", "balls", "legs", "cue", "brass", "bulbs"}}};
 }
 
-// Every edge of skin and flesh together has two triangles, in opposite directions: nothing leaks at the carved rims.
-TEST(Builtin, the_pumpkin_is_watertight) {
-    const Scene scene = make_builtin_scene("pumpkin", size);
-    using Point = std::array<double, 3>;
+TEST(Builtin, scenes_have_the_triangles_and_lights_of_those_in_the_thesis) {
+    for (const Showpiece& expected : showpieces()) {
+        const Scene scene = make_builtin_scene(expected.name, size);
+        EXPECT_NEAR(static_cast<double>(triangle_count(scene)), expected.triangles, 0.05 * expected.triangles)
+            << expected.name;
+        EXPECT_EQ(scene.lights.size(), expected.lights) << expected.name;
+    }
+}
+
+TEST(Builtin, scenes_have_no_triangle_without_area_and_no_normal_without_length) {
+    for (const BuiltinScene& builtin : builtin_scenes())
+        for (const Mesh& mesh : make_builtin_scene(builtin.name, size).meshes) {
+            for (const auto& [a, b, c] : mesh.triangles) {
+                const Vec3 ab = mesh.positions[b] - mesh.positions[a], ac = mesh.positions[c] - mesh.positions[a];
+                const double longest = std::max(dot(ab, ab), dot(ac, ac));
+                ASSERT_GT(length(cross(ab, ac)), 1e-5 * longest) << builtin.name << ", " << mesh.name;
+            }
+            for (const Vec3& normal : mesh.normals) ASSERT_NEAR(length(normal), 1, 1e-12) << mesh.name;
+        }
+}
+
+TEST(Builtin, scenes_are_the_same_every_time) {
+    for (const Showpiece& showpiece : showpieces()) {
+        const Scene a = make_builtin_scene(showpiece.name, size), b = make_builtin_scene(showpiece.name, size);
+        ASSERT_EQ(a.meshes.size(), b.meshes.size());
+        for (std::size_t i = 0; i < a.meshes.size(); ++i) {
+            EXPECT_EQ(a.meshes[i].positions, b.meshes[i].positions);
+            EXPECT_EQ(a.meshes[i].normals, b.meshes[i].normals);
+            EXPECT_EQ(a.meshes[i].colors, b.meshes[i].colors);
+            EXPECT_EQ(a.meshes[i].triangles, b.meshes[i].triangles);
+        }
+    }
+}
+
+using Point = std::array<double, 3>;
+
+/// How many more triangles run along each edge one way than the other.
+std::map<std::array<Point, 2>, int> rims(const Scene& scene, const std::vector<std::string>& names) {
     std::map<std::array<Point, 2>, int> edges;
     for (const Mesh& mesh : scene.meshes) {
-        if (mesh.name != "skin" && mesh.name != "flesh") continue;
+        if (std::ranges::find(names, mesh.name) == names.end()) continue;
         for (const auto& t : mesh.triangles)
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3 p = mesh.positions[t[k]], q = mesh.positions[t[(k + 1) % 3]];
-                ++edges[{Point{p.x, p.y, p.z}, Point{q.x, q.y, q.z}}];
+                const Point from{p.x, p.y, p.z}, to{q.x, q.y, q.z};
+                if (from < to)
+                    ++edges[{from, to}];
+                else
+                    --edges[{to, from}];
             }
     }
-    EXPECT_GT(edges.size(), 30000u);
-    for (const auto& [edge, count] : edges) {
-        const auto twin = edges.find({edge[1], edge[0]});
-        ASSERT_NE(twin, edges.end());
-        ASSERT_EQ(twin->second, count);
+    return edges;
+}
+
+// Every edge has as many triangles one way as the other: nothing leaks. Skin and flesh of the pumpkin together, at the
+// carved rims; what is closed in the other scenes each by itself. The rest is sheets: masonry, vaults, cloth, shades.
+TEST(Builtin, what_should_be_watertight_is) {
+    const auto expect_closed = [](const Scene& scene, const std::vector<std::string>& names) {
+        const auto edges = rims(scene, names);
+        EXPECT_GT(edges.size(), 100u) << scene.name << ": " << names.front();
+        std::size_t open = 0;
+        for (const auto& [edge, count] : edges) open += count != 0;
+        EXPECT_EQ(open, 0u) << scene.name << ": " << names.front();
+    };
+    expect_closed(make_builtin_scene("pumpkin", size), {"skin", "flesh"});
+    for (const Showpiece& showpiece : showpieces()) {
+        const Scene scene = make_builtin_scene(showpiece.name, size);
+        for (const std::string& name : showpiece.closed) expect_closed(scene, {name});
     }
+    EXPECT_GT(std::ranges::count_if(rims(make_builtin_scene("billiards", size), {"cloth"}),
+                                    [](const auto& edge) { return edge.second != 0; }),
+              200);
 }
 
 TEST(Builtin, radiances_are_those_of_a_picture) {
@@ -119,13 +187,15 @@ TEST(Builtin, radiances_are_those_of_a_picture) {
 TEST(Builtin, the_size_of_the_hologram_changes_nothing_but_the_size) {
     for (const BuiltinScene& builtin : builtin_scenes()) {
         const Scene small = make_builtin_scene(builtin.name, size), large = make_builtin_scene(builtin.name, 2 * size);
+        ASSERT_EQ(small.meshes.size(), large.meshes.size());
+        for (std::size_t m = 0; m < small.meshes.size(); ++m)
+            for (std::size_t i = 0; i < small.meshes[m].positions.size(); ++i)
+                ASSERT_NEAR(length(2 * small.meshes[m].positions[i] - large.meshes[m].positions[i]), 0, 1e-12 * size);
+        if (triangle_count(small) > 20000) continue;  // lighting takes its time
         const ShadedScene a = shade_vertices(small), b = shade_vertices(large);
-        ASSERT_EQ(a.positions.size(), b.positions.size());
         std::size_t different = 0;  // a shadow ray that grazes an edge may go either way
-        for (std::size_t i = 0; i < a.positions.size(); ++i) {
-            ASSERT_NEAR(length(2 * a.positions[i] - b.positions[i]), 0, 1e-12 * size);
+        for (std::size_t i = 0; i < a.positions.size(); ++i)
             different += std::abs(a.radiance[i].r - b.radiance[i].r) > 1e-4f;
-        }
         EXPECT_LT(different, 5 + a.positions.size() / 1000) << builtin.name;
     }
 }

@@ -71,6 +71,8 @@ inline double hashed(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return static_cast<double>(h ^ (h >> 15)) / 4294967296.0;
 }
 
+inline double square(double x) { return x * x; }
+
 inline Rgb mix(Rgb a, Rgb b, double weight) {
     const auto w = static_cast<float>(weight < 0 ? 0 : weight > 1 ? 1 : weight);
     return (1 - w) * a + w * b;

@@ -117,6 +117,7 @@ void add_normals(Mesh& mesh, double crease) {
             const auto twin = static_cast<Index>(mesh.positions.size());
             append_copy(mesh.positions, vertex);
             append_copy(mesh.colors, vertex);
+            append_copy(mesh.radiance, vertex);
             append_copy(mesh.texture_coordinates, vertex);
             mesh.normals.push_back(normal);
             uses[i].next_twin = twin;

@@ -4,7 +4,7 @@
 #include "hogel/scene/builtin_internal.h"
 #include "hogel/scene/carve.h"
 #include "hogel/scene/import.h"
-#include "hogel/scene/mesh_builder.h"
+#include "hogel/scene/shapes.h"
 
 namespace hogel {
 namespace {
@@ -16,8 +16,6 @@ constexpr double height = 0.78;        // of the body above its middle
 constexpr double depth_squash = 0.68;  // pumpkins are rarely round
 constexpr double wall = 0.1;
 constexpr Vec3 flame_tip{0.03, -0.27, 0.12};
-
-double square(double x) { return x * x; }
 
 /// How deep in a groove between two ribs an azimuth lies: 1 at its bottom, 0 on the ribs.
 double groove(double azimuth) {
@@ -227,14 +225,6 @@ Mesh ground() {
     for (Vec3& p : builder.mesh.positions) p.z *= depth_squash;
     builder.mesh.name = "ground";
     return std::move(builder.mesh);
-}
-
-/// Drops the triangles of zero area that revolve() makes at the poles.
-void drop_slivers(Mesh& mesh) {
-    std::erase_if(mesh.triangles, [&](const auto& t) {
-        const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
-        return length(cross(b - a, c - a)) < 1e-12;
-    });
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ void validate(const Scene& scene) {
         validate_attribute(mesh, mesh.positions, "positions", false);
         validate_attribute(mesh, mesh.normals, "normals", true);
         validate_attribute(mesh, mesh.colors, "colors", true);
+        validate_attribute(mesh, mesh.radiance, "radiances", true);
         validate_attribute(mesh, mesh.texture_coordinates, "texture coordinates", true);
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
             for (std::uint32_t vertex : mesh.triangles[i])

@@ -11,9 +11,13 @@
 
 namespace hogel {
 
-/// How a surface reflects: diffuse, with a colour that vertices and a texture modulate.
+/// How a surface reflects, by the words of glTF 2.0: a base colour, which vertices and a texture modulate, and a glossy
+/// lobe. Without the lobe (reflectance and metallic zero) a surface is matt.
 struct Material {
     Rgb base_color{0.8f, 0.8f, 0.8f};                 ///< linear reflectance
+    float reflectance = 0;                            ///< of the lobe at normal incidence; 0.04 for glass and lacquer
+    float metallic = 0;                               ///< 1: no diffuse light, and a lobe in the base colour
+    float roughness = 1;                              ///< of the lobe: its width is about the square of this
     Rgb emission{0, 0, 0};                            ///< radiance that it sends out by itself
     std::shared_ptr<const Image> base_color_texture;  ///< linear, repeats; null without one
 };
@@ -27,6 +31,7 @@ struct Mesh {
     std::vector<Vec3> positions;  ///< metres, world frame: the hologram is the plane z = 0, the viewer at z > 0
     std::vector<Vec3> normals;    ///< unit length
     std::vector<Rgb> colors;      ///< linear, multiplies the base colour
+    std::vector<Rgb> radiance;    ///< given: what the surface shows whatever the lights (the texture multiplies it)
     std::vector<TextureCoordinate> texture_coordinates;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
     Material material;

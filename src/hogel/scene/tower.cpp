@@ -5,6 +5,7 @@
 #include "hogel/scene/builtin_internal.h"
 #include "hogel/scene/import.h"
 #include "hogel/scene/masonry.h"
+#include "hogel/scene/shapes.h"
 
 namespace hogel {
 namespace {
@@ -182,7 +183,10 @@ Scene make_tower(double hologram_size) {
     scene.meshes = {std::move(masonry.faceted.mesh), bell(), std::move(masonry.smooth.mesh)};
     scene.meshes[0].name = "masonry";
     scene.meshes[2].name = "trees and finial";
-    for (Mesh& mesh : scene.meshes) mesh.material.base_color = {1, 1, 1};
+    for (Mesh& mesh : scene.meshes) {
+        drop_slivers(mesh);
+        mesh.material.base_color = {1, 1, 1};
+    }
     add_missing_normals(scene, 0.7);
 
     Light sun;

@@ -1,4 +1,4 @@
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading/shading.h"
 
 #include <gtest/gtest.h>
 

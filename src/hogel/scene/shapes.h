@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "hogel/scene/mesh_builder.h"
+
+namespace hogel {
+
+/// A ball whose poles lie along `axis`, in rings at the given latitudes (from -π/2 to π/2, both included); each ring
+/// has one colour. Two rings close to each other make a sharp line between two colours.
+struct Ring {
+    double latitude;
+    Rgb color;
+};
+void add_ball(MeshBuilder& builder, Vec3 center, double radius, Vec3 axis, std::size_t columns,
+              std::span<const Ring> rings);
+
+/// A ball of one colour in evenly spaced rings, its poles above and below.
+void add_ball(MeshBuilder& builder, Vec3 center, double radius, std::size_t columns, std::size_t rows, Rgb color);
+
+/// A round tube along a path at(0), …, at(steps), of radius(0), …, radius(steps), closed by flat ends. The path must
+/// not turn by 180 degrees in one step.
+void add_tube(MeshBuilder& builder, std::size_t columns, std::size_t steps, const std::function<Vec3(std::size_t)>& at,
+              const std::function<double(std::size_t)>& radius, const std::function<Rgb(Vec3)>& color);
+
+/// A straight one.
+void add_rod(MeshBuilder& builder, Vec3 from, Vec3 to, double radius, std::size_t columns, Rgb color);
+
+/// A ring: a tube of radius `thickness` around the circle of the given radius in the plane through `center` that is
+/// perpendicular to `axis`.
+void add_torus(MeshBuilder& builder, Vec3 center, Vec3 axis, double radius, double thickness, std::size_t around,
+               std::size_t columns, Rgb color);
+
+/// A box whose faces are grids of patches no longer than `patch`, each face with vertices of its own.
+void add_box(MeshBuilder& builder, Vec3 low, Vec3 high, double patch, const std::function<Rgb(Vec3)>& color);
+
+/// Drops the triangles of (almost) no area, such as surfaces of revolution have at their poles.
+void drop_slivers(Mesh& mesh);
+
+/// Two unit vectors that make a right-handed frame with a third, `along`: first × second = along.
+struct Across {
+    Vec3 first, second;
+};
+Across across(Vec3 along);
+
+}  // namespace hogel

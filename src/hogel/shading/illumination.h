@@ -1,0 +1,24 @@
+#pragma once
+
+#include <limits>
+
+#include "hogel/scene/scene.h"
+
+namespace hogel {
+
+/// What a light sends to a point.
+struct Illumination {
+    Vec3 to_light;  ///< unit length; zero at the light itself, which lights nothing there
+    double distance = std::numeric_limits<double>::infinity();
+    double falloff = 1;  ///< irradiance at normal incidence per intensity
+};
+
+inline Illumination illuminate(const Light& light, Vec3 point) {
+    if (light.kind == Light::Kind::directional) return {-normalize(light.direction)};
+    const Vec3 way = light.position - point;
+    const double distance = length(way);
+    if (distance == 0) return {{}, 0, 0};
+    return {way / distance, distance, 1 / (distance * distance)};
+}
+
+}  // namespace hogel

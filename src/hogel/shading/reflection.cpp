@@ -1,0 +1,167 @@
+#include "hogel/shading/reflection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace hogel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double schlick(double cosine) {
+    const double rest = 1 - std::clamp(cosine, 0.0, 1.0), squared = rest * rest;
+    return squared * squared * rest;
+}
+
+double distribution(double cos_half, double alpha) {
+    const double a2 = alpha * alpha, d = cos_half * cos_half * (a2 - 1) + 1;
+    return a2 / (pi * d * d);
+}
+
+/// Smith's masking and shadowing over 4 (n·l)(n·v).
+double visibility(double cos_light, double cos_view, double alpha) {
+    const double a2 = alpha * alpha;
+    const double l = cos_view * std::sqrt(a2 + (1 - a2) * cos_light * cos_light);
+    const double v = cos_light * std::sqrt(a2 + (1 - a2) * cos_view * cos_view);
+    return 0.5 / (l + v);
+}
+
+/// The albedo by a sum over normals of facets, spread as the lobe has them.
+LobeAlbedo integrate(double cosine, double roughness) {
+    constexpr std::uint32_t samples = 1024;
+    const double alpha = roughness * roughness;
+    const Vec3 to_viewer{std::sqrt(1 - cosine * cosine), 0, cosine};
+    LobeAlbedo sum{0, 0};
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        // Hammersley's points: i/n, and i with its binary digits reversed.
+        std::uint32_t bits = i;
+        double reversed = 0;
+        for (double place = 0.5; bits != 0; bits >>= 1, place *= 0.5) reversed += bits & 1 ? place : 0;
+        const double x = (i + 0.5) / samples, angle = 2 * pi * reversed;
+        const double cos_half = std::sqrt((1 - x) / (1 + (alpha * alpha - 1) * x));
+        const double sin_half = std::sqrt(1 - cos_half * cos_half);
+        const Vec3 half{sin_half * std::cos(angle), sin_half * std::sin(angle), cos_half};
+        const double view_half = dot(to_viewer, half);
+        const double cos_light = 2 * view_half * cos_half - cosine;
+        if (!(cos_light > 0 && view_half > 0)) continue;
+        const double weight = 4 * visibility(cos_light, cosine, alpha) * cos_light * view_half / cos_half;
+        const double grazing = schlick(view_half);
+        sum.scale += weight * (1 - grazing) / samples;
+        sum.offset += weight * grazing / samples;
+    }
+    return sum;
+}
+
+constexpr std::size_t cells = 32;
+
+struct Table {
+    std::array<std::array<LobeAlbedo, cells>, cells> albedo;  // [roughness][cosine]
+    std::array<LobeAlbedo, cells> mean;
+
+    static double cosine(std::size_t i) {
+        // Denser towards grazing angles, where the albedo changes fast.
+        const double x = (static_cast<double>(i) + 1e-3) / (cells - 1 + 1e-3);
+        return x * x;
+    }
+    static double roughness(std::size_t k) {
+        return least_roughness + (1 - least_roughness) * static_cast<double>(k) / (cells - 1);
+    }
+    Table() {
+        for (std::size_t k = 0; k < cells; ++k) {
+            for (std::size_t i = 0; i < cells; ++i) albedo[k][i] = integrate(cosine(i), roughness(k));
+            // ∫ 2 µ E(µ) dµ, E linear between the nodes in √µ as it is looked up.
+            LobeAlbedo sum{0, 0};
+            constexpr int steps = 512;
+            for (int j = 0; j < steps; ++j) {
+                const double mu = (j + 0.5) / steps;
+                const LobeAlbedo here = look_up(k, mu);
+                sum.scale += 2 * mu * here.scale / steps;
+                sum.offset += 2 * mu * here.offset / steps;
+            }
+            mean[k] = sum;
+        }
+    }
+    LobeAlbedo look_up(std::size_t k, double cosine_at) const {
+        const double at = std::sqrt(std::clamp(cosine_at, 0.0, 1.0)) * (cells - 1);
+        const auto i = std::min(static_cast<std::size_t>(at), cells - 2);
+        const double w = at - static_cast<double>(i);
+        const LobeAlbedo &a = albedo[k][i], &b = albedo[k][i + 1];
+        return {a.scale + w * (b.scale - a.scale), a.offset + w * (b.offset - a.offset)};
+    }
+};
+
+const Table& table() {
+    static const Table made;
+    return made;
+}
+
+struct Row {
+    std::size_t k;
+    double weight;
+};
+
+Row row_of(double roughness) {
+    const double at =
+        (std::clamp(roughness, least_roughness, 1.0) - least_roughness) / (1 - least_roughness) * (cells - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), cells - 2);
+    return {k, at - static_cast<double>(k)};
+}
+
+LobeAlbedo mixed(LobeAlbedo a, LobeAlbedo b, double w) {
+    return {a.scale + w * (b.scale - a.scale), a.offset + w * (b.offset - a.offset)};
+}
+
+}  // namespace
+
+LobeAlbedo lobe_albedo(double cosine, double roughness) {
+    const auto [k, weight] = row_of(roughness);
+    return mixed(table().look_up(k, cosine), table().look_up(k + 1, cosine), weight);
+}
+
+LobeAlbedo mean_lobe_albedo(double roughness) {
+    const auto [k, weight] = row_of(roughness);
+    return mixed(table().mean[k], table().mean[k + 1], weight);
+}
+
+Reflection::Reflection(const Material& material, Rgb color, double cos_view)
+    : diffuse_((1 - material.metallic) * color), cos_view_(cos_view) {
+    if (!(material.reflectance > 0 || material.metallic > 0)) return;
+    glossy_ = true;
+    const float plain = (1 - material.metallic) * material.reflectance;
+    lobe_ = Rgb{plain, plain, plain} + material.metallic * color;
+    most_ = std::max({lobe_.r, lobe_.g, lobe_.b});
+    roughness_ = std::clamp(double{material.roughness}, least_roughness, 1.0);
+    const LobeAlbedo here = lobe_albedo(std::abs(cos_view), roughness_), mean = mean_lobe_albedo(roughness_);
+    left_by_lobe_ = (1 - (most_ * here.scale + here.offset)) / (1 - (most_ * mean.scale + mean.offset));
+}
+
+Rgb Reflection::towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const {
+    if (!(cos_light > 0)) return {0, 0, 0};
+    if (!glossy_) return static_cast<float>(cos_light * std::numbers::inv_pi) * diffuse_;
+    const LobeAlbedo lit = lobe_albedo(cos_light, roughness_);
+    const double left = left_by_lobe_ * (1 - (most_ * lit.scale + lit.offset));
+    Rgb sum = static_cast<float>(left * cos_light * std::numbers::inv_pi) * diffuse_;
+    if (!(cos_view_ > 0)) return sum;
+    const Vec3 between = to_light + to_viewer;
+    const double size = length(between);
+    if (!(size > 0)) return sum;
+    const double alpha = roughness_ * roughness_, grazing = schlick(dot(to_viewer, between) / size);
+    const double peak =
+        distribution(dot(normal, between) / size, alpha) * visibility(cos_light, cos_view_, alpha) * cos_light;
+    const auto less = static_cast<float>(peak * (1 - grazing)), more = static_cast<float>(peak * grazing);
+    sum += less * lobe_ + Rgb{more, more, more};
+    return sum;
+}
+
+Rgb Reflection::in_uniform_light() const {
+    if (!glossy_) return diffuse_;
+    const LobeAlbedo here = lobe_albedo(std::abs(cos_view_), roughness_);
+    const auto left = static_cast<float>(1 - (most_ * here.scale + here.offset));
+    const auto scale = static_cast<float>(here.scale), offset = static_cast<float>(here.offset);
+    return left * diffuse_ + scale * lobe_ + Rgb{offset, offset, offset};
+}
+
+}  // namespace hogel

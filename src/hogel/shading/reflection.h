@@ -1,0 +1,48 @@
+#pragma once
+
+#include "hogel/scene/scene.h"
+
+namespace hogel {
+
+/// How a point of a surface reflects: a diffuse part and a glossy lobe (GGX microfacets) that together reflect no more
+/// than they receive, and the same both ways.
+///
+/// The lobe is D V F: the distribution of Trowbridge and Reitz, the masking and shadowing of Smith for correlated
+/// heights and Schlick's reflectance (Walter et al., "Microfacet models for refraction", 2007; Heitz, "Understanding
+/// the masking-shadowing function", 2014). The diffuse part gets what the lobe leaves, coming and going:
+///     color/π · (1 − E(n·l)) (1 − E(n·v)) / (1 − mean of E),
+/// where E is the lobe's albedo (Kelemen and Szirmay-Kalos, 2001). In uniform light a white surface shows that light.
+class Reflection {
+  public:
+    /// @param color  of the diffuse part, and of the lobe as far as the material is metallic
+    /// @param cos_view  n·v; the diffuse part looks the same from behind (n·v < 0), the lobe is seen from in front only
+    Reflection(const Material& material, Rgb color, double cos_view);
+
+    /// The radiance towards the viewer for irradiance 1 at normal incidence from the unit direction l: the distribution
+    /// function times n·l. n is the unit normal, v the unit direction to the viewer.
+    Rgb towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const;
+    /// The radiance towards the viewer in uniform light of radiance 1.
+    Rgb in_uniform_light() const;
+
+  private:
+    bool glossy_ = false;
+    Rgb diffuse_, lobe_;  // lobe_: its reflectance at normal incidence
+    double most_ = 0;     // the largest channel of that, for E
+    double roughness_ = 1, cos_view_ = 1;
+    double left_by_lobe_ = 1;  // (1 − E(n·v)) / (1 − mean of E)
+};
+
+/// The albedo of a lobe whose reflectance at normal incidence is r: r · scale + offset.
+/// Both come from a table over cosine and roughness, within 0.5 %.
+struct LobeAlbedo {
+    double scale, offset;
+};
+LobeAlbedo lobe_albedo(double cosine, double roughness);
+
+/// Its mean over the hemisphere, weighted by the cosine.
+LobeAlbedo mean_lobe_albedo(double roughness);
+
+/// Surfaces smoother than this are treated as this rough: a lamp is a point, and its image would be one too.
+inline constexpr double least_roughness = 0.15;
+
+}  // namespace hogel

@@ -1,0 +1,186 @@
+// Lighting at samples against closed forms, against lighting at vertices, and against rays.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "hogel/core/error.h"
+#include "hogel/core/parallel.h"
+#include "hogel/shading/shading.h"
+
+namespace hogel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Mesh square(Vec3 center, Vec3 right, Vec3 up) {
+    Mesh mesh;
+    mesh.positions = {center - right - up, center + right - up, center + right + up, center - right + up};
+    mesh.normals.assign(4, normalize(cross(right, up)));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.material.base_color = {0.8f, 0.4f, 1};
+    return mesh;
+}
+
+Light lamp(Vec3 position, float intensity) {
+    Light light;
+    light.kind = Light::Kind::point;
+    light.position = position;
+    light.intensity = {intensity, intensity, intensity};
+    return light;
+}
+
+ShadingOptions by(ShadingModel model, std::size_t shadow_map = 128) {
+    ShadingOptions options;
+    options.model = model;
+    options.shadow_map = shadow_map;
+    return options;
+}
+
+/// A floor, a small roof over part of it, one lamp with shadows and one without.
+Scene roofed() {
+    Scene scene;
+    scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), square({0.2, 0.1, 0.5}, {0.3, 0, 0}, {0, 0.2, 0})};
+    scene.lights = {lamp({0.1, 0, 2}, 3), lamp({-1, 0.5, 1}, 2)};
+    scene.lights[1].casts_shadows = false;
+    scene.ambient = {0.1f, 0.1f, 0.1f};
+    scene.meshes[0].material.emission = {0.05f, 0, 0};
+    return scene;
+}
+
+// In the middle of a large triangle, where interpolated light would be far off.
+TEST(SampleLighting, direct_is_the_closed_form_at_every_point) {
+    Scene scene = roofed();
+    const ShadedScene shaded = shade(scene, by(ShadingModel::direct));
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> part(0, 1);
+    int lit = 0, dark = 0;
+    for (int i = 0; i < 500; ++i) {
+        const float b1 = part(engine), b2 = part(engine) * (1 - b1);
+        const Vec3 p = double(1 - b1 - b2) * Vec3{-1, -1, 0} + double(b1) * Vec3{1, -1, 0} + double(b2) * Vec3{1, 1, 0};
+        const Vec3 through = p + 0.25 * (scene.lights[0].position - p);  // the roof's height
+        const double edge = std::max(std::abs(through.x - 0.2) - 0.3, std::abs(through.y - 0.1) - 0.2);
+        if (std::abs(edge) < 0.04) continue;
+        double e = 0;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Vec3 way = scene.lights[k].position - p;
+            const double r = length(way);
+            if (k == 1 || edge > 0) e += scene.lights[k].intensity.r * way.z / (r * r * r);
+        }
+        (edge > 0 ? lit : dark)++;
+        const Rgb seen = radiance_at(shaded, 0, 1 - b1 - b2, b1, b2);
+        ASSERT_NEAR(seen.r, 0.8 * (0.1 + e / pi) + 0.05, 1e-5);
+        ASSERT_NEAR(seen.g, 0.4 * (0.1 + e / pi), 1e-5);
+    }
+    EXPECT_GT(lit, 100);
+    EXPECT_GT(dark, 20);
+}
+
+// The same light, and where no shadow falls the very light of shading 'vertex'.
+TEST(SampleLighting, shadowed_is_the_interpolated_light_of_the_vertices_where_nothing_is_in_the_way) {
+    Scene scene = roofed();
+    const ShadedScene at_vertices = shade_vertices(scene), shadowed = shade(scene, by(ShadingModel::shadowed));
+    for (const auto& [b1, b2] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {0.1f, 0.05f}, {0.02f, 0.9f}}) {
+        const Rgb a = radiance_at(at_vertices, 0, 1 - b1 - b2, b1, b2),
+                  b = radiance_at(shadowed, 0, 1 - b1 - b2, b1, b2);
+        EXPECT_NEAR(a.r, b.r, 1e-6);
+        EXPECT_NEAR(a.b, b.b, 1e-6);
+    }
+    // In the middle of the shadow the light without shadows is left.
+    scene.lights[0].intensity = {0, 0, 0};
+    const ShadedScene without = shade_vertices(scene);
+    const Rgb in_shadow = radiance_at(shadowed, 0, 0.35f, 0.1f, 0.55f);
+    EXPECT_NEAR(in_shadow.g, radiance_at(without, 0, 0.35f, 0.1f, 0.55f).g, 1e-6);
+    EXPECT_LT(in_shadow.g, 0.8f * radiance_at(at_vertices, 0, 0.35f, 0.1f, 0.55f).g);
+}
+
+TEST(SampleLighting, a_glossy_surface_shines_where_it_mirrors_the_lamp) {
+    Scene scene;
+    scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
+    scene.meshes[0].material.reflectance = 0.04f;
+    scene.meshes[0].material.roughness = 0.3f;
+    scene.lights = {lamp({-1, 0, 1}, 2)};
+    const ShadedScene glossy = shade(scene, by(ShadingModel::direct));
+    scene.meshes[0].material.reflectance = 0;
+    const ShadedScene matt = shade(scene, by(ShadingModel::direct));
+    const auto middle = [](const ShadedScene& shaded, Vec3 to_viewer) {
+        return radiance_at(shaded, 0, 0.5f, 0, 0.5f, {normalize(to_viewer), 0}).r;
+    };
+    EXPECT_GT(middle(glossy, {1, 0, 1}), 1.3f * middle(matt, {1, 0, 1}));
+    EXPECT_LT(middle(glossy, {-1, 0, 0.4}), middle(matt, {-1, 0, 0.4}));
+    EXPECT_EQ(middle(matt, {1, 0, 1}), middle(matt, {-1, 0, 0.4}));
+}
+
+TEST(SampleLighting, given_radiance_is_shown_whatever_the_lights_in_every_model) {
+    Scene scene = roofed();
+    scene.meshes[0].radiance = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0, 0, 0}};
+    for (const ShadingInfo& info : shading_models()) {
+        if (info.model == ShadingModel::given) {
+            EXPECT_THROW(shade(scene, by(info.model)), Error);
+            continue;
+        }
+        const Rgb seen = radiance_at(shade(scene, by(info.model)), 0, 0.5f, 0.25f, 0.25f);
+        EXPECT_NEAR(seen.r, 3.25f, 1e-6) << info.name;
+        EXPECT_NEAR(seen.g, 4.25f, 1e-6) << info.name;
+    }
+    scene.meshes[1].radiance.assign(4, {0.5f, 0.5f, 0.5f});
+    EXPECT_EQ(radiance_at(shade(scene, by(ShadingModel::given)), 3, 0.5f, 0.25f, 0.25f).r, 0.5f);
+}
+
+TEST(SampleLighting, shadow_maps_that_are_too_large_are_refused_and_their_memory_is_told) {
+    const Scene scene = roofed();
+    ShadingOptions options = by(ShadingModel::direct, 1000);
+    EXPECT_EQ(shadow_map_bytes(scene, options), 6 * 4 * 1e6);
+    options.most_shadow_bytes = 23e6;
+    try {
+        shade(scene, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("take 0.024 GB; expected at most 0.023 GB"), std::string::npos)
+            << error.what();
+    }
+    options.shadow_map = 0;
+    EXPECT_THROW(shade(scene, options), Error);
+    options.model = ShadingModel::vertex;
+    EXPECT_EQ(shadow_map_bytes(scene, options), 0);
+    EXPECT_NO_THROW(shade(scene, options));
+}
+
+TEST(SampleLighting, triangles_without_area_are_finite) {
+    Scene scene = roofed();
+    scene.meshes[0].triangles.push_back({0, 1, 1});
+    scene.meshes[0].positions[3] = scene.meshes[0].positions[0];
+    for (const ShadingModel model : {ShadingModel::direct, ShadingModel::shadowed}) {
+        const ShadedScene shaded = shade(scene, by(model));
+        for (const std::size_t index : {1, 2}) {
+            const Rgb seen = radiance_at(shaded, index, 0.4f, 0.3f, 0.3f);
+            EXPECT_TRUE(std::isfinite(seen.r) && std::isfinite(seen.g) && std::isfinite(seen.b));
+        }
+    }
+}
+
+TEST(SampleLighting, is_the_same_for_any_number_of_threads) {
+    const Scene scene = roofed();
+    const ShadedScene many = shade(scene, by(ShadingModel::direct));
+    const ThreadLimit one(1);
+    const ShadedScene single = shade(scene, by(ShadingModel::direct));
+    for (int i = 0; i < 200; ++i) {
+        const float b1 = float(i) / 200, b2 = (1 - b1) * float((7 * i) % 10) / 10;
+        EXPECT_EQ(radiance_at(many, 0, 1 - b1 - b2, b1, b2), radiance_at(single, 0, 1 - b1 - b2, b1, b2));
+    }
+}
+
+TEST(SampleLighting, unknown_models_are_usage_errors_that_list_the_known_ones) {
+    try {
+        shading_model("phong");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("vertex, direct, shadowed, given"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace hogel

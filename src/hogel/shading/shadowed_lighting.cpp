@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/shading/illumination.h"
+#include "hogel/shading/lighting_internal.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t vertices_per_task = 4096;
+
+/// What each light alone would make of the vertices without shadows, interpolated, and let through by its shadow map.
+class ShadowedLighting final : public SampleLighting {
+  public:
+    ShadowedLighting(const Scene& scene, std::vector<ShadowMap> maps) : maps_(std::move(maps)) {
+        for (const Light& light : scene.lights) intensities_.push_back(light.intensity);
+        std::size_t base = 0;
+        for (const Mesh& mesh : scene.meshes) {
+            const std::size_t n = mesh.positions.size(), lights = scene.lights.size();
+            given_.push_back(!mesh.radiance.empty());
+            for (std::size_t i = 0; i < n; ++i) {
+                const Rgb color = vertex_color(mesh, i);
+                colors_.push_back(color);
+                unshadowed_.push_back(color * scene.ambient + mesh.material.emission);
+            }
+            irradiance_.resize((base + n) * lights);
+            parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
+                for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i)
+                    for (std::size_t k = 0; k < lights; ++k) {
+                        const Illumination from = illuminate(scene.lights[k], mesh.positions[i]);
+                        const double cosine = mesh.normals.empty() ? 0 : dot(mesh.normals[i], from.to_light);
+                        irradiance_[(base + i) * lights + k] = static_cast<float>(std::max(0.0, cosine) * from.falloff);
+                    }
+            });
+            base += n;
+        }
+    }
+
+    Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
+                 const Sight&) const override {
+        const ShadedScene::Triangle& triangle = scene.triangles[index];
+        const auto& vertices = triangle.vertices;
+        if (given_[triangle.mesh]) return texture * interpolate(scene.radiance, vertices, weights);
+        const SurfacePoint point(scene, vertices, weights);
+        Rgb sum = interpolate(unshadowed_, vertices, weights);
+        constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
+        for (std::size_t k = 0; k < intensities_.size(); ++k) {
+            Rgb light{0, 0, 0};
+            for (std::size_t i = 0; i < 3; ++i)
+                light += weights[i] * irradiance_[vertices[i] * intensities_.size() + k] * colors_[vertices[i]];
+            if (light == Rgb{0, 0, 0}) continue;
+            sum += reflected * maps_[k].lit(point.position, point.flat_normal) * (intensities_[k] * light);
+        }
+        return texture * sum;
+    }
+
+  private:
+    std::vector<ShadowMap> maps_;
+    std::vector<Rgb> intensities_;
+    std::vector<bool> given_;  // whether a mesh has radiance of its own
+    std::vector<Rgb> colors_, unshadowed_;
+    std::vector<float> irradiance_;  // [vertex][light], per intensity
+};
+
+}  // namespace
+
+std::unique_ptr<SampleLighting> make_shadowed_lighting(const Scene& scene, std::vector<ShadowMap> maps) {
+    return std::make_unique<ShadowedLighting>(scene, std::move(maps));
+}
+
+}  // namespace hogel
