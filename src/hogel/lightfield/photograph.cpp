@@ -26,6 +26,9 @@ double van_der_corput(std::size_t i, std::size_t base) {
     return value;
 }
 
+// Values that the points of the lens may see of one tile at a time: 64 MiB.
+constexpr std::size_t most_seen = std::size_t{1} << 24;
+
 // Points spread evenly over the pupil's disc (Halton, mapped by equal areas), each with a place of its own in the
 // pixel, so that one set of rays averages over the pupil and over the pixel's area.
 std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
@@ -71,12 +74,18 @@ class Exposure {
     // Adds all rays of a face that cross the hologram plane in a cell whose upper left hogel is in `cells`; the tile
     // holds these hogels and their right and lower neighbours.
     void add(std::size_t face, const LightFieldTile& tile, const HogelRange& cells) {
-        // What each point of the lens sees of each hogel.
-        Array<float, 4> seen({points_.size(), tile.range.nt, tile.range.ns, grid_.channels});
-        parallel_for(points_.size(), [&](std::size_t i) { look(face, tile, points_[i], seen[i]); });
-        parallel_for(camera_.picture.height, [&](std::size_t row) {
-            for (std::size_t i = 0; i < points_.size(); ++i) expose(row, points_[i], tile.range, cells, seen[i]);
-        });
+        // What each point of the lens sees of each hogel, for as many points at a time as a modest room holds.
+        const std::size_t seen_by_one = tile.range.nt * tile.range.ns * grid_.channels;
+        const std::size_t together = std::clamp<std::size_t>(most_seen / seen_by_one, 1, points_.size());
+        Array<float, 4> seen({together, tile.range.nt, tile.range.ns, grid_.channels});
+        for (std::size_t first = 0; first < points_.size(); first += together) {
+            const std::size_t count = std::min(together, points_.size() - first);
+            std::ranges::fill(seen.elements(), 0.0f);
+            parallel_for(count, [&](std::size_t i) { look(face, tile, points_[first + i], seen[i]); });
+            parallel_for(camera_.picture.height, [&](std::size_t row) {
+                for (std::size_t i = 0; i < count; ++i) expose(row, points_[first + i], tile.range, cells, seen[i]);
+            });
+        }
     }
 
     Image finish() {

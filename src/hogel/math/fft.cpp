@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 
 #include "hogel/core/error.h"
+#include "hogel/core/parallel.h"
 
 namespace hogel {
 namespace {
@@ -21,79 +23,128 @@ std::mutex& planner() {
 
 fftwf_complex* fftw(std::complex<float>* p) { return reinterpret_cast<fftwf_complex*>(p); }
 
+// A plan for each direction, for data at a cache line and for data anywhere.
+class Directions {
+  public:
+    /// `make(scratch, sign, flags)` plans a transform in place of that many values.
+    template <class Make>
+    Directions(std::size_t values, Make make) {
+        Array<std::complex<float>, 1> scratch({values});
+        const std::lock_guard lock(planner());
+        alignment_ = fftwf_alignment_of(reinterpret_cast<float*>(scratch.data()));
+        for (int i = 0; i < 2; ++i) {
+            const int sign = i == 0 ? FFTW_FORWARD : FFTW_BACKWARD;
+            aligned_[i] = make(fftw(scratch.data()), sign, FFTW_ESTIMATE);
+            unaligned_[i] = make(fftw(scratch.data()), sign, FFTW_ESTIMATE | FFTW_UNALIGNED);
+        }
+    }
+    ~Directions() {
+        const std::lock_guard lock(planner());
+        for (int i = 0; i < 2; ++i) {
+            fftwf_destroy_plan(aligned_[i]);
+            fftwf_destroy_plan(unaligned_[i]);
+        }
+    }
+    Directions(const Directions&) = delete;
+    Directions& operator=(const Directions&) = delete;
+
+    void run(bool forward, std::complex<float>* values) const {
+        const bool fits = fftwf_alignment_of(reinterpret_cast<float*>(values)) == alignment_;
+        fftwf_execute_dft((fits ? aligned_ : unaligned_)[forward ? 0 : 1], fftw(values), fftw(values));
+    }
+
+  private:
+    int alignment_ = 0;
+    fftwf_plan aligned_[2], unaligned_[2];
+};
+
+// Arrays from this size on are transformed line by line on all threads; smaller ones are most often one of many that
+// different threads transform.
+constexpr std::size_t large_array = std::size_t{1} << 16;
+// Lines that are copied together into room of their own, so that columns are read a whole cache line at a time.
+constexpr std::size_t lines_together = 16;
+
 }  // namespace
 
-// Small transforms are one plan. For larger ones the plans that FFTW makes without measuring are up to thirty times
-// slower than they could be, so those are put together here: all rows in place, then the columns, some at a time, in a
-// buffer where they are contiguous.
+struct Fft1::Plans {
+    explicit Plans(std::size_t n)
+        : size(n), directions(n, [&](fftwf_complex* p, int sign, unsigned flags) {
+              return fftwf_plan_dft_1d(static_cast<int>(n), p, p, sign, flags);
+          }) {}
+    std::size_t size;
+    Directions directions;
+};
+
+Fft1::Fft1(std::size_t size) {
+    if (size == 0 || size > INT32_MAX)
+        throw Error(ErrorCode::usage, fmt::format("an FFT cannot have {} samples", size));
+    plans_ = std::make_unique<Plans>(size);
+}
+Fft1::~Fft1() = default;
+Fft1::Fft1(Fft1&&) noexcept = default;
+Fft1& Fft1::operator=(Fft1&&) noexcept = default;
+
+std::size_t Fft1::size() const { return plans_->size; }
+void Fft1::forward(std::complex<float>* line) const { plans_->directions.run(true, line); }
+void Fft1::backward(std::complex<float>* line) const { plans_->directions.run(false, line); }
+
+void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool forward) {
+    const std::size_t height = values.extent(0), width = values.extent(1);
+    if (fft.size() != width)
+        throw Error(ErrorCode::internal, fmt::format("FFT of rows of {} with a plan for {}", width, fft.size()));
+    parallel_for((height + lines_together - 1) / lines_together, [&](std::size_t block) {
+        Array<std::complex<float>, 1> line({width});
+        for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, height); ++y) {
+            std::copy_n(&values(y, 0), width, line.data());
+            forward ? fft.forward(line.data()) : fft.backward(line.data());
+            std::copy_n(line.data(), width, &values(y, 0));
+        }
+    });
+}
+
+void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, bool forward) {
+    const std::size_t height = values.extent(0), width = values.extent(1);
+    if (fft.size() != height)
+        throw Error(ErrorCode::internal, fmt::format("FFT of columns of {} with a plan for {}", height, fft.size()));
+    // Room between the lines, so that they do not all begin in the same places of the caches.
+    const std::size_t stride = (height + 15) / 8 * 8;
+    parallel_for((width + lines_together - 1) / lines_together, [&](std::size_t block) {
+        const std::size_t x0 = block * lines_together, columns = std::min(lines_together, width - x0);
+        Array<std::complex<float>, 2> lines({columns, stride});
+        for (std::size_t y = 0; y < height; ++y)
+            for (std::size_t i = 0; i < columns; ++i) lines.data()[i * stride + y] = (&values(y, x0))[i];
+        for (std::size_t i = 0; i < columns; ++i) forward ? fft.forward(&lines(i, 0)) : fft.backward(&lines(i, 0));
+        for (std::size_t y = 0; y < height; ++y)
+            for (std::size_t i = 0; i < columns; ++i) (&values(y, x0))[i] = lines.data()[i * stride + y];
+    });
+}
+
 struct Fft2::Plans {
-    static constexpr std::size_t small = 128 * 128;
-    static constexpr std::size_t columns_at_once = 16;
-
-    Plans(std::size_t h, std::size_t w) : height(h), width(w), whole(h * w <= small || h == 1 || w == 1) {
-        Array<std::complex<float>, 2> scratch({h, w});
-        const std::lock_guard lock(planner());
-        alignment = fftwf_alignment_of(reinterpret_cast<float*>(scratch.data()));
-        for (int direction = 0; direction < 2; ++direction) {
-            const int sign = direction == 0 ? FFTW_FORWARD : FFTW_BACKWARD;
-            for (const bool fits : {false, true}) {
-                const unsigned flags = FFTW_ESTIMATE | (fits ? 0 : FFTW_UNALIGNED);
-                rows[direction][fits] = whole
-                                            ? fftwf_plan_dft_2d(static_cast<int>(h), static_cast<int>(w),
-                                                                fftw(scratch.data()), fftw(scratch.data()), sign, flags)
-                                            : contiguous(w, h, w, scratch, sign, flags);
-            }
-            if (whole) continue;
-            Array<std::complex<float>, 2> buffer = make_buffer();
-            columns[direction] = contiguous(h, columns_at_once, buffer.extent(1), buffer, sign, FFTW_ESTIMATE);
+    Plans(std::size_t h, std::size_t w) : height(h), width(w) {
+        if (h * w >= large_array) {
+            rows.emplace(w);
+            columns.emplace(h);
+        } else {
+            whole.emplace(h * w, [&](fftwf_complex* p, int sign, unsigned flags) {
+                return fftwf_plan_dft_2d(static_cast<int>(h), static_cast<int>(w), p, p, sign, flags);
+            });
         }
     }
-    ~Plans() {
-        const std::lock_guard lock(planner());
-        for (int direction = 0; direction < 2; ++direction) {
-            for (const fftwf_plan plan : rows[direction]) fftwf_destroy_plan(plan);
-            if (columns[direction] != nullptr) fftwf_destroy_plan(columns[direction]);
-        }
-    }
-    Plans(const Plans&) = delete;
-    Plans& operator=(const Plans&) = delete;
-
-    static fftwf_plan contiguous(std::size_t length, std::size_t many, std::size_t distance,
-                                 Array<std::complex<float>, 2>& values, int sign, unsigned flags) {
-        const int n = static_cast<int>(length);
-        return fftwf_plan_many_dft(1, &n, static_cast<int>(many), fftw(values.data()), nullptr, 1,
-                                   static_cast<int>(distance), fftw(values.data()), nullptr, 1,
-                                   static_cast<int>(distance), sign, flags);
-    }
-
-    // A cache line longer than a column, lest columns fall on the same places of the cache.
-    Array<std::complex<float>, 2> make_buffer() const {
-        return Array<std::complex<float>, 2>({columns_at_once, height + 8});
-    }
-
-    void run(int direction, View<std::complex<float>, 2> values) const {
+    void run(bool forward, View<std::complex<float>, 2> values) const {
         if (values.extent(0) != height || values.extent(1) != width)
             throw Error(ErrorCode::internal, fmt::format("FFT of {}x{} values with a plan for {}x{}", values.extent(0),
                                                          values.extent(1), height, width));
-        const bool fits = fftwf_alignment_of(reinterpret_cast<float*>(values.data())) == alignment;
-        fftwf_execute_dft(rows[direction][fits], fftw(values.data()), fftw(values.data()));
-        if (whole) return;
-        Array<std::complex<float>, 2> buffer = make_buffer();
-        for (std::size_t x0 = 0; x0 < width; x0 += columns_at_once) {
-            const std::size_t n = std::min(columns_at_once, width - x0);
-            for (std::size_t y = 0; y < height; ++y)
-                for (std::size_t x = 0; x < n; ++x) buffer(x, y) = values(y, x0 + x);
-            fftwf_execute_dft(columns[direction], fftw(buffer.data()), fftw(buffer.data()));
-            for (std::size_t y = 0; y < height; ++y)
-                for (std::size_t x = 0; x < n; ++x) values(y, x0 + x) = buffer(x, y);
+        if (whole) {
+            whole->run(forward, values.data());
+        } else {
+            transform_rows(values, *rows, forward);
+            transform_columns(values, *columns, forward);
         }
     }
 
     std::size_t height, width;
-    bool whole;  // one plan for all
-    int alignment = 0;
-    fftwf_plan rows[2][2] = {};  // by direction, and whether the data are aligned
-    fftwf_plan columns[2] = {};
+    std::optional<Directions> whole;    // of a small array
+    std::optional<Fft1> rows, columns;  // of a large one
 };
 
 Fft2::Fft2(std::size_t height, std::size_t width) {
@@ -105,8 +156,8 @@ Fft2::~Fft2() = default;
 Fft2::Fft2(Fft2&&) noexcept = default;
 Fft2& Fft2::operator=(Fft2&&) noexcept = default;
 
-void Fft2::forward(View<std::complex<float>, 2> values) const { plans_->run(0, values); }
-void Fft2::backward(View<std::complex<float>, 2> values) const { plans_->run(1, values); }
+void Fft2::forward(View<std::complex<float>, 2> values) const { plans_->run(true, values); }
+void Fft2::backward(View<std::complex<float>, 2> values) const { plans_->run(false, values); }
 std::size_t Fft2::height() const { return plans_->height; }
 std::size_t Fft2::width() const { return plans_->width; }
 

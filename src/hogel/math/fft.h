@@ -8,9 +8,30 @@
 
 namespace hogel {
 
-/// A two-dimensional discrete Fourier transform of one size, planned once and used from any number of threads.
-/// Neither direction is normalised: forward sums with e^{-2πi jm/n}, backward with e^{+2πi jm/n}.
-/// The plan depends on the size alone, never on timings, so equal input gives equal bytes in every run.
+/// Discrete Fourier transforms of one size, planned once and used from any number of threads. Neither direction is
+/// normalised: forward sums with e^{-2πi jm/n}, backward with e^{+2πi jm/n}. A plan depends on the size alone, never on
+/// timings, so equal input gives equal bytes in every run and for any number of threads.
+
+/// Along one line.
+class Fft1 {
+  public:
+    /// Throws Error(usage) for an empty size.
+    explicit Fft1(std::size_t size);
+    ~Fft1();
+    Fft1(Fft1&&) noexcept;
+    Fft1& operator=(Fft1&&) noexcept;
+
+    std::size_t size() const;
+    /// Transforms in place `size` values; fastest where they begin at a cache line.
+    void forward(std::complex<float>* line) const;
+    void backward(std::complex<float>* line) const;
+
+  private:
+    struct Plans;
+    std::unique_ptr<Plans> plans_;
+};
+
+/// Along both axes of an array. Large arrays are transformed by all threads together.
 class Fft2 {
   public:
     /// Throws Error(usage) for an empty size.
@@ -30,6 +51,11 @@ class Fft2 {
     struct Plans;
     std::unique_ptr<Plans> plans_;
 };
+
+/// Transforms lines of an array that are not planned as a whole, by all threads together: rows [0, height) or every
+/// column. Throws Error(internal) where the plan has another size.
+void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
+void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
 
 /// The smallest n' >= n that has no prime factor above 7: sizes that transform fast.
 std::size_t good_fft_size(std::size_t n);

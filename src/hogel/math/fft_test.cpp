@@ -71,6 +71,31 @@ TEST(Fft2, forward_undoes_backward_also_on_unaligned_data) {
         EXPECT_LT(std::abs(odd.data()[i] / float(n * n) - original.elements()[i]), 1e-5f);
 }
 
+// A large array is transformed line by line: against sums along one row and one column of waves of its own.
+TEST(Fft2, a_large_array_is_transformed_as_a_small_one) {
+    const std::size_t height = 270, width = 251;
+    Array<Complex, 2> values({height, width});
+    // Three waves: each must come out as one sample of the spectrum.
+    const std::array<std::array<std::size_t, 2>, 3> waves{{{3, 200}, {269, 0}, {100, 17}}};
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x)
+            for (std::size_t w = 0; w < waves.size(); ++w) {
+                const double turns = double(waves[w][0] * y) / height + double(waves[w][1] * x) / width;
+                values(y, x) += Complex(std::polar(1.0 + double(w), 2 * std::numbers::pi * turns));
+            }
+    const Array<Complex, 2> original = values;
+    const Fft2 fft(height, width);
+    fft.forward(values);
+    for (std::size_t w = 0; w < waves.size(); ++w)
+        values(waves[w][0], waves[w][1]) -= Complex(float(height * width) * (1.0f + float(w)));
+    for (const Complex& rest : values.elements()) EXPECT_LT(std::abs(rest) / float(height * width), 2e-6f);
+    values = original;
+    fft.backward(values);
+    fft.forward(values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_LT(std::abs(values.data()[i] / float(height * width) - original.data()[i]), 1e-5f);
+}
+
 TEST(Fft2, a_wrong_shape_or_an_empty_size_is_an_error) {
     Array<Complex, 2> values({4, 5});
     EXPECT_THROW(Fft2(5, 4).forward(values), Error);

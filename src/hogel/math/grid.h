@@ -33,4 +33,11 @@ struct Region {
     friend bool operator==(const Region&, const Region&) = default;
 };
 
+/// The samples of a region, as a grid of their own.
+inline Grid part(const Grid& grid, const Region& region) {
+    const double middle_column = static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5;
+    const double middle_row = static_cast<double>(region.y0) + 0.5 * static_cast<double>(region.height) - 0.5;
+    return {region.width, region.height, grid.pitch_x, grid.pitch_y, grid.x(middle_column), grid.y(middle_row)};
+}
+
 }  // namespace hogel

@@ -1,48 +1,59 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "hogel/image/camera.h"
 #include "hogel/image/image.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/narrow_band.h"
+#include "hogel/optics/sine_grid.h"
 
 namespace hogel {
 
-/// From one eye's narrow band to photographs: a resampling to direction sines, in which the pupil is the Fourier
-/// transform's own plane whatever the obliquity; one transform to the pupil; and for each focus and pupil size a mask,
-/// a defocus phase and a transform back to the film (docs/notation.md section 4).
+/// A rectangle of a plane, metres; points on its left and lower edge belong to it.
+struct Rectangle {
+    double left = 0, right = 0, bottom = 0, top = 0;
+
+    explicit Rectangle(const Grid& plane)
+        : left(plane.center_x - 0.5 * plane.size_x()),
+          right(plane.center_x + 0.5 * plane.size_x()),
+          bottom(plane.center_y - 0.5 * plane.size_y()),
+          top(plane.center_y + 0.5 * plane.size_y()) {}
+    bool holds(double x, double y) const { return x >= left && x < right && y >= bottom && y < top; }
+    bool meets(const Rectangle& other) const {
+        return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+    }
+};
+
+/// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
+/// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
+/// section 4). Each step works on all threads; an array that the caller gives is all that it needs.
 class Film {
   public:
-    /// @param cameras  all have the band's eye; their pupils are at most the one that the band was made for
-    Film(const NarrowBand& band, const FieldGrid& hologram, std::span<const Camera> cameras);
-    ~Film();
-    Film(Film&&) noexcept;
+    /// @param blur  the widest defocus_blur() of the cameras that will be used; their pupils are at most the one that
+    ///              the band was made for
+    Film(const NarrowBand& band, const FieldGrid& hologram, double blur);
 
-    /// The intensities on the film of one look, [camera][sample]: squared moduli in the film's own sampling.
-    std::vector<Array<float, 2>> expose(View<const std::complex<float>, 2> band) const;
+    const SineGrid& sines() const { return sines_; }
 
-    /// A camera's picture, in radiance, from intensities that were averaged over looks.
-    Image develop(std::size_t camera, View<const float, 2> intensity) const;
+    /// The wave over the pupil's plane, at the frequencies of a transform of sines() samples.
+    Array<std::complex<float>, 2> pupil_wave(View<const std::complex<float>, 2> band) const;
+
+    /// Adds the intensity that a camera's film receives, in the film's own sampling. `field` is room for the work. Both
+    /// have the shape of the pupil's wave.
+    void expose(View<const std::complex<float>, 2> pupil_wave, const Camera& camera, View<std::complex<float>, 2> field,
+                View<float, 2> intensity) const;
+
+    /// Adds a camera's picture, in radiance, of what lies in `shown` of the hologram plane.
+    /// @param weight  what the intensities are multiplied by: one over the number of looks that they are the sum of
+    void develop(View<const float, 2> intensity, const Camera& camera, const Rectangle& shown, double weight,
+                 Image& picture) const;
 
   private:
-    struct Lens;
-    struct SineGrid {
-        std::size_t size_x = 0, size_y = 0;  ///< samples, the transform's size
-        double first_x = 0, first_y = 0;     ///< sine of the first sample; n_x grows with the column, n_y with the row
-        double step = 0;                     ///< between samples
-    };
-
-    Array<std::complex<float>, 2> resample(View<const std::complex<float>, 2> band) const;
-    SineGrid choose_grid(std::span<const Camera> cameras) const;
-    double least_slope() const;  ///< of the sines over the hologram, per metre
+    class Lens;
 
     NarrowBand band_;
     FieldGrid hologram_;
     SineGrid sines_;
-    std::unique_ptr<Fft2> fft_;
-    std::vector<Lens> lenses_;
+    Fft2 fft_;
 };
 
 }  // namespace hogel

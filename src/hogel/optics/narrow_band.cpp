@@ -9,6 +9,7 @@
 #include "hogel/core/units.h"
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/narrow_band_kernels.h"
+#include "hogel/optics/phase_walk.h"
 
 namespace hogel {
 namespace {
@@ -18,8 +19,6 @@ using Complex = std::complex<float>;
 // A pupil's band is made this much wider than it is, so that eyes may share a pass down the columns (see share_columns)
 // and the band's width may vary a little over the hologram.
 constexpr double guard = 0.1;
-
-Complex unit(double turns) { return Complex(std::polar(1.0, 2 * std::numbers::pi * (turns - std::floor(turns)))); }
 
 // Half the width of the band, cycles per metre, at the point of the hologram that is nearest to the eye.
 double half_band(const FieldGrid& hologram, Vec3 eye, double pupil) {
@@ -106,7 +105,7 @@ class TilePass {
     void weigh_rows(const Grid& plane, const Phase& phase) {
         std::vector<Complex> demodulation(region_.height);
         for (std::size_t r = 0; r < region_.height; ++r)
-            demodulation[r] = unit(phase(plane.y(static_cast<double>(region_.y0 + r))));
+            demodulation[r] = Complex(unit_phasor(phase(plane.y(static_cast<double>(region_.y0 + r)))));
         for (std::size_t m = rows_.first; m < rows_.end; ++m) {
             // The taps that fall into the tile.
             const std::ptrdiff_t offset = lead_.first_tap(m) - static_cast<std::ptrdiff_t>(region_.y0);
@@ -121,37 +120,18 @@ class TilePass {
         }
     }
 
-    static std::complex<double> times(std::complex<double> a, std::complex<double> b) {
-        return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-    }
-
     // e^{ik|x−c|} less the phase already taken off, at every hologram column and band row of the tile.
     template <class Phase>
     Array<Complex, 2> remaining_phases(const Grid& plane, const NarrowBand& eye, const Phase& taken) const {
         Array<Complex, 2> phases({rows_.end - rows_.first, region_.width});
         for (std::size_t m = 0; m < phases.extent(0); ++m) {
             const double y = plane.y(eye.hologram_index(rows_.first + m)), off = taken(y);
-            // Along a stretch of this many samples the phase is a parabola to far below a thousandth of a turn, so it
-            // is followed by differences from its values at the stretch's middle and ends.
-            constexpr std::size_t stretch = 32;
-            for (std::size_t x0 = 0; x0 < region_.width; x0 += stretch) {
-                const auto turns = [&](double step) {
-                    return eye.geometry.turns(plane.x(static_cast<double>(region_.x0 + x0) + step), y) - off;
-                };
-                const double t0 = turns(0), t1 = turns(0.5 * stretch), t2 = turns(stretch);
-                const double curvature = (t2 - 2 * t1 + t0) / (0.25 * stretch * stretch);
-                const double slope = (t2 - t0) / stretch - 0.5 * curvature * stretch;
-                const auto exact_unit = [](double v) {
-                    return std::polar(1.0, 2 * std::numbers::pi * (v - std::floor(v)));
-                };
-                std::complex<double> value = exact_unit(t0), step = exact_unit(slope + 0.5 * curvature);
-                const std::complex<double> bend = exact_unit(curvature);
-                for (std::size_t x = x0; x < std::min(x0 + stretch, region_.width); ++x) {
-                    phases(m, x) = Complex(value);
-                    value = times(value, step);
-                    step = times(step, bend);
-                }
-            }
+            walk_phase(
+                region_.width,
+                [&](double step) {
+                    return eye.geometry.turns(plane.x(static_cast<double>(region_.x0) + step), y) - off;
+                },
+                [&](std::size_t x, std::complex<double> value) { phases(m, x) = Complex(value); });
         }
         return phases;
     }
@@ -176,9 +156,7 @@ class TilePass {
 };
 
 std::vector<Region> tiles(const Grid& plane) {
-    // Wide enough to share column weights among many columns, small enough for the processor's caches. Fixed, whatever
-    // the source would like, so that a hologram photographs to the same bytes from a file as from its synthesis.
-    constexpr std::size_t width = 512, height = 384;
+    constexpr std::size_t width = NarrowBand::tile_width, height = NarrowBand::tile_height;
     std::vector<Region> list;
     for (std::size_t y = 0; y < plane.height; y += height)
         for (std::size_t x = 0; x < plane.width; x += width)

@@ -29,6 +29,10 @@ struct NarrowBand {
 
     /// Samples of the band beyond either end of the hologram.
     static constexpr std::size_t margin = 5;
+    /// The hologram is read in tiles of this size: wide enough to share column weights among many columns, small enough
+    /// for the processor's caches. Fixed, whatever the source would like, so that a hologram photographs to the same
+    /// bytes from a file as from its synthesis.
+    static constexpr std::size_t tile_width = 512, tile_height = 384;
 };
 
 /// Draws the narrow bands of several eyes from looks [first_look, first_look + looks) of a hologram in one pass over

@@ -1,88 +1,97 @@
 #include "hogel/optics/photograph.h"
 
 #include <algorithm>
-#include <numeric>
 
-#include "hogel/core/parallel.h"
-#include "hogel/optics/film.h"
-#include "hogel/optics/narrow_band.h"
+#include "hogel/optics/photograph_plan_internal.h"
 
 namespace hogel {
 namespace {
 
-// The bands of this many bytes may be in memory at a time; more looks take another pass over the hologram, which would
-// have had to read or make these looks anyway.
-constexpr std::size_t band_budget = std::size_t{1} << 30;
+// A part of a field, as a field.
+class Window final : public FieldSource {
+  public:
+    Window(const FieldSource& whole, const Region& region)
+        : whole_(whole), region_(region), grid_{part(whole.grid().plane, region), whole.grid().wavelength} {}
+    const FieldGrid& grid() const override { return grid_; }
+    std::size_t looks() const override { return whole_.looks(); }
+    void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
+        validate(region, grid_, out.shape());
+        whole_.read({region_.x0 + region.x0, region_.y0 + region.y0, region.width, region.height}, look, out);
+    }
 
-// Cameras with one eye share its narrow band.
-struct Eye {
-    std::vector<std::size_t> members;  // indices of cameras
-    std::vector<Camera> cameras;
+  private:
+    const FieldSource& whole_;
+    Region region_;
+    FieldGrid grid_;
 };
 
-std::vector<Eye> group_by_eye(std::span<const Camera> cameras) {
-    std::vector<Eye> eyes;
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-        validate(cameras[i]);
-        auto eye = std::find_if(eyes.begin(), eyes.end(),
-                                [&](const Eye& e) { return e.cameras.front().eye == cameras[i].eye; });
-        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), Eye{});
-        eye->members.push_back(i);
-        eye->cameras.push_back(cameras[i]);
+// One pass of cameras over one window: adds to their pictures what the window shows.
+void photograph_window(const FieldSource& window, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes,
+                       const Rectangle& shown, std::size_t looks_at_once, std::vector<Image>& images,
+                       const Progress& progress) {
+    std::vector<NarrowBand> bands;
+    std::vector<Film> films;
+    std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        bands.emplace_back(window.grid(), cameras[eyes[e].members.front()].eye, eyes[e].pupil);
+        films.emplace_back(bands.back(), window.grid(), eyes[e].blur);
+        const SineGrid& sines = films.back().sines();
+        for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
+            intensities[e].emplace_back(Shape<2>{sines.size_y, sines.size_x});
     }
-    return eyes;
+    const std::size_t looks = window.looks();
+    for (std::size_t first = 0; first < looks; first += looks_at_once) {
+        const std::size_t count = std::min(looks_at_once, looks - first);
+        const auto tell = [&](double done) {
+            report(progress,
+                   (static_cast<double>(first) + done * static_cast<double>(count)) / static_cast<double>(looks));
+        };
+        auto drawn = draw_narrow_bands(window, bands, first, count, [&](double fraction) {
+            tell(0.9 * fraction);
+            return true;
+        });
+        for (std::size_t e = 0; e < eyes.size(); ++e)
+            for (std::size_t look = 0; look < count; ++look) {
+                const Array<std::complex<float>, 2> wave = films[e].pupil_wave(drawn[e][look]);
+                drawn[e][look] = {};
+                Array<std::complex<float>, 2> field(wave.shape());
+                for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
+                    films[e].expose(wave, cameras[eyes[e].members[c]], field, intensities[e][c]);
+                tell(0.9 + 0.1 * static_cast<double>(e * count + look + 1) / static_cast<double>(eyes.size() * count));
+            }
+    }
+    for (std::size_t e = 0; e < eyes.size(); ++e)
+        for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
+            const std::size_t camera = eyes[e].members[c];
+            films[e].develop(intensities[e][c], cameras[camera], shown, 1 / static_cast<double>(looks), images[camera]);
+        }
 }
 
 }  // namespace
 
 double resolution_cell(const Camera& camera, double wavelength) { return wavelength * camera.eye.z / camera.pupil; }
 
-std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress) {
-    const std::vector<Eye> eyes = group_by_eye(cameras);
-    std::vector<NarrowBand> bands;
-    std::vector<Film> films;
-    std::size_t bytes_a_look = 0;
-    for (const Eye& eye : eyes) {
-        double widest = 0;
-        for (const Camera& camera : eye.cameras) widest = std::max(widest, camera.pupil);
-        bands.emplace_back(hologram.grid(), eye.cameras.front().eye, widest);
-        films.emplace_back(bands.back(), hologram.grid(), eye.cameras);
-        bytes_a_look += bands.back().plane.samples() * sizeof(std::complex<float>);
-    }
-    const std::size_t looks = hologram.looks();
-    const std::size_t batch = std::clamp<std::size_t>(band_budget / std::max<std::size_t>(bytes_a_look, 1), 1, looks);
-
-    std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
-    for (std::size_t first = 0; first < looks; first += batch) {
-        const std::size_t count = std::min(batch, looks - first);
-        const auto share = [&](double done) {
-            return (static_cast<double>(first) + done * static_cast<double>(count)) / static_cast<double>(looks);
-        };
-        const auto drawn = draw_narrow_bands(hologram, bands, first, count, [&](double fraction) {
-            return !progress || progress(share(0.9 * fraction));
-        });
-        using Films = std::vector<Array<float, 2>>;
-        parallel_ordered<Films>(
-            eyes.size() * count, thread_count(),
-            [&](std::size_t i) { return films[i / count].expose(drawn[i / count][i % count]); },
-            [&](std::size_t i, Films& exposed) {
-                Films& sum = intensities[i / count];
-                if (sum.empty()) {
-                    sum = std::move(exposed);
-                } else {
-                    for (std::size_t c = 0; c < sum.size(); ++c)
-                        for (std::size_t k = 0; k < sum[c].size(); ++k) sum[c].data()[k] += exposed[c].data()[k];
-                }
-                report(progress,
-                       share(0.9 + 0.1 * static_cast<double>(i + 1) / static_cast<double>(eyes.size() * count)));
-            });
-    }
-
-    std::vector<Image> images(cameras.size());
-    for (std::size_t e = 0; e < eyes.size(); ++e)
-        for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
-            for (float& value : intensities[e][c].elements()) value /= static_cast<float>(looks);
-            images[eyes[e].members[c]] = films[e].develop(c, intensities[e][c]);
+std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress,
+                              const PhotographOptions& options) {
+    const auto memory = static_cast<double>(options.memory);
+    const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);
+    std::vector<Image> images;
+    for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
+    const double spare = std::max(0.0, memory - plan.bytes),
+                 parts = static_cast<double>(plan.passes.size()) * static_cast<double>(plan.windows.size());
+    const std::size_t looks_at_once =
+        1 + static_cast<std::size_t>(std::min(spare / plan.bytes_a_look, static_cast<double>(hologram.looks())));
+    std::size_t done = 0;
+    for (const std::vector<std::size_t>& pass : plan.passes)
+        for (const PhotographPlan::Window& window : plan.windows) {
+            const bool seen = std::ranges::any_of(
+                pass, [&](std::size_t i) { return Rectangle(cameras[i].picture).meets(window.shown); });
+            if (seen)
+                photograph_window(Window(hologram, window.region), cameras, group_by_eye(cameras, pass), window.shown,
+                                  looks_at_once, images, [&](double fraction) {
+                                      return !progress || progress((static_cast<double>(done) + fraction) / parts);
+                                  });
+            ++done;
         }
     return images;
 }

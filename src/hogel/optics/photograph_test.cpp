@@ -8,6 +8,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/units.h"
+#include "hogel/optics/photograph_plan_internal.h"
 
 namespace hogel {
 namespace {
@@ -114,6 +115,58 @@ TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
     const Image twice = photograph(Twice(field), std::span(&camera, 1))[0];
     for (std::size_t i = 0; i < once.pixels.size(); ++i)
         EXPECT_NEAR(once.pixels.data()[i], twice.pixels.data()[i], 1e-5f * (1 + once.pixels.data()[i]));
+}
+
+// With little memory a hologram is photographed window by window and a camera at a time: the same picture, but for what
+// light falls far from its place.
+TEST(Photograph, in_windows_is_the_same_picture) {
+    const FieldGrid grid{{8000, 150, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
+    Field field(grid);
+    std::mt19937 random(6);
+    std::normal_distribution<float> normal;
+    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    std::vector<Camera> cameras(2);
+    for (Camera& camera : cameras) {
+        camera.eye = {1_mm, 0, 20_mm};
+        camera.pupil = 5_mm;
+        camera.picture = {400, 8, 20_um, 20_um, 0.5_mm, 0};
+    }
+    cameras[1].focus_depth = 0.2_mm;
+    const auto whole = photograph(field, cameras);
+    const PhotographOptions little{std::size_t{40} << 20};
+    const PhotographPlan plan = plan_photographs(grid, cameras, double(little.memory));
+    EXPECT_LE(plan.bytes, double(little.memory));
+    EXPECT_GT(plan.windows.size(), 1u);
+    const auto parts = photograph(field, cameras, {}, little);
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        EXPECT_GT(correlation(parts[c], whole[c]), 0.9998) << c;
+        EXPECT_NEAR(sum(parts[c]) / sum(whole[c]), 1, 2e-3) << c;
+    }
+}
+
+// What a wide lens takes of a large hologram: the plan keeps within its bound whatever is asked of it.
+TEST(Photograph, plans_keep_within_the_memory_or_say_which_pupil_does) {
+    const FieldGrid grid{{12800, 12800, 1.5625_um, 1.5625_um, 0, 0}, 460_nm};
+    std::vector<Camera> cameras(6);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        cameras[i].eye = {double(i / 2) * 20_mm, 0, 1_m};
+        cameras[i].pupil = 100_mm;
+        cameras[i].focus_depth = (i % 2 == 0) ? -4e-3 : 8e-3;
+        cameras[i].picture = {400, 400, 50_um, 50_um, 0, 0};
+    }
+    const PhotographPlan plan = plan_photographs(grid, cameras, 2e9);
+    EXPECT_LE(plan.bytes, 2e9);
+    EXPECT_GT(plan.windows.size() * plan.passes.size(), 1u);
+    std::size_t planned = 0;
+    for (const auto& pass : plan.passes) planned += pass.size();
+    EXPECT_EQ(planned, cameras.size());
+    try {
+        plan_photographs(grid, cameras, 5e7);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find("would do"), std::string::npos) << error.what();
+    }
 }
 
 TEST(Photograph, a_pupil_too_wide_for_the_pitch_is_refused_with_one_that_would_do) {

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "hogel/core/array.h"
+#include "hogel/optics/low_pass.h"
+
+namespace hogel {
+
+/// LowPass as an interpolation kernel, tabulated by the fraction of a sample: ten taps around the place between two
+/// samples, each twice, for the real and the imaginary part. A band-limited signal moves by less than 1e-3 of itself
+/// over half a table step.
+class InterpolationTable {
+  public:
+    static constexpr std::ptrdiff_t taps = 10;
+    static constexpr std::size_t phases = 1024;
+
+    InterpolationTable() {
+        for (std::size_t phase = 0; phase <= phases; ++phase)
+            for (std::ptrdiff_t k = 0; k < taps; ++k) {
+                const double distance =
+                    static_cast<double>(k) - 4 - static_cast<double>(phase) / static_cast<double>(phases);
+                weights_.insert(weights_.end(), 2, static_cast<float>(LowPass::at(distance)));
+            }
+    }
+
+    /// The value of line[...] (count values, zero outside) at a place between samples.
+    std::complex<float> at(const std::complex<float>* line, std::size_t count, double place) const {
+        const double whole = std::floor(place);
+        const auto first = static_cast<std::ptrdiff_t>(whole) - 4;
+        const float* w = &weights_[static_cast<std::size_t>((place - whole) * phases + 0.5) * 2 * taps];
+        if (first >= 0 && first + taps <= static_cast<std::ptrdiff_t>(count)) {
+            const auto* z = reinterpret_cast<const float*>(line + first);
+            float sum[4] = {0, 0, 0, 0};
+            for (std::ptrdiff_t k = 0; k < 2 * taps; k += 4)
+                for (std::ptrdiff_t i = 0; i < 4; ++i) sum[i] += w[k + i] * z[k + i];
+            return {sum[0] + sum[2], sum[1] + sum[3]};
+        }
+        float re = 0, im = 0;
+        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, -first);
+             k < std::min(taps, static_cast<std::ptrdiff_t>(count) - first); ++k) {
+            re += w[2 * k] * line[first + k].real();
+            im += w[2 * k] * line[first + k].imag();
+        }
+        return {re, im};
+    }
+
+  private:
+    std::vector<float> weights_;
+};
+
+/// Catmull and Rom's cubic through four neighbours: intensities come with two samples to their finest wave, for which
+/// straight lines would be too coarse. Nothing outside, and never negative.
+inline double cubic_at(View<const float, 2> values, double row, double column) {
+    const auto weights = [](double f) {
+        return std::array{((-0.5 * f + 1) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1, ((-1.5 * f + 2) * f + 0.5) * f,
+                          (0.5 * f - 0.5) * f * f};
+    };
+    const double row0 = std::floor(row), column0 = std::floor(column);
+    if (row0 < 1 || column0 < 1 || row0 + 2 >= static_cast<double>(values.extent(0)) ||
+        column0 + 2 >= static_cast<double>(values.extent(1)))
+        return 0;
+    const auto down = weights(row - row0), across = weights(column - column0);
+    const auto j = static_cast<std::size_t>(row0) - 1, i = static_cast<std::size_t>(column0) - 1;
+    double sum = 0;
+    for (std::size_t b = 0; b < 4; ++b)
+        for (std::size_t a = 0; a < 4; ++a) sum += down[b] * across[a] * values(j + b, i + a);
+    return std::max(sum, 0.0);
+}
+
+}  // namespace hogel

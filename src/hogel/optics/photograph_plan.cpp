@@ -1,0 +1,163 @@
+#include "hogel/optics/photograph_plan_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/units.h"
+
+namespace hogel {
+namespace {
+
+// A window reaches this many resolution cells beyond what it shows. A point's image falls off slowly: beyond m cells
+// lies 0.2/m of its light.
+constexpr double margin_cells = 256;
+
+// Windows along the longer side of the hologram that are tried.
+constexpr std::size_t window_counts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
+
+// Metres around what a window shows that its film needs.
+double margin(const FieldGrid& hologram, const Camera& camera) {
+    const Grid& plane = hologram.plane;
+    const ViewGeometry geometry(camera.eye, hologram.wavelength);
+    double farthest = 0;
+    for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
+        for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2})
+            farthest = std::max(farthest, geometry.distance(x, y));
+    // A step of the sines is r/cos² θ wide on the plane.
+    const double cosine = camera.eye.z / farthest, metres = farthest / (cosine * cosine);
+    return metres * (margin_cells * hologram.wavelength / camera.pupil + 0.5 * defocus_blur(camera));
+}
+
+std::vector<PhotographPlan::Window> windows(const Grid& plane, std::size_t count, double margin) {
+    const std::size_t side = (std::max(plane.width, plane.height) + count - 1) / count;
+    const auto around = static_cast<std::size_t>(std::ceil(margin / std::min(plane.pitch_x, plane.pitch_y)));
+    std::vector<PhotographPlan::Window> list;
+    for (std::size_t y = 0; y < plane.height; y += side)
+        for (std::size_t x = 0; x < plane.width; x += side) {
+            const std::size_t right = std::min(x + side, plane.width), bottom = std::min(y + side, plane.height);
+            Region region;
+            region.x0 = x - std::min(x, around);
+            region.y0 = y - std::min(y, around);
+            region.width = std::min(right + around, plane.width) - region.x0;
+            region.height = std::min(bottom + around, plane.height) - region.y0;
+            list.push_back({region, Rectangle(part(plane, {x, y, right - x, bottom - y}))});
+        }
+    return list;
+}
+
+struct Need {
+    double fixed = 0, a_look = 0;
+};
+
+// What one pass over a window keeps in memory.
+Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes) {
+    Need bytes;
+    double largest = 0;
+    for (const SharedEye& eye : eyes) {
+        const NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
+        const SineGrid sines = sine_grid(band, hologram.plane, eye.blur);
+        const double samples = static_cast<double>(sines.samples());
+        bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
+        // Tiles on their way into the band.
+        const double tile = NarrowBand::tile_width / static_cast<double>(band.factor) + 2 * NarrowBand::margin;
+        bytes.a_look += 8.0 * static_cast<double>(default_in_flight()) * tile * tile;
+        bytes.fixed += 4.0 * samples * static_cast<double>(eye.members.size());
+        const double columns = static_cast<double>(sines.size_x) * static_cast<double>(band.plane.height);
+        largest = std::max(largest, 8.0 * samples + 8.0 * std::max(samples, columns));
+    }
+    bytes.fixed += largest;
+    return bytes;
+}
+
+// The least work that fits, in passes over the whole hologram; passes.empty() where nothing does.
+PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> cameras, double memory) {
+    std::vector<std::size_t> sorted(cameras.size());
+    std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+    std::stable_sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+        const Vec3 p = cameras[a].eye, q = cameras[b].eye;
+        return std::tie(p.z, p.y, p.x) < std::tie(q.z, q.y, q.x);
+    });
+    double around = 0;
+    for (const Camera& camera : cameras) around = std::max(around, margin(hologram, camera));
+
+    PhotographPlan best;
+    double least_work = std::numeric_limits<double>::infinity();
+    std::size_t cameras_a_pass = cameras.size();
+    while (true) {
+        std::vector<std::vector<std::size_t>> passes;
+        for (std::size_t first = 0; first < sorted.size(); first += cameras_a_pass)
+            passes.emplace_back(
+                sorted.begin() + static_cast<std::ptrdiff_t>(first),
+                sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first + cameras_a_pass, sorted.size())));
+        for (std::size_t count : window_counts) {
+            const std::vector<PhotographPlan::Window> list = windows(hologram.plane, count, around);
+            double read = 0;
+            for (const PhotographPlan::Window& window : list) read += static_cast<double>(window.region.samples());
+            const double work =
+                static_cast<double>(passes.size()) * read / static_cast<double>(hologram.plane.samples());
+            if (work >= least_work) continue;
+            // Windows at the ends and in the middle stand for all: what they take varies slowly from one to the next.
+            std::set<std::size_t> probes{0, list.size() / 2, list.size() - 1, list.size() / 4, 3 * list.size() / 4};
+            double fixed = 0, a_look = 0;
+            for (const auto& pass : passes)
+                for (std::size_t probe : probes) {
+                    const FieldGrid window{part(hologram.plane, list[probe].region), hologram.wavelength};
+                    const Need bytes = need(window, cameras, group_by_eye(cameras, pass));
+                    fixed = std::max(fixed, bytes.fixed);
+                    a_look = std::max(a_look, bytes.a_look);
+                }
+            if (fixed + a_look > memory) continue;
+            least_work = work;
+            best = {passes, list, fixed + a_look, a_look};
+        }
+        if (cameras_a_pass == 1) return best;
+        cameras_a_pass = (cameras_a_pass + 1) / 2;
+    }
+}
+
+}  // namespace
+
+std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members) {
+    std::vector<SharedEye> eyes;
+    for (std::size_t i : members) {
+        auto eye = std::find_if(eyes.begin(), eyes.end(),
+                                [&](const SharedEye& e) { return cameras[e.members.front()].eye == cameras[i].eye; });
+        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), SharedEye{});
+        eye->members.push_back(i);
+        eye->pupil = std::max(eye->pupil, cameras[i].pupil);
+        eye->blur = std::max(eye->blur, defocus_blur(cameras[i]));
+    }
+    return eyes;
+}
+
+PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory) {
+    for (const Camera& camera : cameras) {
+        validate(camera);
+        NarrowBand(hologram, camera.eye, camera.pupil);  // says so where the pupil is too wide for the pitch
+    }
+    PhotographPlan plan = find_plan(hologram, cameras, memory);
+    if (cameras.empty() || !plan.passes.empty()) return plan;
+    double fits = 0, fails = 1;
+    for (int i = 0; i < 8; ++i) {
+        const double scale = 0.5 * (fits + fails);
+        std::vector<Camera> smaller(cameras.begin(), cameras.end());
+        for (Camera& camera : smaller) camera.pupil *= scale;
+        (find_plan(hologram, smaller, memory).passes.empty() ? fails : fits) = scale;
+    }
+    double widest = 0;
+    for (const Camera& camera : cameras) widest = std::max(widest, camera.pupil);
+    throw Error(ErrorCode::usage,
+                fmt::format("a photograph through a pupil of {} takes more than the {} of memory that it may; {}",
+                            format_length(widest), format_bytes(memory),
+                            fits > 0 ? fmt::format("a pupil of {} would do", format_length(widest * fits))
+                                     : "no pupil is small enough"));
+}
+
+}  // namespace hogel

@@ -1,0 +1,71 @@
+#include "hogel/optics/sine_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/math/fft.h"
+
+namespace hogel {
+namespace {
+
+struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+
+    void include(double v) {
+        low = std::min(low, v);
+        high = std::max(high, v);
+    }
+};
+
+// How fast the sines change over the plane, per metre, where that is slowest.
+double least_slope(const ViewGeometry& geometry, const Grid& plane) {
+    // dn_x/dx = (1 - n_x²)/r, and the same in y, are least at the corners that are farthest from the eye.
+    double least = std::numeric_limits<double>::infinity();
+    for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
+        for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2}) {
+            const double sine = std::max(std::abs(geometry.sine_x(x, y)), std::abs(geometry.sine_y(x, y)));
+            least = std::min(least, (1 - sine * sine) / geometry.distance(x, y));
+        }
+    return least;
+}
+
+}  // namespace
+
+double defocus_blur(const Camera& camera) {
+    const double R = camera.eye.z;
+    return camera.pupil * std::abs(1 / R - 1 / (R + camera.focus_depth));
+}
+
+SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
+    // The directions of the whole plane, found along its edge.
+    const ViewGeometry& geometry = band.geometry;
+    Range x, y;
+    for (int i = 0; i <= 64; ++i) {
+        const double across = plane.center_x + plane.size_x() * (i / 64.0 - 0.5);
+        const double along = plane.center_y + plane.size_y() * (i / 64.0 - 0.5);
+        for (double end : {-0.5, 0.5}) {
+            const double edge_x = plane.center_x + plane.size_x() * end, edge_y = plane.center_y + plane.size_y() * end;
+            x.include(geometry.sine_x(across, edge_y));
+            x.include(geometry.sine_x(edge_x, along));
+            y.include(geometry.sine_y(across, edge_y));
+            y.include(geometry.sine_y(edge_x, along));
+        }
+    }
+    SineGrid grid;
+    // Nowhere coarser than the band itself, which has room for the pupil and its intensity: so nothing folds back.
+    grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * least_slope(geometry, plane);
+    // What is out of focus spreads by the blur; room for it keeps it from coming in again at the other side.
+    const auto choose = [&](const Range& range, std::size_t& size, double& first) {
+        const double wanted = (range.high - range.low + blur) / grid.step + 8;
+        size = good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
+        // Rows that are a large power of two apart fall on each other in the caches: ten times slower.
+        while (size % 128 == 0) size = good_fft_size(size + 1);
+        first = 0.5 * (range.low + range.high) - 0.5 * static_cast<double>(size - 1) * grid.step;
+    };
+    choose(x, grid.size_x, grid.first_x);
+    choose(y, grid.size_y, grid.first_y);
+    return grid;
+}
+
+}  // namespace hogel
