@@ -88,6 +88,11 @@ CLI::Option* add_length(CLI::App* command, const std::string& name, double& metr
                       [](const std::string& text, const std::string& what) { return parse_length(text, what); });
 }
 
+CLI::Option* add_angle(CLI::App* command, const std::string& name, double& radians, const std::string& help) {
+    return add_parsed(command, name, radians, help, "ANGLE", fmt::format("{:.6g}deg", radians * 180 / std::numbers::pi),
+                      [](const std::string& text, const std::string& what) { return parse_angle(text, what); });
+}
+
 CLI::Option* add_angles(CLI::App* command, const std::string& name, Angles& angles, const std::string& help) {
     const double across = angles.across * 180 / std::numbers::pi, down = angles.down * 180 / std::numbers::pi;
     const std::string shown =

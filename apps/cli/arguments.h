@@ -21,6 +21,7 @@ CLI::Option* add_length(CLI::App* command, const std::string& name, double& metr
 struct Angles {
     double across = 0, down = 0;
 };
+CLI::Option* add_angle(CLI::App* command, const std::string& name, double& radians, const std::string& help);
 CLI::Option* add_angles(CLI::App* command, const std::string& name, Angles& angles, const std::string& help);
 CLI::Option* add_counts(CLI::App* command, const std::string& name, Counts& counts, const std::string& help);
 /// "0,0,300mm": a component without a unit takes the one of the last.

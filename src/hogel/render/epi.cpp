@@ -192,7 +192,7 @@ class EpiRenderer final : public LightFieldSource {
 
     // Once more the samples for which interpolating the vertices' radiance is not enough.
     void shade_samples(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t row,
-                        std::size_t first, std::size_t slow) const {
+                       std::size_t first, std::size_t slow) const {
         if (!needs_samples_) return;
         for (std::size_t i = 0; i < plane.columns * plane.directions; ++i) {
             if (plane.words[i] == EpipolarPlane::nothing) continue;
