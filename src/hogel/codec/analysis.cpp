@@ -9,13 +9,13 @@ namespace {
 
 // Bits that things cost, as they are taken into account: about what they come to.
 constexpr float likeliest_disparity = 0.3f, each_candidate = 1.5f, new_disparity = 14;
-constexpr float best_of_all_sides = 0.3f, one_side = 4, within = 12, coded_block = 6, coded_level = 3.5f;
+constexpr float best_of_all_sides = 0.3f, one_side = 6, within = 12, coded_block = 8, coded_level = 3.5f;
 // What a bit is worth, in squared steps.
-constexpr float bit_worth = 0.12f;
+constexpr float bit_worth = 0.18f;
 // What is added before rounding down: less than a half, as smaller levels take fewer bits.
 constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
 // A prediction with less error than this, in squared steps a block, is taken without looking further.
-constexpr float good_enough = 3.7f;
+constexpr float good_enough = 1.5f;
 constexpr std::int32_t most_level = 1 << 24;
 
 BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
@@ -140,6 +140,7 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     ReferenceWeights weights(place, setup.noise, setup.aspect);
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
+    const int unit = disparity_unit(place);
     Picture picture = setup.blank();
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
@@ -167,9 +168,11 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
             for (std::size_t n = 0; n < candidates.count && !good(); ++n)
                 try_disparity(candidates.disparity[n], likeliest_disparity + each_candidate * static_cast<float>(n));
             if (!estimated.empty() && !good()) try_disparity(estimated[k], new_disparity);
-            for (int part = 8; part >= 1 && !good(); part /= 2)
-                for (const int middle = best.disparity; const int sign : {-1, 1})
-                    try_disparity(middle + sign * part, new_disparity);
+            // Others, in units away from the likeliest.
+            const int likeliest = candidates.disparity[0];
+            for (int part = 16 * unit; part >= unit && !good(); part /= 2)
+                for (const int middle = (best.disparity - likeliest) / unit * unit; const int sign : {-1, 1})
+                    try_disparity(likeliest + middle + sign * part, new_disparity);
         }
         Block& block = coded.blocks[k];
         block.mode = best.mode;

@@ -8,6 +8,8 @@
 namespace hogel {
 namespace {
 
+constexpr int one_surface = 12;  // disparities no farther apart than this belong to one surface
+
 // The zigzag of JPEG: frequencies of a block by their sum.
 constexpr std::array<std::uint8_t, block_samples> zigzag = [] {
     std::array<std::uint8_t, block_samples> order{};
@@ -90,25 +92,28 @@ void code_mode(Coder& coder, BlockModels& models, std::size_t context, bool firs
 }
 
 template <class Coder>
-void code_disparity(Coder& coder, BlockModels& models, std::size_t context, const Candidates& candidates,
+void code_disparity(Coder& coder, BlockModels& models, std::size_t around, int unit, const Candidates& candidates,
                     Block& block) {
     const auto* end = candidates.disparity.begin() + candidates.count;
     const auto* found = std::find(candidates.disparity.begin(), end, block.disparity);
     const int likeliest = candidates.disparity[0];
-    if (!coder.bit(models.disparity[context][0], found != candidates.disparity.begin())) {
+    const std::size_t spread = candidates.spread();
+    auto& model = models.disparity[spread][around];
+    if (!coder.bit(model[0], found != candidates.disparity.begin())) {
         block.disparity = static_cast<std::int16_t>(likeliest);
-    } else if (!coder.bit(models.disparity[context][1], found == end)) {
+    } else if (!coder.bit(model[1], found == end)) {
         std::size_t k = 1;
         const auto index = static_cast<std::size_t>(found - candidates.disparity.begin());
-        while (k + 1 < candidates.count && coder.bit(models.candidate[std::min<std::size_t>(k, 3)], index != k)) ++k;
+        while (k + 1 < candidates.count && coder.bit(models.candidate[spread][std::min<std::size_t>(k, 3)], index != k))
+            ++k;
         block.disparity = candidates.disparity[std::min(k, candidates.count - 1)];
     } else {
-        const int difference = block.disparity - likeliest;
+        const int difference = (block.disparity - likeliest) / unit;
         const bool negative = coder.bit(models.sign, difference < 0);
         const std::uint32_t size =
             1 + std::min(code_number(coder, models.difference, static_cast<std::uint32_t>(std::abs(difference) - 1)),
                          std::uint32_t{4 * most_disparity});
-        const int value = negative ? likeliest - static_cast<int>(size) : likeliest + static_cast<int>(size);
+        const int value = likeliest + (negative ? -unit : unit) * static_cast<int>(size);
         block.disparity = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
     }
 }
@@ -120,6 +125,20 @@ void Candidates::add(int value) {
     for (std::size_t k = 0; k < count; ++k)
         if (disparity[k] == clamped) return;
     disparity[count++] = clamped;
+}
+
+std::size_t Candidates::spread() const {
+    int most = 0;
+    for (std::size_t k = 1; k < count; ++k) most = std::max(most, std::abs(disparity[k] - disparity[0]));
+    return most == 0 ? 0 : most <= 2 ? 1 : most <= one_surface ? 2 : 3;
+}
+
+int disparity_unit(const HogelOrder::Hogel& hogel) {
+    if (hogel.level == 0) return 1;
+    int nearest = shift_unit;
+    for (const HogelOrder::Reference& reference : hogel.references)
+        nearest = std::min(nearest, std::abs(reference.ds) + std::abs(reference.dt));
+    return std::max(1, 4 / nearest);
 }
 
 Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
@@ -141,7 +160,6 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
                                                            const std::vector<CodedHogel>& coded, const BlockGrid& grid,
                                                            float aspect) {
     constexpr std::int64_t side = static_cast<std::int64_t>(block_side) * shift_unit, half = side / 2;
-    constexpr int alike = 12;  // disparities closer than this belong to one surface
     std::vector<std::optional<std::int16_t>> moved(grid.count());
     std::vector<std::int64_t> distance(grid.count(), std::numeric_limits<std::int64_t>::max());
     for (const HogelOrder::Reference& reference : hogel.references) {
@@ -160,7 +178,7 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
             // The nearer surface hides the farther one; of one surface, what comes nearest to the middle.
             std::optional<std::int16_t>& kept = moved[row * grid.columns + column];
             std::int64_t& kept_distance = distance[row * grid.columns + column];
-            if (!kept || disparity > *kept + alike || (disparity > *kept - alike && here < kept_distance)) {
+            if (!kept || disparity > *kept + one_surface || (disparity > *kept - one_surface && here < kept_distance)) {
                 kept = disparity;
                 kept_distance = here;
             }
@@ -174,6 +192,7 @@ void code_hogel(Coder& coder, BlockModels& models, const BlockGrid& grid, const 
                 const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
                 CodedHogel& coded) {
     const bool first = hogel.references.empty();
+    const int unit = disparity_unit(hogel);
     std::size_t used = 0;  // levels
     coded.blocks.resize(grid.count());
     for (std::size_t k = 0; k < grid.count(); ++k) {
@@ -183,17 +202,21 @@ void code_hogel(Coder& coder, BlockModels& models, const BlockGrid& grid, const 
         const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
         code_mode(coder, models, context, first, block);
         const Candidates candidates = candidates_for(k, grid, coded.blocks, moved[k], beside);
-        if (block.mode != 0 || first)
-            code_disparity(coder, models, context, candidates, block);
-        else
+        if (block.mode == 0 && !first) {
             block.disparity = candidates.disparity[0];
+        } else {
+            const std::size_t around = (left && left->surprising ? 1u : 0u) + (above && above->surprising ? 1u : 0u);
+            code_disparity(coder, models, around, unit, candidates, block);
+        }
+        block.surprising = block.disparity != candidates.disparity[0];
         const std::size_t kind = block.mode == 0 ? 2 : block.mode == 1 ? 0 : 1;
         std::uint8_t flags = 0;
         for (std::size_t c = 0; c < grid.channels; ++c) {
             const std::size_t chrominance = c > 0 ? 1 : 0;
             const std::size_t around =
                 (left && left->coded >> c & 1 ? 1u : 0u) + (above && above->coded >> c & 1 ? 1u : 0u);
-            if (!coder.bit(models.coded[chrominance][kind][around], block.coded >> c & 1)) continue;
+            if (!coder.bit(models.coded[chrominance][kind][block.surprising ? 1 : 0][around], block.coded >> c & 1))
+                continue;
             flags = static_cast<std::uint8_t>(flags | 1 << c);
             if (used == coded.levels.size()) coded.levels.emplace_back();
             code_levels(coder, models.levels[chrominance][block.mode == 0 ? 1 : 0], coded.levels[used++]);

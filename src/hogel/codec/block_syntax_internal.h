@@ -19,6 +19,7 @@ struct Block {
     std::uint8_t within = 0;  // how, for mode 0
     std::uint8_t coded = 0;   // a bit for each channel that has levels
     std::int16_t disparity = 0;
+    bool surprising = false;  // its disparity is not the likeliest
 };
 constexpr int within_modes = 4, across_modes = 1 + static_cast<int>(ReferenceWeights::sides);
 
@@ -44,9 +45,15 @@ struct Candidates {
     std::array<std::int16_t, 5> disparity{};
     std::size_t count = 0;
     void add(int value);
+    // How far they are from each other: 0 for not at all, 1 for nearly so, 2 for one surface, 3.
+    std::size_t spread() const;
 };
 Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
                           const std::optional<std::int16_t>& moved, const std::vector<Block>* beside);
+
+// The finest difference of disparity that matters to a hogel: a sixteenth of a direction, moved from the nearest
+// reference to here.
+int disparity_unit(const HogelOrder::Hogel& hogel);
 
 // Adaptive models of everything that is told.
 struct BlockModels {
@@ -59,12 +66,13 @@ struct BlockModels {
     };
     std::array<std::array<BitModel, across_modes>, 3> mode;
     std::array<BitModel, 3> within;
-    std::array<std::array<BitModel, 2>, 3> disparity;
-    std::array<BitModel, 4> candidate;
+    std::array<std::array<std::array<BitModel, 2>, 3>, 4> disparity;  // by spread
+    std::array<std::array<BitModel, 4>, 4> candidate;                 // by spread
     BitModel sign;
     std::array<BitModel, most_bits + 1> difference;
-    std::array<std::array<std::array<BitModel, 3>, 3>, 2> coded;  // by luminance or chrominance, kind of mode
-    std::array<std::array<ForLevels, 2>, 2> levels;               // by luminance or chrominance, within or across
+    // By luminance or chrominance, kind of mode, whether the disparity is surprising.
+    std::array<std::array<std::array<std::array<BitModel, 3>, 2>, 3>, 2> coded;
+    std::array<std::array<ForLevels, 2>, 2> levels;  // by luminance or chrominance, within or across
 };
 
 // Writes what blocks are told, or reads it: the one description of both. A writer's functions return what they are
