@@ -219,7 +219,7 @@ DatasetFile::DatasetFile(const std::filesystem::path& path, const hdf5::Attribut
                          std::vector<hdf5::NewDataset> datasets, const std::optional<std::string>& resume)
     : output_(path, resume ? OutputFile::Unfinished::kept : OutputFile::Unfinished::removed),
       datasets_(std::move(datasets)) {
-    const std::filesystem::path& part = output_.temporary();
+    const std::filesystem::path part = output_.temporary().lexically_normal();
     if (resume) {
         journal_.emplace(part.string() + ".journal", describe(attributes, datasets_, *resume), [&] { raw_->flush(); });
         if (journal_->begun() && std::filesystem::exists(part)) {
