@@ -34,7 +34,7 @@ std::optional<RatePoint> RateCurve::at(double sqnr) const {
 }
 
 RateCurve measure_method(const LightField& field, const CodingMethod& method, const QualityRange& range) {
-    constexpr int most_points = 16;
+    constexpr int most_points = 24;
     const ThreadLimit one(1);
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.path() / "a.hgl";
@@ -42,7 +42,7 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
     CompressionOptions options;
     options.method = method;
     // An error of step/√12 where there is detail of the step's size; less where there is none.
-    double step = root_mean_square(field) * std::sqrt(12.0) * std::pow(10, -range.low / 20) * 4;
+    double step = root_mean_square(field) * std::sqrt(12.0) * std::pow(10, -range.low / 20) * 16;
     const double samples = field.grid().samples() * 1e-6;
     LightField decoded(field.grid());
     for (int k = 0; k < most_points; ++k, step /= 1.6) {
@@ -50,7 +50,7 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
         double began = processor_seconds();
         const CompressionResult result = compress(field, path, options);
         const double encoding = processor_seconds() - began;
-        if (result.sqnr < range.low - 4) continue;
+        if (result.sqnr < range.low - 6) continue;
         began = processor_seconds();
         copy(*open_stream(path), decoded);
         const double decoding = processor_seconds() - began;

@@ -22,25 +22,25 @@ struct Peer {
 
 const std::vector<Peer>& peers() {
     static const std::vector<Peer> all{
-        {"x265 slow",
+        {"x265",
          "libx265",
          "-c:v libx265 -preset slow -crf {} -x265-params log-level=none:pools=none:frame-threads=1",
          "a.hevc",
          {4, 10, 16, 22, 28, 34, 40, 46},
          true},
-        {"SVT-AV1 4",
+        {"svt-av1",
          "libsvtav1",
          "-c:v libsvtav1 -preset 4 -crf {} -svtav1-params lp=1",
          "a.obu",
          {4, 10, 18, 26, 34, 42, 50, 58},
          true},
-        {"JPEG 2000",
+        {"jpeg2000",
          "libopenjpeg",
          "-c:v libopenjpeg -compression_level {}",
          "%06d.jp2",
          {4, 8, 16, 32, 64, 128, 256},
          false},
-        {"JPEG XL", "libjxl", "-c:v libjxl -effort 7 -distance {}", "%06d.jxl", {0.1, 0.3, 1, 3, 6, 12}, false},
+        {"jpegxl", "libjxl", "-c:v libjxl -effort 7 -distance {}", "%06d.jxl", {0.1, 0.3, 1, 3, 6, 12}, false},
     };
     return all;
 }

@@ -6,6 +6,7 @@
 #include "bench_codec.h"
 #include "commands.h"
 #include "hogel/codec/compress.h"
+#include "hogel/core/output_file.h"
 #include "hogel/transform/transform.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -17,9 +18,9 @@ namespace {
 struct Options {
     std::string input, output;
     RenderOptions render;
-    std::vector<std::string> coders, transforms;
+    std::vector<std::string> coders, transforms, peers;
     std::vector<double> sqnrs{25, 30, 35, 40};
-    bool grey = false, peers = false;
+    bool grey = false;
 };
 
 // The whole light field in memory; its colours' mean where that is asked for.
@@ -80,7 +81,7 @@ int bench(const Options& options, const Session& session) {
     const LightField field = load(*source, options.grey, reading->progress());
     reading.reset();
     const LightFieldGrid& grid = field.grid();
-    if (options.peers && grid.channels != 1)
+    if (!options.peers.empty() && grid.channels != 1)
         throw Error(ErrorCode::usage, "peers are compared on one channel; expected --grey");
     std::optional<OutputFolder> folder;
     if (!options.output.empty()) folder.emplace(options.output);
@@ -96,15 +97,14 @@ int bench(const Options& options, const Session& session) {
         session.detail(fmt::format("{} {}", method.coder, method.transform));
         curves.push_back(measure_method(field, method, range));
     }
-    if (options.peers)
-        for (const std::string& name : peer_names()) {
-            stop_if_asked();
-            session.detail(name);
-            if (auto curve = measure_peer(field, name, range))
-                curves.push_back(std::move(*curve));
-            else
-                session.say(fmt::format("{}: left out, ffmpeg does not have it", name));
-        }
+    for (const std::string& name : options.peers) {
+        stop_if_asked();
+        session.detail(name);
+        if (auto curve = measure_peer(field, name, range))
+            curves.push_back(std::move(*curve));
+        else
+            session.say(fmt::format("{}: left out, ffmpeg does not have it", name));
+    }
     const std::string name = std::filesystem::path(options.input).stem().string();
     const std::string subtitle =
         fmt::format("{}x{} hogels, {}x{} directions, {}", grid.hogels_s, grid.hogels_t, grid.directions_u,
@@ -131,7 +131,7 @@ void add_bench_codec(CLI::App& app, Session& session) {
     auto options = std::make_shared<Options>();
     CLI::App* command = add_command(app, session, "codec", "Measure coders: quality against size, and speed",
                                     "  hogel bench codec pumpkin --hogels 16x16 --directions 128 -o plots\n"
-                                    "  hogel bench codec a.h5 --coders hogel --grey --peers",
+                                    "  hogel bench codec a.h5 --coders hogel --grey --peers x265,svt-av1",
                                     [options, &session] { return bench(*options, session); });
     command->add_option("input", options->input, "Light field or scene")->type_name("X.h5|X.hgl|SCENE")->required();
     command->add_option("-o,--output", options->output, "Folder for a plot, SVG")->type_name("DIR");
@@ -150,8 +150,12 @@ void add_bench_codec(CLI::App& app, Session& session) {
         ->check(CLI::Range(1.0, 120.0).description(""))
         ->capture_default_str();
     command->add_flag("--grey", options->grey, "Measure the mean of the colours");
-    command->add_flag("--peers", options->peers,
-                      fmt::format("Measure {} too, where ffmpeg has them", fmt::join(peer_names(), ", ")));
+    command
+        ->add_option("--peers", options->peers,
+                     fmt::format("Others, by way of ffmpeg: {}", fmt::join(peer_names(), ", ")))
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->check(CLI::IsMember(peer_names()).description(""));
     add_render_options(command, options->render);
 }
 
