@@ -19,7 +19,14 @@ struct Options {
     std::size_t looks = defaults.looks;
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string exposure = "auto";
+    std::string camera{defaults.camera};
     bool geometric = false, wave = false;
+
+    // Where the full camera may put what does not fit into memory: beside the picture.
+    std::optional<std::filesystem::path> scratch() const {
+        if (camera != "full") return {};
+        return std::filesystem::absolute(output).parent_path();
+    }
 };
 
 double parse_exposure(const std::string& text) {
@@ -46,7 +53,7 @@ Image photograph_of_hologram(const Options& options, const Session& session) {
     const Grid& plane = file.fields.front()->grid().plane;
     const Camera camera = make_camera(options, plane.size_x(), plane.size_y());
     Stage stage(session, "wave photograph");
-    return photograph_colours(stage, file.fields, {&camera, 1}).front();
+    return photograph_colours(stage, file.fields, {&camera, 1}, options.scratch()).front();
 }
 
 Image photograph_of_light_field(const Options& options, const Session& session, InputKind kind, bool geometric) {
@@ -66,7 +73,7 @@ Image photograph_of_light_field(const Options& options, const Session& session, 
         light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
     const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
-    return photograph_colours(stage, holograms, {&camera, 1}).front();
+    return photograph_colours(stage, holograms, {&camera, 1}, options.scratch()).front();
 }
 
 int photo(const Options& options, const Session& session) {
@@ -79,6 +86,8 @@ int photo(const Options& options, const Session& session) {
     if (kind == InputKind::scene && options.render.hemicube && !options.geometric)
         throw Error(ErrorCode::usage, "--hemicube: only a photograph by rays has use for the sides; add --geometric");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
+    if (geometric && options.camera != defaults.camera)
+        throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
     const Image picture = kind == InputKind::hologram ? photograph_of_hologram(options, session)
                                                       : photograph_of_light_field(options, session, kind, geometric);
     const double exposure = given > 0 ? given : automatic_exposure(picture);
@@ -101,6 +110,13 @@ void add_camera_options(CLI::App* command, Options& options) {
                     "Photographs averaged against speckle, unless of a hologram file"));
     group(command->add_option("--exposure", options.exposure, "What linear values are multiplied by in PNG, or auto")
               ->type_name("NUMBER|auto")
+              ->capture_default_str());
+    group(command
+              ->add_option("--camera", options.camera,
+                           "How waves are photographed:\nnarrow: the band that enters the lens, tile by tile"
+                           "\nfull: plane waves to the lens and back, exact and slow")
+              ->type_name("narrow|full")
+              ->check(CLI::IsMember({"narrow", "full"}).description(""))
               ->capture_default_str());
     CLI::Option* geometric =
         command->add_flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");

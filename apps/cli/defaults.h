@@ -28,6 +28,7 @@ struct Defaults {
     double red = 633_nm, green = 532_nm, blue = 460_nm;
 
     // camera
+    std::string_view camera = "narrow";
     double eye_distance = 300_mm;
     double pupil = 6_mm;
     std::size_t resolution = 400;    ///< pixels across a photograph

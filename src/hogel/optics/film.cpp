@@ -236,7 +236,7 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
                     if (!shown.holds(x, y)) continue;
                     const double i = (geometry.sine_x(x, y) - sines_.first_x) / sines_.step;
                     const double j = (geometry.sine_y(x, y) - sines_.first_y) / sines_.step;
-                    const double value = cubic_at(intensity, j, i);
+                    const double value = cubic_at(sines_.size_y, sines_.size_x, intensity, j, i);
                     // A diffuse surface of radiance L sends L cos θ · (area of the pupil) cos θ/r² through this band,
                     // and its plane waves have 1/cos θ of that as |F|² (docs/notation.md section 4).
                     const double r = geometry.distance(x, y);

@@ -8,21 +8,6 @@
 
 namespace hogel {
 
-/// A rectangle of a plane, metres; points on its left and lower edge belong to it.
-struct Rectangle {
-    double left = 0, right = 0, bottom = 0, top = 0;
-
-    explicit Rectangle(const Grid& plane)
-        : left(plane.center_x - 0.5 * plane.size_x()),
-          right(plane.center_x + 0.5 * plane.size_x()),
-          bottom(plane.center_y - 0.5 * plane.size_y()),
-          top(plane.center_y + 0.5 * plane.size_y()) {}
-    bool holds(double x, double y) const { return x >= left && x < right && y >= bottom && y < top; }
-    bool meets(const Rectangle& other) const {
-        return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
-    }
-};
-
 /// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
 /// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
 /// section 4). Each step works on all threads; an array that the caller gives is all that it needs.

@@ -53,22 +53,22 @@ class InterpolationTable {
     std::vector<float> weights_;
 };
 
-/// Catmull and Rom's cubic through four neighbours: intensities come with two samples to their finest wave, for which
-/// straight lines would be too coarse. Nothing outside, and never negative.
-inline double cubic_at(View<const float, 2> values, double row, double column) {
+/// Catmull and Rom's cubic through four neighbours of value(row, column): intensities come with two samples to their
+/// finest wave, for which straight lines would be too coarse. Nothing outside, and never negative.
+template <class Value>
+double cubic_at(std::size_t height, std::size_t width, const Value& value, double row, double column) {
     const auto weights = [](double f) {
         return std::array{((-0.5 * f + 1) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1, ((-1.5 * f + 2) * f + 0.5) * f,
                           (0.5 * f - 0.5) * f * f};
     };
     const double row0 = std::floor(row), column0 = std::floor(column);
-    if (row0 < 1 || column0 < 1 || row0 + 2 >= static_cast<double>(values.extent(0)) ||
-        column0 + 2 >= static_cast<double>(values.extent(1)))
+    if (row0 < 1 || column0 < 1 || row0 + 2 >= static_cast<double>(height) || column0 + 2 >= static_cast<double>(width))
         return 0;
     const auto down = weights(row - row0), across = weights(column - column0);
     const auto j = static_cast<std::size_t>(row0) - 1, i = static_cast<std::size_t>(column0) - 1;
     double sum = 0;
     for (std::size_t b = 0; b < 4; ++b)
-        for (std::size_t a = 0; a < 4; ++a) sum += down[b] * across[a] * values(j + b, i + a);
+        for (std::size_t a = 0; a < 4; ++a) sum += down[b] * across[a] * static_cast<double>(value(j + b, i + a));
     return std::max(sum, 0.0);
 }
 

@@ -71,6 +71,10 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
 
 double resolution_cell(const Camera& camera, double wavelength) { return wavelength * camera.eye.z / camera.pupil; }
 
+void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options) {
+    plan_photographs(hologram, cameras, static_cast<double>(options.memory));
+}
+
 std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress,
                               const PhotographOptions& options) {
     const auto memory = static_cast<double>(options.memory);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <tuple>
 
 #include "hogel/core/parallel.h"
 #include "hogel/core/units.h"
+#include "hogel/optics/spectrum.h"
 
 namespace hogel {
 namespace {
@@ -124,6 +126,26 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
 
 }  // namespace
 
+void require_light_towards(const FieldGrid& hologram, const Camera& camera) {
+    validate(camera);
+    const Rectangle pupil(Grid{1, 1, camera.pupil, camera.pupil, camera.eye.x, camera.eye.y});
+    const Band band = band_between(Rectangle(hologram.plane), pupil, camera.eye.z, hologram.wavelength);
+    const auto check = [&](double frequency, double pitch, const char* axis) {
+        if (frequency * pitch <= 0.5) return;
+        const double degrees = 180 / std::numbers::pi;
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("the eye sees the hologram from up to {:.2f} degrees in {}, but a pitch of {} sends light "
+                        "of {} no farther than {:.2f}; a pitch of {} or less would do",
+                        degrees * std::asin(frequency * hologram.wavelength), axis, format_length(pitch),
+                        format_length(hologram.wavelength),
+                        degrees * std::asin(std::min(1.0, 0.5 * hologram.wavelength / pitch)),
+                        format_length(0.5 / frequency)));
+    };
+    check(std::max(-band.low_x, band.high_x), hologram.plane.pitch_x, "x");
+    check(std::max(-band.low_y, band.high_y), hologram.plane.pitch_y, "y");
+}
+
 std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members) {
     std::vector<SharedEye> eyes;
     for (std::size_t i : members) {
@@ -141,9 +163,11 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
     for (const Camera& camera : cameras) {
         validate(camera);
         NarrowBand(hologram, camera.eye, camera.pupil);  // says so where the pupil is too wide for the pitch
+        require_light_towards(hologram, camera);
     }
+    if (cameras.empty()) return {};
     PhotographPlan plan = find_plan(hologram, cameras, memory);
-    if (cameras.empty() || !plan.passes.empty()) return plan;
+    if (!plan.passes.empty()) return plan;
     double fits = 0, fails = 1;
     for (int i = 0; i < 8; ++i) {
         const double scale = 0.5 * (fits + fails);

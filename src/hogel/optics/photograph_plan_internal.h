@@ -26,6 +26,10 @@ struct PhotographPlan {
 /// The plan with least work. Throws Error(usage) with a pupil that would do where there is none.
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory);
 
+/// Throws Error(usage) for a camera that makes no sense, or that looks at the hologram from directions to which its
+/// samples send no light: what would be seen there are copies of the picture that belongs elsewhere.
+void require_light_towards(const FieldGrid& hologram, const Camera& camera);
+
 /// The cameras of one pass with one eye: they share its narrow band.
 struct SharedEye {
     std::vector<std::size_t> members;  ///< indices of cameras

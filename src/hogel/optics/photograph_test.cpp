@@ -82,7 +82,7 @@ TEST(Photograph, a_diffuse_field_has_its_radiance_from_everywhere) {
     std::normal_distribution<float> normal(0, std::sqrt(0.5f));
     for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
     const double at_zero = 1e-12 / (633e-9 * 633e-9);  // radiance at cos θ = 1
-    for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.03, 0, 0.1}, Vec3{0, -0.02, 0.05}})
+    for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.024, 0, 0.1}, Vec3{0, -0.01, 0.06}})
         for (double pupil : {4_mm, 8_mm}) {
             Camera camera;
             camera.eye = eye;
@@ -117,6 +117,29 @@ TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
         EXPECT_NEAR(once.pixels.data()[i], twice.pixels.data()[i], 1e-5f * (1 + once.pixels.data()[i]));
 }
 
+// The chain of plane waves against the narrow band: speckle for speckle the same picture, on axis and at 20°.
+TEST(Photograph, by_the_full_chain_is_the_same_picture) {
+    const FieldGrid grid{{1300, 1200, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
+    Field field(grid);
+    std::mt19937 random(8);
+    std::normal_distribution<float> normal;
+    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    std::vector<Camera> cameras;
+    for (const Vec3 eye : {Vec3{0, 0, 100_mm}, Vec3{36.4_mm, -8_mm, 100_mm}})
+        for (const double focus : {0.0, 4e-3, -3e-3}) {
+            Camera& camera = cameras.emplace_back();
+            camera.eye = eye;
+            camera.pupil = 4_mm;
+            camera.focus_depth = focus;
+            camera.picture = {52, 48, 20_um, 20_um, 0.1_mm, -0.1_mm};
+        }
+    const auto narrow = photograph(field, cameras), full = photograph_fully(field, cameras);
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        EXPECT_GT(correlation(narrow[c], full[c]), 0.999) << c;
+        EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 5e-3) << c;
+    }
+}
+
 // With little memory a hologram is photographed window by window and a camera at a time: the same picture, but for what
 // light falls far from its place.
 TEST(Photograph, in_windows_is_the_same_picture) {
@@ -127,7 +150,7 @@ TEST(Photograph, in_windows_is_the_same_picture) {
     for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
     std::vector<Camera> cameras(2);
     for (Camera& camera : cameras) {
-        camera.eye = {1_mm, 0, 20_mm};
+        camera.eye = {1_mm, 0, 30_mm};
         camera.pupil = 5_mm;
         camera.picture = {400, 8, 20_um, 20_um, 0.5_mm, 0};
     }
@@ -142,6 +165,10 @@ TEST(Photograph, in_windows_is_the_same_picture) {
         EXPECT_GT(correlation(parts[c], whole[c]), 0.9998) << c;
         EXPECT_NEAR(sum(parts[c]) / sum(whole[c]), 1, 2e-3) << c;
     }
+}
+
+TEST(Photograph, no_camera_takes_no_photograph) {
+    EXPECT_TRUE(photograph(Field({{100, 100, 2_um, 2_um, 0, 0}, 633_nm}), {}).empty());
 }
 
 // What a wide lens takes of a large hologram: the plan keeps within its bound whatever is asked of it.
@@ -166,6 +193,25 @@ TEST(Photograph, plans_keep_within_the_memory_or_say_which_pupil_does) {
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
         EXPECT_NE(std::string(error.what()).find("would do"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Photograph, an_eye_where_no_light_goes_is_refused_with_a_pitch_that_would_do) {
+    const FieldGrid grid{{100, 100, 2_um, 2_um, 0, 0}, 633_nm};
+    Camera camera;
+    camera.eye = {0, 30_mm, 100_mm};
+    camera.picture = {8, 8, 20_um, 20_um, 0, 0};
+    for (const auto& take : {+[](const Field&f, const Camera&c) { photograph(f, std::span(&c, 1)); },
+                             +[](const Field&f, const Camera&c) { photograph_fully(f, std::span(&c, 1)); }}) {
+        try {
+            take(Field(grid), camera);
+            FAIL();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+            EXPECT_NE(std::string(error.what()).find("in y, but a pitch of 2 um sends light of 633 nm no farther than"),
+                      std::string::npos)
+                << error.what();
+        }
     }
 }
 

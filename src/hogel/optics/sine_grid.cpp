@@ -55,9 +55,11 @@ SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
     SineGrid grid;
     // Nowhere coarser than the band itself, which has room for the pupil and its intensity: so nothing folds back.
     grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * least_slope(geometry, plane);
-    // What is out of focus spreads by the blur; room for it keeps it from coming in again at the other side.
+    // What is out of focus spreads by the blur, and what is in focus by some resolution cells, four samples each; room
+    // for it keeps it from coming in again at the other side.
+    constexpr double room = 64;
     const auto choose = [&](const Range& range, std::size_t& size, double& first) {
-        const double wanted = (range.high - range.low + blur) / grid.step + 8;
+        const double wanted = (range.high - range.low + blur) / grid.step + room;
         size = good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
         // Rows that are a large power of two apart fall on each other in the caches: ten times slower.
         while (size % 128 == 0) size = good_fft_size(size + 1);
