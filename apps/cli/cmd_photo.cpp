@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "hogel/lightfield/photograph.h"
+#include "hogel/optics/photograph.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -52,6 +53,7 @@ Image photograph_of_hologram(const Options& options, const Session& session) {
                                                       options.input, file.fields.size()));
     const Grid& plane = file.fields.front()->grid().plane;
     const Camera camera = make_camera(options, plane.size_x(), plane.size_y());
+    for (const auto& field : file.fields) require_light_towards(field->grid(), camera);
     Stage stage(session, "wave photograph");
     return photograph_colours(stage, file.fields, {&camera, 1}, options.scratch()).front();
 }

@@ -31,6 +31,11 @@ std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camer
 void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
                          const PhotographOptions& options = {});
 
+/// Throws Error(usage) for a camera that makes no sense, or that looks at a hologram from directions to which its
+/// samples send no light. photograph() shows there what a modulator of such samples shows, copies of the picture that
+/// belongs elsewhere: right for a field that is known to have just these directions, and else a mistake.
+void require_light_towards(const FieldGrid& hologram, const Camera& camera);
+
 /// The same by the chain of [K] 6, with no approximation but that the hologram is a window of its own: plane waves to
 /// the lens, of the directions between the hologram and the pupil alone, by which the copies that sampling makes stay
 /// out; the opening; and from it back to the plane in focus, which is what a perfect lens shows on its film. Cost:

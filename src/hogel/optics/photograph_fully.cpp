@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/elements.h"
@@ -97,8 +98,8 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                                                (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
                     if (!shown.holds(x, y)) continue;
                     const Vec3 way = m * (Vec3{x, y, 0} - camera.eye);
-                    const double value = cubic_at(samples.extent(0), samples.extent(1), intensity,
-                                                  plane.row(camera.eye.y + way.y), plane.column(camera.eye.x + way.x));
+                    const double value = cubic_at(samples.extent(0), samples.extent(1), plane.row(camera.eye.y + way.y),
+                                                  plane.column(camera.eye.x + way.x), intensity);
                     const double r = length(way);
                     sum += value * r * r * r / (m * R * focused.pupil_area);
                 }
@@ -115,6 +116,8 @@ std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const
     std::vector<Image> images;
     for (const Camera& camera : cameras) {
         require_light_towards(hologram.grid(), camera);
+        if (camera.focus_slope_x != 0 || camera.focus_slope_y != 0)
+            throw Error(ErrorCode::usage, "the full camera's film is parallel to the hologram; it cannot be tilted");
         all.push_back(all.size());
         images.emplace_back(camera.picture.width, camera.picture.height, 1);
     }

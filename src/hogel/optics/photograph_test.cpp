@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -45,7 +46,7 @@ double correlation(const Image& a, const Image& b) {
 
 struct Case {
     Vec3 point, eye;
-    double focus;
+    double focus, slope_x = 0, slope_y = 0;
 };
 
 class NarrowBandCamera : public ::testing::TestWithParam<Case> {};
@@ -53,15 +54,17 @@ class NarrowBandCamera : public ::testing::TestWithParam<Case> {};
 // The fast camera against the sum over every sample and every point of the pupil: the same picture, in the same units.
 TEST_P(NarrowBandCamera, agrees_with_direct_summation) {
     const Case& c = GetParam();
-    const FieldGrid grid{{160, 160, 4_um, 4_um, 0, 0}, 633_nm};
+    const FieldGrid grid{{128, 128, 4_um, 4_um, 0, 0}, 633_nm};
     const Field field = spherical_wave(grid, c.point);
     Camera camera;
     camera.eye = c.eye;
     camera.focus_depth = c.focus;
+    camera.focus_slope_x = c.slope_x;
+    camera.focus_slope_y = c.slope_y;
     camera.pupil = 3_mm;
-    camera.picture = {32, 32, 20_um, 20_um, 0, 0};
+    camera.picture = {26, 26, 20_um, 20_um, 0, 0};
     const Image fast = photograph(field, std::span(&camera, 1))[0];
-    const Image direct = photograph_directly(field, camera, 80, 4);
+    const Image direct = photograph_directly(field, camera, 64, 3);
     EXPECT_GT(correlation(fast, direct), 0.9995);
     EXPECT_NEAR(sum(fast) / sum(direct), 1, 0.02);
 }
@@ -69,8 +72,26 @@ TEST_P(NarrowBandCamera, agrees_with_direct_summation) {
 INSTANTIATE_TEST_SUITE_P(PointsEyesAndFocuses, NarrowBandCamera,
                          ::testing::Values(Case{{0, 0, -4e-3}, {0, 0, 0.1}, 0},
                                            Case{{0.1e-3, -0.12e-3, -4e-3}, {0, 0, 0.1}, 4e-3},
-                                           Case{{-0.1e-3, 0.1e-3, 3e-3}, {4e-3, -2e-3, 0.1}, -3e-3},
-                                           Case{{0.12e-3, 0.1e-3, -3e-3}, {-6e-3, 5e-3, 0.1}, 1e-3}));
+                                           Case{{-0.02e-3, 0.03e-3, 3e-3}, {4e-3, -2e-3, 0.1}, -3e-3},
+                                           Case{{0.12e-3, -0.05e-3, -3e-3}, {-6e-3, 5e-3, 0.1}, 1e-3},
+                                           Case{{0.1e-3, 0.05e-3, -3e-3}, {2e-3, 0, 0.1}, 1e-3, 20, -10}));
+
+// The same point in focus where a tilted film brings its place into focus, and out of focus where it does not.
+TEST(Photograph, a_tilted_film_is_in_focus_along_its_own_plane) {
+    const FieldGrid grid{{500, 500, 2_um, 2_um, 0, 0}, 633_nm};
+    const Field field = spherical_wave(grid, {0.2_mm, 0, -5_mm});
+    const auto peak = [&](double slope) {
+        Camera camera;
+        camera.eye = {0, 0, 60_mm};
+        camera.pupil = 3_mm;
+        camera.focus_slope_x = slope;
+        camera.picture = {100, 20, 10_um, 10_um, 0, 0};
+        const Image picture = photograph(field, std::span(&camera, 1))[0];
+        return *std::ranges::max_element(picture.pixels.elements());
+    };
+    EXPECT_GT(peak(25), 8 * peak(0));
+    EXPECT_GT(peak(0), 2 * peak(-25));
+}
 
 // A field of independent random samples is a diffuse surface: seen from anywhere, with any pupil, it has the same
 // radiance. With complex samples of variance σ² at pitch Δ its spectrum is σ²Δ² per unit of frequency, which is
@@ -201,18 +222,17 @@ TEST(Photograph, an_eye_where_no_light_goes_is_refused_with_a_pitch_that_would_d
     Camera camera;
     camera.eye = {0, 30_mm, 100_mm};
     camera.picture = {8, 8, 20_um, 20_um, 0, 0};
-    for (const auto& take : {+[](const Field&f, const Camera&c) { photograph(f, std::span(&c, 1)); },
-                             +[](const Field&f, const Camera&c) { photograph_fully(f, std::span(&c, 1)); }}) {
-        try {
-            take(Field(grid), camera);
-            FAIL();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::usage);
-            EXPECT_NE(std::string(error.what()).find("in y, but a pitch of 2 um sends light of 633 nm no farther than"),
-                      std::string::npos)
-                << error.what();
-        }
+    try {
+        photograph_fully(Field(grid), std::span(&camera, 1));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        const std::string expected = "in y, but a pitch of 2 um sends light of 633 nm no farther than";
+        EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
     }
+    EXPECT_THROW(require_light_towards(grid, camera), Error);
+    camera.eye.y = 0;
+    require_light_towards(grid, camera);
 }
 
 TEST(Photograph, a_pupil_too_wide_for_the_pitch_is_refused_with_one_that_would_do) {

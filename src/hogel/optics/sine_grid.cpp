@@ -33,8 +33,13 @@ double least_slope(const ViewGeometry& geometry, const Grid& plane) {
 }  // namespace
 
 double defocus_blur(const Camera& camera) {
-    const double R = camera.eye.z;
-    return camera.pupil * std::abs(1 / R - 1 / (R + camera.focus_depth));
+    const Grid& picture = camera.picture;
+    const double R = camera.eye.z, half_x = 0.5 * picture.size_x(), half_y = 0.5 * picture.size_y();
+    double most = 0;
+    for (double x : {picture.center_x - half_x, picture.center_x + half_x})
+        for (double y : {picture.center_y - half_y, picture.center_y + half_y})
+            most = std::max(most, std::abs(1 - 1 / focus_ratio(camera, x, y)));
+    return camera.pupil / R * most;
 }
 
 SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
