@@ -245,8 +245,8 @@ void require_holograms(const LightFieldGrid& light_field, const HologramOptions&
     // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
     const double shortest = *std::ranges::min_element(options.wavelengths);
     const FieldGrid hologram = stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
-    for (const Camera& camera : cameras) require_light_towards(hologram, camera);
     require_photographs(hologram, cameras);
+    for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
 
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,

@@ -33,4 +33,8 @@ std::unique_ptr<FieldSource> open_foreign_field(const std::filesystem::path& pat
 /// Whether a file is an array that open_foreign_field() reads, by its first bytes.
 bool is_foreign_array(const std::filesystem::path& path);
 
+/// Writes samples[y][x] as an array of complex64 in NumPy's format. The file gets its name when it is complete. Throws
+/// Error(cannot_write).
+void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples);
+
 }  // namespace hogel

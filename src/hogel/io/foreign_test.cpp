@@ -149,6 +149,13 @@ TEST_F(Foreign, arrays_of_numpy_are_read_by_rows_and_by_columns) {
     EXPECT_TRUE(is_foreign_array(directory_ / "b.npy"));
 }
 
+TEST_F(Foreign, arrays_are_written_as_numpy_writes_them) {
+    const auto field = open_foreign_field(write("a.npy", npy_rows()), known());
+    write_npy(directory_ / "b.npy", all_of(*field));
+    std::ifstream a(directory_ / "a.npy", std::ios::binary), b(directory_ / "b.npy", std::ios::binary);
+    EXPECT_TRUE(std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b), {}));
+}
+
 TEST_F(Foreign, arrays_of_matlab_are_read_plain_and_compressed) {
     expect_example(*open_foreign_field(write("a.mat", plain_mat()), known()));
     expect_example(*open_foreign_field(write("b.mat", compressed_mat()), known()));

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "hogel/core/error.h"
+#include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/io/foreign_internal.h"
 
@@ -157,6 +158,22 @@ bool is_npy(std::span<const unsigned char> start) {
 
 std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ForeignField& what) {
     return std::make_unique<NpyField>(path, what);
+}
+
+void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples) {
+    std::string header = fmt::format("{{'descr': '<c8', 'fortran_order': False, 'shape': ({}, {}), }}",
+                                     samples.extent(0), samples.extent(1));
+    header.resize(128 - 10 - 1, ' ');
+    header += '\n';
+    std::string start(magic.begin(), magic.end());
+    start += {1, 0, static_cast<char>(header.size()), 0};
+    start += header;
+    OutputFile output(path);
+    RawFile file(output.temporary(), RawFile::Mode::create, path);
+    file.write(0, start.data(), start.size());
+    file.write(start.size(), samples.data(), samples.size() * sizeof(std::complex<float>));
+    file.close();
+    output.commit();
 }
 
 }  // namespace hogel

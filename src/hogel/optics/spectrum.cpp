@@ -292,18 +292,32 @@ void propagate(Spectrum& spectrum, const Way& way) {
     spectrum.window.center_y += way.shift_y;
 }
 
-Field propagate(const FieldSource& source, double distance, std::size_t look) {
+void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
+               const Progress& progress) {
     const Grid& plane = source.grid().plane;
     validate(source.grid(), ErrorCode::usage, "propagated field");
-    const Scratch anything{SIZE_MAX, {}};
+    if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));
     Spectrum waves =
-        spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), anything);
+        spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), scratch,
+                    [&](double done) { return !progress || progress(0.4 * done); });
     propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
-    const Wave wave = wave_of(waves, waves.window.width, waves.window.height, anything);
+    report(progress, 0.6);
+    const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
+    report(progress, 0.9);
+    const std::size_t left = (waves.window.width - plane.width) / 2, above = (waves.window.height - plane.height) / 2;
+    parallel_for(blocks_of(plane.height), [&](std::size_t block) {
+        const std::size_t y0 = block * lines_together, rows = std::min(lines_together, plane.height - y0);
+        Array<Complex, 2> lines({rows, plane.width});
+        wave.read({left, above + y0, plane.width, rows}, 0, lines);
+        sink.write({0, y0, plane.width, rows}, lines);
+    });
+    sink.finish();
+    report(progress, 1);
+}
+
+Field propagate(const FieldSource& source, double distance, std::size_t look) {
     Field result(source.grid());
-    wave.read(
-        {(waves.window.width - plane.width) / 2, (waves.window.height - plane.height) / 2, plane.width, plane.height},
-        0, result.samples);
+    propagate(source, distance, result, look, {SIZE_MAX, {}});
     return result;
 }
 

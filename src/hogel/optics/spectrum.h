@@ -77,7 +77,12 @@ void propagate(Spectrum& spectrum, const Way& way);
 
 /// A field on a parallel plane, on the same grid. It is given room around it and keeps all directions that could bring
 /// light from one end of the grid to the other; those that go farther fade out, and do not come in again.
+/// Throws Error(usage) for a distance that is not finite.
 Field propagate(const FieldSource& field, double distance, std::size_t look = 0);
+
+/// The same from a source to a sink, with what does not fit into memory in a file.
+void propagate(const FieldSource& field, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
+               const Progress& progress = {});
 
 /// The frequencies that light from one rectangle to another on a plane at this distance can have: [K] 6.1.3.
 Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength);

@@ -326,6 +326,7 @@ TEST(BandBetween, holds_every_direction_tightly) {
 TEST(Spectrum, what_cannot_be_is_refused) {
     const Grid plane{64, 64, 1_um, 1_um, 0, 0};
     const Field field(FieldGrid{plane, wavelength});
+    EXPECT_THROW(propagate(field, std::nan("")), Error);
     EXPECT_THROW(spectrum_of(field, 0, {62, 64, 1_um, 1_um, 0, 0}, Band::of(plane)), Error);
     EXPECT_THROW(spectrum_of(field, 0, plane, {6e5, 7e5, -1e5, 1e5}), Error);
     EXPECT_THROW(spectrum_of(field, 0, plane, Band::of(plane), {100, {}}), Error);
