@@ -7,11 +7,11 @@
 #include <map>
 #include <numbers>
 
-#include "hogel/optics/narrow_band.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
 #include "hogel/scene/import.h"
+#include "hogel/shading/bake.h"
 #include "hogel/shading/shading.h"
 
 namespace hogel::cli {
@@ -21,7 +21,8 @@ namespace {
 constexpr double kept_bytes = 2e9;
 
 bool is_builtin(const std::string& name) {
-    return std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
+    return name == church_radiance_scene.name ||
+           std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
 }
 
 // The middle and half of the range of U that a field of view spans around an angle.
@@ -185,7 +186,11 @@ InputKind input_kind(const std::string& name) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
 }
 
-Scene load_scene(const std::string& name, const RenderOptions& options) {
+Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options) {
+    if (name == church_radiance_scene.name) {
+        Stage stage(session, "baking");
+        return make_church_radiance(options.size, stage.progress());
+    }
     if (is_builtin(name)) return make_builtin_scene(name, options.size);
     Scene scene = import_scene(name);
     if (!options.as_is) {
@@ -216,13 +221,13 @@ std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Sess
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
-    return render_on_demand(session, load_scene(name, options), options);
+    return render_on_demand(session, load_scene(session, name, options), options);
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
                                                                     const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
-    return render_faces_on_demand(session, load_scene(name, options), options);
+    return render_faces_on_demand(session, load_scene(session, name, options), options);
 }
 
 bool needs_depth(const HologramOptions& options) {
@@ -246,7 +251,8 @@ void require_holograms(const LightFieldGrid& light_field, const HologramOptions&
     // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
     const double shortest = *std::ranges::min_element(options.wavelengths);
     const FieldGrid hologram = stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
-    for (const Camera& camera : cameras) NarrowBand(hologram, camera.eye, camera.pupil);
+    require_photographs(hologram, cameras);
+    for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
 
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
@@ -262,11 +268,15 @@ std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
 }
 
 std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
-                                      std::span<const Camera> cameras) {
+                                      std::span<const Camera> cameras,
+                                      const std::optional<std::filesystem::path>& full) {
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
     for (std::size_t c = 0; c < colours; ++c) {
-        const std::vector<Image> seen = photograph(*holograms[c], cameras, stage.progress(c, colours));
+        const Progress progress = stage.progress(c, colours);
+        const std::vector<Image> seen =
+            full ? photograph_fully(*holograms[c], cameras, progress, {.memory = Scratch().memory, .folder = *full})
+                 : photograph(*holograms[c], cameras, progress);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
             for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
