@@ -55,7 +55,9 @@ double processor_seconds_of_programs() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-bool run(const std::string& command) { return std::system((command + " >/dev/null 2>&1 </dev/null").c_str()) == 0; }
+bool run(const std::string& command) {
+    return std::system(("(" + command + ") >/dev/null 2>&1 </dev/null").c_str()) == 0;
+}
 
 std::string quoted(const std::filesystem::path& path) {
     std::string result = "'";
