@@ -28,8 +28,8 @@ class FourierSynthesis final : public HogelSynthesis {
 
     std::size_t prepared_size() const override { return frequencies_.samples() * frequencies_.samples(); }
 
-    void prepare(std::span<const float> radiance, std::span<const float>, std::span<float> prepared) const override {
-        frequencies_.amplitudes(radiance, prepared);
+    void prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const override {
+        frequencies_.amplitudes(radiances, prepared);
     }
 
     // Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.

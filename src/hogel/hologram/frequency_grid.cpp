@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hogel/hologram/lobes.h"
+
 namespace hogel {
 namespace {
 
@@ -77,19 +79,49 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samp
 }
 
 void FrequencyGrid::amplitudes(std::span<const float> radiance, std::span<float> moduli) const {
-    std::fill(moduli.begin(), moduli.end(), 0.0f);
-    for (const Lobe& lobe : lobes_) {
-        const float* u = &weights_[lobe.weights];
-        const float* v = u + lobe.nu;
-        float sum = 0;
-        for (std::uint32_t l = 0; l < lobe.nv; ++l) {
-            const float* row = &radiance[(lobe.v0 + l) * row_length_ + lobe.u0];
-            float line = 0;
-            for (std::uint32_t k = 0; k < lobe.nu; ++k) line += u[k] * row[k];
-            sum += v[l] * line;
+    amplitudes(View<const float, 2>(radiance.data(), {1, radiance.size()}),
+               View<float, 2>(moduli.data(), {1, moduli.size()}));
+}
+
+// Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
+void FrequencyGrid::amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const {
+    const std::size_t rays = radiances.extent(1);
+    Array<float, 2> beside({rays, hogels_at_once}), averages({lobes_.size(), hogels_at_once});
+    std::fill(moduli.data(), moduli.data() + moduli.size(), 0.0f);
+    for (std::size_t first = 0; first < radiances.extent(0); first += hogels_at_once) {
+        const std::size_t hogels = std::min(hogels_at_once, radiances.extent(0) - first);
+        for (std::size_t h = 0; h < hogels; ++h) {
+            const float* from = &radiances(first + h, 0);
+            for (std::size_t i = 0; i < rays; ++i) beside.data()[i * hogels_at_once + h] = from[i];
         }
-        // A light field may hold small negative values where a codec has passed; they carry no light.
-        moduli[lobe.coefficient] = std::sqrt(std::max(sum, 0.0f) * lobe.scale);
+        average_lobes(lobes_, weights_.data(), beside.data(), row_length_, averages.data());
+        for (std::size_t h = 0; h < hogels; ++h) {
+            float* to = &moduli(first + h, 0);
+            const float* from = averages.data() + h;
+            for (const Lobe& lobe : lobes_) {
+                to[lobe.coefficient] = *from;
+                from += hogels_at_once;
+            }
+        }
+    }
+}
+
+void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
+                         std::size_t row_length, float* out) {
+    for (const FrequencyGrid::Lobe& lobe : lobes) {
+        const float* u = weights + lobe.weights;
+        const float* v = u + lobe.nu;
+        for (std::size_t hogel = 0; hogel < hogels_at_once; ++hogel) {
+            float sum = 0;
+            for (std::uint32_t l = 0; l < lobe.nv; ++l) {
+                const float* row = rays + ((lobe.v0 + l) * row_length + lobe.u0) * hogels_at_once + hogel;
+                float line = 0;
+                for (std::uint32_t k = 0; k < lobe.nu; ++k) line += u[k] * row[k * hogels_at_once];
+                sum += v[l] * line;
+            }
+            // A light field may hold small negative values where a codec has passed; they carry no light.
+            *out++ = std::sqrt(std::max(sum, 0.0f) * lobe.scale);
+        }
     }
 }
 

@@ -26,9 +26,11 @@ class FrequencyGrid {
     /// DFT's 1/n and Δ drawn together; see docs/notation.md.
     void amplitudes(std::span<const float> radiance, std::span<float> moduli) const;
 
+    /// The same for many hogels, radiances[hogel][v u] to moduli[hogel][j_y j_x], sixteen at once.
+    void amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const;
+
     std::size_t samples() const { return samples_; }
 
-  private:
     // A DFT coefficient that carries light: the directions that it averages and their weights, as an outer product.
     struct Lobe {
         std::uint32_t coefficient;
@@ -38,6 +40,7 @@ class FrequencyGrid {
         float scale;            // (λ/d)² / cos θ, applied under the root
     };
 
+  private:
     std::size_t samples_;
     std::size_t row_length_;  // n_U
     std::vector<Lobe> lobes_;

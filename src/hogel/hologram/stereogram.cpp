@@ -48,40 +48,69 @@ class Stereogram final : public FieldSource {
         HogelRange hogels{region.x0 / n_, region.y0 / n_, 0, 0};
         hogels.ns = (region.x0 + region.width - 1) / n_ + 1 - hogels.s0;
         hogels.nt = (region.y0 + region.height - 1) / n_ + 1 - hogels.t0;
-        const std::shared_ptr<const Prepared> prepared = prepare(hogels);
-        Array<Complex, 2> hogel({n_, n_});
-        for (std::size_t t = hogels.t0; t < hogels.t0 + hogels.nt; ++t)
-            for (std::size_t s = hogels.s0; s < hogels.s0 + hogels.ns; ++s) {
-                synthesis_->synthesise(prepared->values[t - hogels.t0][s - hogels.s0].elements(), {s, t, look}, hogel);
-                // The part of the hogel that the region asks for.
-                const std::size_t x0 = std::max(s * n_, region.x0),
-                                  x1 = std::min((s + 1) * n_, region.x0 + region.width);
-                const std::size_t y0 = std::max(t * n_, region.y0),
-                                  y1 = std::min((t + 1) * n_, region.y0 + region.height);
-                for (std::size_t y = y0; y < y1; ++y)
-                    std::copy(&hogel(y - t * n_, x0 - s * n_), &hogel(y - t * n_, x0 - s * n_) + (x1 - x0),
-                              &out(y - region.y0, x0 - region.x0));
+        Array<Complex, 2> square({n_, n_});
+        if (options_.looks > 1) {
+            const std::shared_ptr<const Prepared> prepared = prepare(hogels);
+            for (std::size_t t = 0; t < hogels.nt; ++t)
+                write_row(prepared->values[t], {hogels.s0, hogels.t0 + t, look}, region, square, out);
+            return;
+        }
+        // What one look alone needs stays in the cache, a few hogels at a time.
+        const LightFieldTile tile = read_rays(hogels);
+        Array<float, 2> prepared({std::min(hogels_together, hogels.ns), synthesis_->prepared_size()});
+        for (std::size_t t = 0; t < hogels.nt; ++t)
+            for (std::size_t s = 0; s < hogels.ns; s += hogels_together) {
+                const std::size_t count = std::min(hogels_together, hogels.ns - s);
+                const View<float, 2> some(prepared.data(), {count, synthesis_->prepared_size()});
+                prepare(tile, t, s, some);
+                write_row(some, {hogels.s0 + s, hogels.t0 + t, look}, region, square, out);
             }
     }
 
   private:
+    static constexpr std::size_t hogels_together = 16;
+
+    LightFieldTile read_rays(const HogelRange& hogels) const {
+        LightFieldTile tile(light_field_.grid(), hogels, needs_depth(options_));
+        light_field_.read(tile);
+        return tile;
+    }
+
+    // Hogels s, s+1, ... of row t of a tile, which lie one after the other.
+    void prepare(const LightFieldTile& tile, std::size_t t, std::size_t s, View<float, 2> prepared) const {
+        const Shape<2> rays{prepared.extent(0), light_field_.grid().directions()};
+        synthesis_->prepare(
+            {&tile.radiance(options_.channel, t, s, 0, 0), rays},
+            tile.depth.size() > 0 ? View<const float, 2>(&tile.depth(t, s, 0, 0), rays) : View<const float, 2>(),
+            prepared);
+    }
+
+    // The parts of hogels in a row, the first of them at `place`, that the region asks for.
+    void write_row(View<const float, 2> prepared, HogelPlace place, const Region& region, View<Complex, 2> square,
+                   View<Complex, 2> out) const {
+        const std::size_t y0 = std::max(place.t * n_, region.y0),
+                          y1 = std::min((place.t + 1) * n_, region.y0 + region.height);
+        for (std::size_t i = 0; i < prepared.extent(0); ++i, ++place.s) {
+            synthesis_->synthesise(prepared[i].elements(), place, square);
+            const std::size_t x0 = std::max(place.s * n_, region.x0),
+                              x1 = std::min((place.s + 1) * n_, region.x0 + region.width);
+            for (std::size_t y = y0; y < y1; ++y)
+                std::copy_n(&square(y - place.t * n_, x0 - place.s * n_), x1 - x0,
+                            &out(y - region.y0, x0 - region.x0));
+        }
+    }
+
     std::shared_ptr<const Prepared> prepare(const HogelRange& hogels) const {
         {
             const std::lock_guard lock(recent_mutex_);
             for (const auto& entry : recent_)
                 if (entry->range == hogels) return entry;
         }
-        const bool with_depth = needs_depth(options_);
-        LightFieldTile tile(light_field_.grid(), hogels, with_depth);
-        light_field_.read(tile);
+        const LightFieldTile tile = read_rays(hogels);
         auto prepared = std::make_shared<Prepared>();
         prepared->range = hogels;
         prepared->values = Array<float, 3>({hogels.nt, hogels.ns, synthesis_->prepared_size()});
-        for (std::size_t t = 0; t < hogels.nt; ++t)
-            for (std::size_t s = 0; s < hogels.ns; ++s)
-                synthesis_->prepare(tile.radiance.view()[options_.channel][t][s].elements(),
-                                    with_depth ? tile.depth[t][s].elements() : std::span<float>(),
-                                    prepared->values[t][s].elements());
+        for (std::size_t t = 0; t < hogels.nt; ++t) prepare(tile, t, 0, prepared->values[t]);
         const std::lock_guard lock(recent_mutex_);
         recent_.push_front(prepared);
         if (recent_.size() > most_recent) recent_.pop_back();
