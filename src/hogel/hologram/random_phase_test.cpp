@@ -8,6 +8,7 @@
 
 #include "hogel/core/random.h"
 #include "hogel/hologram/random_bytes.h"
+#include "hogel/hologram/unit_roots.h"
 
 namespace hogel {
 namespace {
@@ -35,6 +36,15 @@ TEST(RandomBytes, are_the_same_many_draws_at_once) {
         random_bytes_plain(series, 3, plain);
         random_bytes(series, 3, fast);
         EXPECT_EQ(plain, fast) << size;
+    }
+}
+
+TEST(UnitRoots, are_right_to_half_a_step_for_phases_of_either_sign) {
+    const UnitRoots roots;
+    for (double turns = -20000; turns < 20000; turns += 123.456) {
+        const double angle = 2 * std::numbers::pi * (turns - std::round(turns));
+        EXPECT_LT(std::abs(std::complex<double>(roots(turns)) - std::polar(1.0, angle)), 1e-6 + std::numbers::pi / 4096)
+            << turns;
     }
 }
 

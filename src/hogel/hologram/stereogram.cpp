@@ -95,8 +95,7 @@ class Stereogram final : public FieldSource {
             const std::size_t x0 = std::max(place.s * n_, region.x0),
                               x1 = std::min((place.s + 1) * n_, region.x0 + region.width);
             for (std::size_t y = y0; y < y1; ++y)
-                std::copy_n(&square(y - place.t * n_, x0 - place.s * n_), x1 - x0,
-                            &out(y - region.y0, x0 - region.x0));
+                std::copy_n(&square(y - place.t * n_, x0 - place.s * n_), x1 - x0, &out(y - region.y0, x0 - region.x0));
         }
     }
 
