@@ -13,13 +13,13 @@ struct Options {
     HologramOptions hologram;
 };
 
-int hologram(const Options& options, const Session& session) {
+int hologram(Options options, const Session& session) {
     const InputKind kind = input_kind(options.input);
     if (kind == InputKind::hologram)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
-    auto light_field = open_or_render(session, options.input, options.render);
+    auto light_field = open_for_hologram(session, options.input, options.render, options.hologram);
     require_holograms(light_field->grid(), options.hologram);
     if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
         light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));

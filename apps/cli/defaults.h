@@ -25,6 +25,7 @@ struct Defaults {
 
     // hologram
     double pitch = 1.5625_um;  ///< 32 samples a hogel; blue must still be diffracted over the field of view
+    std::string_view basis = "cdf97";
     double red = 633_nm, green = 532_nm, blue = 460_nm;
 
     // camera

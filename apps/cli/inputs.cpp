@@ -1,18 +1,21 @@
 #include "inputs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
+#include "hogel/codec/stream.h"
 #include "hogel/optics/narrow_band.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
 #include "hogel/scene/import.h"
 #include "hogel/shading/shading.h"
+#include "hogel/transform/transform.h"
 
 namespace hogel::cli {
 namespace {
@@ -40,12 +43,19 @@ Tangents tangents(double field_of_view, double toward) {
 }
 
 // What the user calls a method or its phases, and the library's word for it.
-const std::map<std::string, Method> methods{{"fourier", Method::fourier}, {"olas", Method::overlap_add}};
+const std::map<std::string, Method> methods{
+    {"fourier", Method::fourier}, {"basis", Method::basis}, {"olas", Method::overlap_add}};
+const std::map<std::string, Average> averages{{"radiance", Average::radiance}, {"amplitude", Average::amplitude}};
 const std::map<std::string, Phases> phases{{"random", Phases::random},
                                            {"fixed", Phases::fixed},
                                            {"designed", Phases::designed},
                                            {"phase-added", Phases::added},
                                            {"phase-added-exact", Phases::added_exactly}};
+
+Phases phases_of(const HologramOptions& options) {
+    if (!options.phase.empty()) return phases.at(options.phase);
+    return methods.at(options.method) == Method::basis ? Phases::fixed : Phases::random;
+}
 
 std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
     ShadingOptions shading;
@@ -64,7 +74,10 @@ StereogramOptions stereogram_options(const LightFieldGrid& light_field, const Ho
     stereogram.pitch = options.pitch;
     stereogram.channel = light_field.channels == 1 ? 0 : colour_of(wavelength);
     stereogram.method = methods.at(options.method);
-    stereogram.phases = phases.at(options.phase);
+    stereogram.phases = phases_of(options);
+    stereogram.average = averages.at(options.average);
+    stereogram.transform = options.basis.empty() ? std::string(defaults.basis) : options.basis;
+    stereogram.tolerance = options.tolerance;
     return stereogram;
 }
 
@@ -145,6 +158,7 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
     group(command
               ->add_option("--method", options.method,
                            "fourier: one transform a hogel\n"
+                           "basis: a sum of basis fringes a hogel\n"
                            "olas: overlapping windows, for hogels of a few samples; needs depth")
               ->type_name("NAME")
               ->check(CLI::IsMember(methods).description(""))
@@ -152,13 +166,31 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
     group(command
               ->add_option("--phase", options.phase,
                            "Phases of each hogel's directions\n"
-                           "random: independent everywhere\n"
-                           "fixed: the same in all hogels (olas: none, a smooth surface)\n"
+                           "random: independent everywhere (default)\n"
+                           "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
                            "designed: the same in all hogels, for a fringe of flat modulus\n"
                            "phase-added: of spherical waves from what rays meet; needs depth\n"
                            "phase-added-exact: the same, each ray with its own frequency")
               ->type_name("NAME")
-              ->check(CLI::IsMember(phases).description(""))
+              ->check(CLI::IsMember(phases).description("")));
+    group(command
+              ->add_option("--average", options.average,
+                           "What a hogel's lobes take from the directions that they light: their mean radiance, or "
+                           "(always with basis) mean amplitude")
+              ->type_name("radiance|amplitude")
+              ->check(CLI::IsMember(averages).description(""))
+              ->capture_default_str());
+    group(command
+              ->add_option("--basis", options.basis,
+                           fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
+                                       "direction), {} (default: the file's, or {})",
+                                       fmt::join(transform_names(), ", "), defaults.basis))
+              ->type_name("NAME"));
+    group(command
+              ->add_option("--tolerance", options.tolerance,
+                           "Share of a hogel's amplitude that left-out basis fringes may carry")
+              ->type_name("0..1")
+              ->check(CLI::Range(0.0, 1.0).description(""))
               ->capture_default_str());
 }
 
@@ -219,6 +251,19 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
     return render_on_demand(session, load_scene(name, options), options);
 }
 
+std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
+                                                    const RenderOptions& render, HologramOptions& hologram) {
+    if (methods.at(hologram.method) == Method::basis && input_kind(name) == InputKind::light_field && is_stream(name)) {
+        const CodingMethod stored = read_stream_info(name).method;
+        if (stored.coder == "fringes" && (hologram.basis.empty() || hologram.basis == stored.transform)) {
+            hologram.basis = stored.transform;
+            hologram.coefficients = true;
+            return open_coefficients(name);
+        }
+    }
+    return open_or_render(session, name, render);
+}
+
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
                                                                     const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
@@ -228,7 +273,7 @@ std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Sessio
 bool needs_depth(const HologramOptions& options) {
     StereogramOptions stereogram;
     stereogram.method = methods.at(options.method);
-    stereogram.phases = phases.at(options.phase);
+    stereogram.phases = phases_of(options);
     return needs_depth(stereogram);
 }
 
@@ -256,7 +301,8 @@ std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
         StereogramOptions stereogram = stereogram_options(light_field.grid(), options, wavelength);
         stereogram.looks = looks;
         stereogram.seed = session.seed;
-        holograms.push_back(make_stereogram(light_field, stereogram));
+        holograms.push_back(options.coefficients ? make_stereogram_of_coefficients(light_field, stereogram)
+                                                 : make_stereogram(light_field, stereogram));
     }
     return holograms;
 }

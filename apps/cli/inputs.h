@@ -45,7 +45,11 @@ struct HologramOptions {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
     std::string method = "fourier";
-    std::string phase = "random";
+    std::string phase;  ///< empty: what suits the method
+    std::string average = "radiance";
+    std::string basis;  ///< empty: the one that the light field's coefficients are of, or else cdf97
+    double tolerance = 0;
+    bool coefficients = false;  ///< whether the light field holds coefficients of `basis` instead of radiances
 };
 void add_hologram_options(CLI::App* command, HologramOptions& options);
 
@@ -64,6 +68,11 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const
 /// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options);
+
+/// The same, but coefficients instead where a compressed light field has those of the basis fringes that are asked for,
+/// which the options then say.
+std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
+                                                    const RenderOptions& render, HologramOptions& hologram);
 
 /// The same for all faces, the front first.
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,

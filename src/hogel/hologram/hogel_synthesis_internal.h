@@ -35,6 +35,17 @@ class HogelSynthesis {
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                        const StereogramOptions& options);
 
+/// What a synthesis gets as the values of a light field's rays.
+enum class Values {
+    radiance,
+    coefficients,  ///< of a transform of each hogel's directions' √L
+};
+
+/// A sum of basis fringes weighted with coefficients: [K] (3.24).
+/// Throws Error(usage) for a transform that does not exist, and where the fringes would not fit into memory.
+std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                     const StereogramOptions& options, Values values);
+
 /// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                            const StereogramOptions& options);

@@ -13,7 +13,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 void AverageLobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
-                  std::size_t row_length, float* out) {
+                  std::size_t row_length, bool of_roots, float* out) {
     const hn::CappedTag<float, hogels_at_once> d;
     const std::size_t lanes = hn::Lanes(d);
     for (const FrequencyGrid::Lobe& lobe : lobes) {
@@ -29,7 +29,8 @@ void AverageLobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weigh
                     line = hn::MulAdd(hn::Set(d, u[k]), hn::LoadU(d, row + k * hogels_at_once), line);
                 sum = hn::MulAdd(hn::Set(d, v[l]), line, sum);
             }
-            sum = hn::Sqrt(hn::Mul(hn::Max(sum, hn::Zero(d)), hn::Set(d, lobe.scale)));
+            const auto scale = hn::Set(d, lobe.scale);
+            sum = of_roots ? hn::Mul(sum, hn::Sqrt(scale)) : hn::Sqrt(hn::Mul(hn::Max(sum, hn::Zero(d)), scale));
             hn::StoreU(sum, d, out + i);
         }
         out += hogels_at_once;
@@ -46,8 +47,8 @@ namespace hogel {
 HWY_EXPORT(AverageLobes);
 
 void average_lobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
-                   std::size_t row_length, float* out) {
-    HWY_DYNAMIC_DISPATCH(AverageLobes)(lobes, weights, rays, row_length, out);
+                   std::size_t row_length, bool of_roots, float* out) {
+    HWY_DYNAMIC_DISPATCH(AverageLobes)(lobes, weights, rays, row_length, of_roots, out);
 }
 
 }  // namespace hogel

@@ -20,6 +20,11 @@ std::size_t samples_per_hogel(const LightFieldGrid& light_field, const Stereogra
     return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / options.pitch)));
 }
 
+// Whether each ray is a wave with a phase of its own.
+bool by_ray(const StereogramOptions& options) {
+    return options.phases == Phases::added || options.phases == Phases::added_exactly;
+}
+
 // What the looks of a range of hogels share, [nt][ns][...].
 struct Prepared {
     HogelRange range;
@@ -29,14 +34,15 @@ struct Prepared {
 // Hogels side by side.
 class Stereogram final : public FieldSource {
   public:
-    Stereogram(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options)
+    Stereogram(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options,
+               Values values)
         : light_field_(light_field),
           options_(options),
           grid_(grid),
           n_(samples_per_hogel(light_field.grid(), options)) {
-        const bool by_ray = options.phases == Phases::added || options.phases == Phases::added_exactly;
-        synthesis_ = by_ray ? make_phase_added_synthesis(light_field.grid(), n_, options)
-                            : make_fourier_synthesis(light_field.grid(), n_, options);
+        synthesis_ = options.method == Method::basis ? make_basis_synthesis(light_field.grid(), n_, options, values)
+                     : by_ray(options)               ? make_phase_added_synthesis(light_field.grid(), n_, options)
+                                                     : make_fourier_synthesis(light_field.grid(), n_, options);
     }
 
     const FieldGrid& grid() const override { return grid_; }
@@ -170,11 +176,13 @@ FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOpt
                 format_length(pitch), format_length(options.wavelength),
                 std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
                 std::atan(tangent) * 180 / std::numbers::pi, format_length(options.wavelength / (2 * needed))));
-    const bool added = options.phases == Phases::added || options.phases == Phases::added_exactly;
-    if (options.method == Method::overlap_add && (added || options.phases == Phases::designed))
+    if (options.method == Method::overlap_add && (by_ray(options) || options.phases == Phases::designed))
         throw Error(ErrorCode::usage,
                     "overlapping windows carry the phases of the scene's points, which are random or fixed (none)");
-    if (added) require_enough_directions(light_field, options);
+    if (options.method == Method::basis && (by_ray(options) || options.phases == Phases::random))
+        throw Error(ErrorCode::usage,
+                    "basis fringes are the same in all hogels, so their phases are fixed or designed");
+    if (by_ray(options)) require_enough_directions(light_field, options);
     FieldGrid grid;
     grid.plane = {light_field.hogels_s * n, light_field.hogels_t * n, pitch, pitch, 0, 0};
     grid.wavelength = options.wavelength;
@@ -182,10 +190,7 @@ FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOpt
     return grid;
 }
 
-bool needs_depth(const StereogramOptions& options) {
-    return options.method == Method::overlap_add || options.phases == Phases::added ||
-           options.phases == Phases::added_exactly;
-}
+bool needs_depth(const StereogramOptions& options) { return options.method == Method::overlap_add || by_ray(options); }
 
 std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field, const StereogramOptions& options) {
     const FieldGrid grid = stereogram_grid(light_field.grid(), options);
@@ -193,7 +198,14 @@ std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field
         throw Error(ErrorCode::usage,
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
     if (options.method == Method::overlap_add) return make_overlap_add(light_field, grid, options);
-    return std::make_unique<Stereogram>(light_field, grid, options);
+    return std::make_unique<Stereogram>(light_field, grid, options, Values::radiance);
+}
+
+std::unique_ptr<FieldSource> make_stereogram_of_coefficients(const LightFieldSource& coefficients,
+                                                             const StereogramOptions& options) {
+    const FieldGrid grid = stereogram_grid(coefficients.grid(), options);
+    if (options.method != Method::basis) throw Error(ErrorCode::usage, "only basis fringes are made of coefficients");
+    return std::make_unique<Stereogram>(coefficients, grid, options, Values::coefficients);
 }
 
 }  // namespace hogel

@@ -194,9 +194,11 @@ TEST(FrequencyGrid, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) 
     for (std::size_t i = 0; i < rays.size(); ++i) rays.data()[i] = float(i * 7919 % 1009) / 1009 - 0.1f;
     const float weights[] = {0.1f, 0.5f, 0.4f, 0.2f, 0.8f, 1.0f, 1.0f, 0.3f, 0.3f, 0.4f};
     const FrequencyGrid::Lobe lobes[] = {{5, 3, 2, 3, 2, 0, 1.5f}, {0, 18, 22, 1, 1, 5, 1}, {7, 0, 0, 1, 3, 6, 0.1f}};
-    average_lobes_plain(lobes, weights, rays.data(), 19, plain.data());
-    average_lobes(lobes, weights, rays.data(), 19, fast.data());
-    for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(plain.data()[i], fast.data()[i], 1e-6f) << i;
+    for (const bool of_roots : {false, true}) {
+        average_lobes_plain(lobes, weights, rays.data(), 19, of_roots, plain.data());
+        average_lobes(lobes, weights, rays.data(), 19, of_roots, fast.data());
+        for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(plain.data()[i], fast.data()[i], 1e-6f) << i;
+    }
 }
 
 }  // namespace
