@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <deque>
 
 #include "hogel/core/error.h"
@@ -94,16 +97,23 @@ class BasisSynthesis final : public HogelSynthesis {
         fft_.backward(fringe);
     }
 
-    // Drops what together carries less than the share `tolerance` of the fringe, if all fringes were at right angles.
+    // Drops the smallest, as many as together carry the share `tolerance` of the amplitude, if all fringes were at
+    // right angles. They are found by counting half octaves of energy instead of by sorting.
     void drop_small(std::span<float> coefficients) const {
+        const auto half_octave = [](float energy) { return std::bit_cast<std::uint32_t>(energy) >> 22; };
+        const auto energy_of = [&](std::size_t i) {
+            const float length = coefficients[i] * norms_[i];
+            return length * length;
+        };
+        std::array<double, 512> energies{};
         double energy = 0;
-        for (std::size_t i = 0; i < coefficients.size(); ++i) {
-            const double length = static_cast<double>(coefficients[i]) * norms_[i];
-            energy += length * length;
-        }
-        const auto least = static_cast<float>(tolerance_ * std::sqrt(energy / static_cast<double>(norms_.size())));
+        for (std::size_t i = 0; i < coefficients.size(); ++i) energies[half_octave(energy_of(i))] += energy_of(i);
+        for (const double part : energies) energy += part;
+        double left = tolerance_ * tolerance_ * energy;
+        std::size_t dropped = 0;
+        while (dropped < energies.size() && (left -= energies[dropped]) >= 0) ++dropped;
         for (std::size_t i = 0; i < coefficients.size(); ++i)
-            if (std::abs(coefficients[i]) * norms_[i] < least) coefficients[i] = 0;
+            if (half_octave(energy_of(i)) < dropped) coefficients[i] = 0;
     }
 
     LightFieldGrid light_field_;
