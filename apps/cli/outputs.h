@@ -1,11 +1,18 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
 
 namespace hogel::cli {
 
 /// Complains now, not after an hour of work, about an output whose folder is missing or not writable.
 void require_writable(const std::filesystem::path& file);
+
+/// --resume, for outputs that take long.
+void add_resume_flag(CLI::App* command, bool& resume);
+/// What tells an input of work that is resumed from another: its name, and the size and date of a file.
+std::string describe_input(const std::string& name);
 
 /// Creates a folder and those above it, and removes it again when the work failed before anything was put into it.
 class OutputFolder {
