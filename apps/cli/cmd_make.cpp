@@ -117,7 +117,7 @@ int make(const Options& options, const Session& session) {
     report.threads = thread_count();
     report.run = describe_run(session);
 
-    const Scene scene = load_scene(options.scene, options.render);
+    const Scene scene = load_scene(session, options.scene, options.render);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
     std::vector<Camera> cameras;

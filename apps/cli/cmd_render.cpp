@@ -19,7 +19,8 @@ int render(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_writable(options.output);
     const std::vector<LightFieldGrid> grids = options.render.grids();
-    const auto sources = render_faces_on_demand(session, load_scene(options.scene, options.render), options.render);
+    const auto sources =
+        render_faces_on_demand(session, load_scene(session, options.scene, options.render), options.render);
 
     LightFieldFileOptions file = options.file;
     file.type = options.single ? SampleType::single : SampleType::half;

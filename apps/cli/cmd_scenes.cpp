@@ -2,12 +2,14 @@
 
 #include "commands.h"
 #include "hogel/scene/builtin.h"
+#include "hogel/shading/bake.h"
 
 namespace hogel::cli {
 
 void add_scenes(CLI::App& app, Session& session) {
     add_command(app, session, "scenes", "List the built-in scenes", "  hogel scenes", [] {
         for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<16} {}\n", scene.name, scene.description);
+        fmt::print("{:<16} {}\n", church_radiance_scene.name, church_radiance_scene.description);
         return 0;
     });
 }

@@ -6,6 +6,7 @@ namespace hogel::cli {
 
 // One file a command: cmd_<name>.cpp.
 void add_make(CLI::App& app, Session& session);
+void add_bake(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
 void add_hologram(CLI::App& app, Session& session);
 void add_slm(CLI::App& app, Session& session);

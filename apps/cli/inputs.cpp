@@ -14,6 +14,7 @@
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
 #include "hogel/scene/import.h"
+#include "hogel/shading/bake.h"
 #include "hogel/shading/shading.h"
 #include "hogel/transform/transform.h"
 
@@ -24,7 +25,8 @@ namespace {
 constexpr double kept_bytes = 2e9;
 
 bool is_builtin(const std::string& name) {
-    return std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
+    return name == church_radiance_scene.name ||
+           std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
 }
 
 // The middle and half of the range of U that a field of view spans around an angle.
@@ -217,7 +219,11 @@ InputKind input_kind(const std::string& name) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
 }
 
-Scene load_scene(const std::string& name, const RenderOptions& options) {
+Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options) {
+    if (name == church_radiance_scene.name) {
+        Stage stage(session, "baking");
+        return make_church_radiance(options.size, stage.progress());
+    }
     if (is_builtin(name)) return make_builtin_scene(name, options.size);
     Scene scene = import_scene(name);
     if (!options.as_is) {
@@ -248,7 +254,7 @@ std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Sess
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
-    return render_on_demand(session, load_scene(name, options), options);
+    return render_on_demand(session, load_scene(session, name, options), options);
 }
 
 std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
@@ -267,7 +273,7 @@ std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, cons
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
                                                                     const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
-    return render_faces_on_demand(session, load_scene(name, options), options);
+    return render_faces_on_demand(session, load_scene(session, name, options), options);
 }
 
 bool needs_depth(const HologramOptions& options) {

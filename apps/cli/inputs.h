@@ -59,7 +59,7 @@ enum class InputKind { scene, light_field, hologram };
 InputKind input_kind(const std::string& name);
 
 /// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), lit.
-Scene load_scene(const std::string& name, const RenderOptions& options);
+Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
 
 /// The light field of a scene, rendered where it is read.
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,

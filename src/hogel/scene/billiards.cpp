@@ -173,6 +173,12 @@ Scene make_billiards(double hologram_size) {
     scene.meshes = {frame(), cloth(), cushions(), pocket_nets(), sights(), balls(), legs(), cue(), carpet()};
     add_lamps(scene);
     for (Mesh& mesh : scene.meshes) mesh.material.base_color = {1, 1, 1};
+    polish(scene, "balls", 0.06f, 0, 0.22f);
+    polish(scene, "frame", 0.04f, 0, 0.4f);
+    polish(scene, "legs", 0.04f, 0, 0.4f);
+    polish(scene, "cue", 0.04f, 0, 0.35f);
+    polish(scene, "shades outside", 0.05f, 0, 0.3f);
+    polish(scene, "brass", 0.04f, 0.6f, 0.35f);
     add_missing_normals(scene, 0.6);
 
     Light window;

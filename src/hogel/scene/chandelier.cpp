@@ -215,6 +215,9 @@ Scene make_chandelier(double hologram_size) {
         drop_slivers(mesh);
         mesh.material.base_color = {1, 1, 1};
     }
+    polish(scene, "brass", 0.04f, 0.6f, 0.4f);
+    polish(scene, "candles", 0.03f, 0, 0.5f);
+    polish(scene, "crystal", 0.1f, 0, 0.2f);
     add_missing_normals(scene, 0.62);
 
     // The candles' light comes from four places between them, for every flame would be a light.

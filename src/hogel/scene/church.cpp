@@ -302,6 +302,10 @@ Scene make_church(double hologram_size) {
                                                                  {"glass, gold", {0.95f, 0.60f, 0.12f}},
                                                                  {"glass, green", {0.10f, 0.50f, 0.22f}}}};
     for (std::size_t i = 0; i < glass.size(); ++i) add(glass[i], colors[i].first, colors[i].second);
+    polish(scene, "floor", 0.04f, 0, 0.35f);
+    polish(scene, "wood", 0.04f, 0, 0.5f);
+    polish(scene, "mosaic", 0.04f, 0.4f, 0.5f);
+    polish(scene, "brass", 0.04f, 0.6f, 0.4f);
     add_missing_normals(scene, 0.7);
     scene.lights = lights();
     scene.ambient = {0.045f, 0.045f, 0.055f};

@@ -165,6 +165,10 @@ Scene convert(const aiScene& source, const std::filesystem::path& path, const st
         if (mesh.triangles.empty()) continue;
         mesh.material = materials[placed.mesh->mMaterialIndex];
         if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
+        if (materials.is_unlit(placed.mesh->mMaterialIndex)) {
+            mesh.radiance.assign(mesh.positions.size(), mesh.material.base_color);
+            for (std::size_t i = 0; i < mesh.colors.size(); ++i) mesh.radiance[i] = mesh.radiance[i] * mesh.colors[i];
+        }
         scene.meshes.push_back(std::move(mesh));
     }
     if (scene.meshes.empty()) reject_file(file, "no triangles that have an area", "at least one");

@@ -7,9 +7,10 @@
 namespace hogel {
 
 /// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
-/// colours and base-colour textures, with all node transforms applied, in the file's own units and axes. Adds missing
-/// normals. Files outside the mesh's own folder are not opened. The scene has no lights: see add_default_lights.
-/// Throws Error(bad_input) with one line: the file, and what is missing, damaged or out of range.
+/// colours and base-colour textures, glTF's metallic-roughness materials, with all node transforms applied, in the
+/// file's own units and axes. What an unlit material shows becomes given radiance. Adds missing normals. Files outside
+/// the mesh's own folder are not opened. The scene has no lights: see add_default_lights. Throws Error(bad_input) with
+/// one line: the file, and what is missing, damaged or out of range.
 Scene import_scene(const std::filesystem::path& path);
 
 /// Where a fitted scene goes.

@@ -12,6 +12,7 @@ namespace hogel {
 namespace {
 
 float reflectance(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.8f; }
+float unit(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 1.0f; }
 float radiance(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1e6f) : 0.0f; }
 
 /// "my%20wood.png" is what a URI calls "my wood.png".
@@ -64,6 +65,15 @@ Material MaterialImport::read(const aiMaterial& source) {
          source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS))
         material.base_color = {reflectance(color.r), reflectance(color.g), reflectance(color.b)};
 
+    // glTF's materials; others stay matt. Where a texture says what is metal and what is rough, nothing is metal.
+    float metallic = 1;
+    if (source.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS) {
+        material.reflectance = 0.04f;
+        material.metallic = source.GetTextureCount(aiTextureType_METALNESS) == 0 ? unit(metallic) : 0;
+        float roughness = 1;
+        if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == AI_SUCCESS) material.roughness = unit(roughness);
+    }
+
     // With an emission texture the factor is only its scale: a whole surface that glows would be wrong.
     aiColor3D emission;
     if (source.GetTextureCount(aiTextureType_EMISSIVE) == 0 &&
@@ -77,6 +87,12 @@ Material MaterialImport::read(const aiMaterial& source) {
         break;
     }
     return material;
+}
+
+bool MaterialImport::is_unlit(unsigned index) const {
+    int model = 0;
+    return index < source_.mNumMaterials && source_.mMaterials[index] &&
+           source_.mMaterials[index]->Get(AI_MATKEY_SHADING_MODEL, model) == AI_SUCCESS && model == aiShadingMode_Unlit;
 }
 
 std::shared_ptr<const Image> MaterialImport::texture(const std::string& name) {

@@ -19,6 +19,8 @@ class MaterialImport {
     /// @param folder  of the mesh, canonical; @param file  the mesh as the caller named it, for messages
     MaterialImport(const aiScene& source, const std::filesystem::path& folder, std::string file);
     const Material& operator[](unsigned index);
+    /// Whether the material is to be shown as it is, whatever the lights (glTF: KHR_materials_unlit).
+    bool is_unlit(unsigned index) const;
 
   private:
     Material read(const aiMaterial& source);

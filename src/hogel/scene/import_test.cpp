@@ -120,6 +120,21 @@ TEST_F(Import, ply_colours_are_display_values_and_become_linear) {
     EXPECT_NEAR(scene.meshes[0].colors[0].b, 0.503, 1e-3);
 }
 
+TEST_F(Import, gltf_materials_are_glossy_and_others_matt) {
+    const auto material = [&](const char* name, const char* json) {
+        return import_scene(write(name, gltf(R"([{"mesh":0}])", "[0]", json))).meshes[0].material;
+    };
+    const Material metal =
+        material("m.gltf", R"({"pbrMetallicRoughness":{"metallicFactor":0.75,"roughnessFactor":0.5}})");
+    EXPECT_FLOAT_EQ(metal.metallic, 0.75f);
+    EXPECT_FLOAT_EQ(metal.roughness, 0.5f);
+    EXPECT_FLOAT_EQ(metal.reflectance, 0.04f);
+    EXPECT_FLOAT_EQ(material("r.gltf", R"({"pbrMetallicRoughness":{"metallicFactor":7}})").metallic, 1.0f);
+    const Scene matt = import_scene(write("matt.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    EXPECT_EQ(matt.meshes[0].material.reflectance, 0.0f);
+    EXPECT_EQ(matt.meshes[0].material.metallic, 0.0f);
+}
+
 TEST_F(Import, gltf_colours_are_linear_and_base_colours_multiply) {
     const Scene scene = import_scene(write(
         "c.gltf", gltf(R"([{"mesh":0}])", "[0]",

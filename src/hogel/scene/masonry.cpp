@@ -95,7 +95,7 @@ void Masonry::reveal(const Frame& frame, const Opening& opening, double depth, R
         const Vec3 from = frame.at(x0, y0, 0), step = (frame.at(x1, y1, 0) - from) / static_cast<double>(parts);
         for (std::size_t k = 0; k < parts; ++k) {
             const Vec3 a = from + static_cast<double>(k) * step, b = from + static_cast<double>(k + 1) * step;
-            quad(a, b, b - depth * frame.out, a - depth * frame.out, vary(stone, 0.12));
+            quad(b, a, a - depth * frame.out, b - depth * frame.out, vary(stone, 0.12));
         }
     }
 }

@@ -121,6 +121,15 @@ void add_box(MeshBuilder& builder, Vec3 low, Vec3 high, double patch, const std:
         }
 }
 
+void polish(Scene& scene, std::string_view mesh, float reflectance, float metallic, float roughness) {
+    for (Mesh& each : scene.meshes) {
+        if (each.name != mesh) continue;
+        each.material.reflectance = reflectance;
+        each.material.metallic = metallic;
+        each.material.roughness = roughness;
+    }
+}
+
 void drop_slivers(Mesh& mesh) {
     std::erase_if(mesh.triangles, [&](const auto& t) {
         const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <string_view>
 
 #include "hogel/scene/mesh_builder.h"
 
@@ -34,6 +35,9 @@ void add_torus(MeshBuilder& builder, Vec3 center, Vec3 axis, double radius, doub
 
 /// A box whose faces are grids of patches no longer than `patch`, each face with vertices of its own.
 void add_box(MeshBuilder& builder, Vec3 low, Vec3 high, double patch, const std::function<Rgb(Vec3)>& color);
+
+/// Gives the meshes of a name a glossy lobe (see Material).
+void polish(Scene& scene, std::string_view mesh, float reflectance, float metallic, float roughness);
 
 /// Drops the triangles of (almost) no area, such as surfaces of revolution have at their poles.
 void drop_slivers(Mesh& mesh);

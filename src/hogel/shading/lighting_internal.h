@@ -12,6 +12,16 @@ namespace hogel {
 std::unique_ptr<SampleLighting> make_direct_lighting(const Scene& scene, std::vector<ShadowMap> maps);
 std::unique_ptr<SampleLighting> make_shadowed_lighting(const Scene& scene, std::vector<ShadowMap> maps);
 
+/// The rays' view of a shaded scene: what blocks light.
+RayCaster all_triangles(const ShadedScene& shaded);
+
+/// Rays start this far above a surface, a ten-thousandth of the scene's diagonal, so that a point does not stand in its
+/// own light.
+double ray_offset(const Scene& scene);
+
+/// The irradiance from all lights that a point of a surface sees.
+Rgb irradiance(const Scene& scene, const RayCaster& caster, double offset, Vec3 point, Vec3 normal);
+
 /// The colour of a vertex before the texture.
 inline Rgb vertex_color(const Mesh& mesh, std::size_t vertex) {
     return mesh.colors.empty() ? mesh.material.base_color : mesh.material.base_color * mesh.colors[vertex];

@@ -11,7 +11,6 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting_internal.h"
 #include "hogel/trace/ray_caster.h"
 
@@ -26,25 +25,10 @@ constexpr std::array models{
 };
 
 constexpr std::size_t vertices_per_task = 1024;
-// Shadow rays start this far above the surface, as a part of the scene's diagonal, so that a vertex does not stand in
-// its own light.
-constexpr double shadow_offset = 1e-4;
 constexpr std::size_t most_texels = 32768;  // along a side of a shadow map
 
 bool has_shadows(const Scene& scene) {
     return std::ranges::any_of(scene.lights, [](const Light& light) { return light.casts_shadows; });
-}
-
-Rgb irradiance(const Scene& scene, const RayCaster& caster, double offset, Vec3 point, Vec3 normal) {
-    Rgb sum{0, 0, 0};
-    for (const Light& light : scene.lights) {
-        const Illumination from = illuminate(light, point);
-        const double cosine = dot(normal, from.to_light);
-        if (!(cosine > 0)) continue;
-        if (light.casts_shadows && caster.occluded(point + offset * normal, from.to_light, 0, from.distance)) continue;
-        sum += static_cast<float>(from.falloff * cosine) * light.intensity;
-    }
-    return sum;
 }
 
 ShadedScene geometry(const Scene& scene, bool filter_textures) {
@@ -79,16 +63,9 @@ ShadedScene geometry(const Scene& scene, bool filter_textures) {
     return shaded;
 }
 
-RayCaster blockers(const ShadedScene& shaded) {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (const auto& triangle : shaded.triangles) triangles.push_back(triangle.vertices);
-    return {shaded.positions, triangles};
-}
-
 void light_vertices(const Scene& scene, ShadedScene& shaded) {
-    const RayCaster caster = has_shadows(scene) ? blockers(shaded) : RayCaster(shaded.positions, {});
-    const Bounds box = bounds(scene);
-    const double offset = shadow_offset * length(box.high - box.low);
+    const RayCaster caster = has_shadows(scene) ? all_triangles(shaded) : RayCaster(shaded.positions, {});
+    const double offset = ray_offset(scene);
     constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
     std::size_t base = 0;
     for (const Mesh& mesh : scene.meshes) {
@@ -154,7 +131,7 @@ ShadedScene shade(const Scene& scene, const ShadingOptions& options, const Progr
     if (options.model == ShadingModel::vertex) light_vertices(scene, shaded);
     if (options.model != ShadingModel::direct && options.model != ShadingModel::shadowed) return shaded;
     require_room(scene, options);
-    std::vector<ShadowMap> maps = make_shadow_maps(scene, blockers(shaded), options.shadow_map, progress);
+    std::vector<ShadowMap> maps = make_shadow_maps(scene, all_triangles(shaded), options.shadow_map, progress);
     shaded.lighting = options.model == ShadingModel::direct ? make_direct_lighting(scene, std::move(maps))
                                                             : make_shadowed_lighting(scene, std::move(maps));
     return shaded;

@@ -1,0 +1,109 @@
+#include "hogel/scene/tessellate.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <unordered_map>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+using Index = std::uint32_t;
+
+TextureCoordinate mix(TextureCoordinate a, TextureCoordinate b, TextureCoordinate c, float wa, float wb, float wc) {
+    return {wa * a.u + wb * b.u + wc * c.u, wa * a.v + wb * b.v + wc * c.v};
+}
+Rgb mix(Rgb a, Rgb b, Rgb c, float wa, float wb, float wc) { return wa * a + wb * b + wc * c; }
+
+/// Cuts the triangles of one mesh. Vertices keep their numbers; those on edges come next, and those inside last.
+class Cutter {
+  public:
+    Cutter(const Mesh& mesh, std::size_t n) : from_(mesh), n_(n) {
+        to_ = mesh;
+        to_.triangles.clear();
+    }
+
+    Mesh cut() {
+        std::vector<Index> grid((n_ + 1) * (n_ + 1));
+        for (const auto& triangle : from_.triangles) {
+            for (std::size_t j = 0; j <= n_; ++j)
+                for (std::size_t i = 0; i + j <= n_; ++i) grid[j * (n_ + 1) + i] = vertex(triangle, i, j);
+            const auto at = [&](std::size_t i, std::size_t j) { return grid[j * (n_ + 1) + i]; };
+            for (std::size_t j = 0; j < n_; ++j)
+                for (std::size_t i = 0; i + j < n_; ++i) {
+                    to_.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+                    if (i + j + 1 < n_) to_.triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+                }
+        }
+        return std::move(to_);
+    }
+
+  private:
+    /// The vertex i steps towards the second corner and j towards the third.
+    Index vertex(const std::array<Index, 3>& corners, std::size_t i, std::size_t j) {
+        const std::size_t k = n_ - i - j;
+        const auto& [a, b, c] = corners;
+        if (k == n_) return a;
+        if (i == n_) return b;
+        if (j == n_) return c;
+        if (j == 0) return on_edge(a, b, i);
+        if (k == 0) return on_edge(b, c, j);
+        if (i == 0) return on_edge(c, a, k);
+        return add(a, b, c, k, i, j);
+    }
+
+    /// The vertex `step` steps from a to b, made once for both triangles at the edge, from its smaller end.
+    Index on_edge(Index a, Index b, std::size_t step) {
+        if (a > b) return on_edge(b, a, n_ - step);
+        const auto [known, is_new] = edges_.try_emplace(std::uint64_t{a} << 32 | b, Index{0});
+        if (is_new) {
+            known->second = static_cast<Index>(to_.positions.size());
+            for (std::size_t i = 1; i < n_; ++i) add(a, b, b, n_ - i, i, 0);
+        }
+        return known->second + static_cast<Index>(step - 1);
+    }
+
+    Index add(Index a, Index b, Index c, std::size_t na, std::size_t nb, std::size_t nc) {
+        const auto part = [this](std::size_t count) { return static_cast<double>(count) / static_cast<double>(n_); };
+        const auto wa = static_cast<float>(part(na)), wb = static_cast<float>(part(nb)),
+                   wc = static_cast<float>(part(nc));
+        const auto append = [&](auto& values, const auto& old) {
+            if (!values.empty()) values.push_back(mix(old[a], old[b], old[c], wa, wb, wc));
+        };
+        const auto sum = [&](const std::vector<Vec3>& p) {
+            return part(na) * p[a] + part(nb) * p[b] + part(nc) * p[c];
+        };
+        to_.positions.push_back(sum(from_.positions));
+        if (!from_.normals.empty()) {
+            const Vec3 normal = sum(from_.normals);
+            const double size = length(normal);
+            to_.normals.push_back(size > 0 ? normal / size : from_.normals[a]);
+        }
+        append(to_.colors, from_.colors);
+        append(to_.radiance, from_.radiance);
+        append(to_.texture_coordinates, from_.texture_coordinates);
+        if (to_.positions.size() > std::numeric_limits<Index>::max())
+            throw Error(ErrorCode::usage,
+                        fmt::format("mesh '{}' cut {} times: more than 2^32 vertices", from_.name, n_));
+        return static_cast<Index>(to_.positions.size() - 1);
+    }
+
+    const Mesh& from_;
+    std::size_t n_;
+    Mesh to_;
+    std::unordered_map<std::uint64_t, Index> edges_;  // by their ends: the first of n − 1 vertices
+};
+
+}  // namespace
+
+Scene tessellate(const Scene& scene, std::size_t n) {
+    if (n == 0) throw Error(ErrorCode::usage, "triangles cannot be cut into 0 parts; expected 1 or more along an edge");
+    Scene fine = scene;
+    if (n == 1) return fine;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) fine.meshes[i] = Cutter(scene.meshes[i], n).cut();
+    return fine;
+}
+
+}  // namespace hogel

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "hogel/scene/scene.h"
+
+namespace hogel {
+
+/// Cuts every triangle into n² equal ones; what vertices carry is interpolated, normals are made unit length again.
+/// Triangles that share two vertices share the new ones between them. Throws Error(usage) for n = 0 and where a mesh
+/// would get more than 2^32 vertices.
+Scene tessellate(const Scene& scene, std::size_t n);
+
+}  // namespace hogel

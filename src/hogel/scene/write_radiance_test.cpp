@@ -1,0 +1,120 @@
+#include "hogel/scene/write_radiance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+#include "hogel/core/error.h"
+#include "hogel/scene/import.h"
+#include "hogel/scene/shapes.h"
+
+namespace hogel {
+namespace {
+
+struct Folder {
+    Folder() { std::filesystem::create_directory(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("hogel_radiance_" + std::to_string(std::random_device{}()));
+};
+
+Scene two_balls() {
+    Scene scene;
+    for (int i = 0; i < 2; ++i) {
+        MeshBuilder builder;
+        add_ball(builder, {0.01 * i, 0.002, -0.003}, 0.004, 9, 5, {1, 1, 1});
+        drop_slivers(builder.mesh);
+        Mesh& mesh = builder.mesh;
+        mesh.name = i == 0 ? "left" : "right";
+        for (std::size_t k = 0; k < mesh.positions.size(); ++k)
+            mesh.radiance.push_back({float(k), 0.001f * float(k), 12.5f});  // far above white
+        if (i == 1) {
+            auto image = std::make_shared<Image>(3, 2, 3);
+            for (std::size_t k = 0; k < 18; ++k) image->pixels.data()[k] = float(k) / 17;
+            mesh.material.base_color_texture = image;
+            for (std::size_t k = 0; k < mesh.positions.size(); ++k)
+                mesh.texture_coordinates.push_back({0.1f * float(k), 0.05f * float(k)});
+        }
+        scene.meshes.push_back(mesh);
+    }
+    add_missing_normals(scene, 2);
+    return scene;
+}
+
+TEST(WriteRadiance, comes_back_as_it_was) {
+    const Folder folder;
+    const Scene scene = two_balls();
+    write_radiance(folder.path / "x.glb", scene);
+    const Scene back = import_scene(folder.path / "x.glb");
+    ASSERT_EQ(back.meshes.size(), 2u);
+    for (std::size_t m = 0; m < 2; ++m) {
+        const Mesh &a = scene.meshes[m], &b = back.meshes[m];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.triangles, b.triangles);
+        ASSERT_EQ(a.positions.size(), b.positions.size());
+        ASSERT_EQ(b.radiance.size(), a.radiance.size());
+        for (std::size_t i = 0; i < a.positions.size(); ++i) {
+            EXPECT_NEAR(length(a.positions[i] - b.positions[i]), 0, 1e-9);
+            EXPECT_NEAR(length(a.normals[i] - b.normals[i]), 0, 1e-6);
+            EXPECT_EQ(a.radiance[i], b.radiance[i]);
+        }
+        EXPECT_EQ(b.material.base_color_texture != nullptr, m == 1);
+    }
+    for (std::size_t i = 0; i < scene.meshes[1].positions.size(); ++i) {
+        EXPECT_NEAR(scene.meshes[1].texture_coordinates[i].v, back.meshes[1].texture_coordinates[i].v, 1e-6);
+        EXPECT_NEAR(scene.meshes[1].texture_coordinates[i].u, back.meshes[1].texture_coordinates[i].u, 1e-6);
+    }
+    EXPECT_NEAR(back.meshes[1].material.base_color_texture->pixels(1, 1, 2), 14.0 / 17, 0.01);
+}
+
+TEST(WriteRadiance, is_the_same_every_time) {
+    const Folder folder;
+    const auto bytes = [&](const char* name) {
+        write_radiance(folder.path / name, two_balls());
+        std::ifstream file(folder.path / name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    EXPECT_EQ(bytes("a.glb"), bytes("b.glb"));
+}
+
+// Truncated and damaged: refused in one line, or read as some other scene, never a crash.
+TEST(WriteRadiance, damaged_files_are_refused_or_read) {
+    const Folder folder;
+    const std::filesystem::path path = folder.path / "x.glb";
+    write_radiance(path, two_balls());
+    std::ifstream file(path, std::ios::binary);
+    const std::string whole(std::istreambuf_iterator<char>(file), {});
+    std::mt19937 random(4);
+    int refused = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::string bytes = whole;
+        if (i % 2 == 0)
+            bytes.resize(random() % bytes.size());
+        else
+            bytes[random() % (i % 4 == 1 ? 2000 : bytes.size())] ^= char(1 << random() % 8);
+        std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+        try {
+            import_scene(path);
+        } catch (const Error& error) {
+            ++refused;
+            ASSERT_EQ(error.code(), ErrorCode::bad_input) << error.what();
+            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        }
+    }
+    EXPECT_GT(refused, 100);
+}
+
+TEST(WriteRadiance, refuses_scenes_without_radiance_and_other_names) {
+    const Folder folder;
+    Scene scene = two_balls();
+    EXPECT_THROW(write_radiance(folder.path / "x.ply", scene), Error);
+    EXPECT_THROW(write_radiance(folder.path / "no" / "x.glb", scene), Error);
+    scene.meshes[1].radiance.clear();
+    EXPECT_THROW(write_radiance(folder.path / "x.glb", scene), Error);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,189 @@
+#include "hogel/shading/bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/random.h"
+#include "hogel/scene/shapes.h"
+#include "hogel/scene/tessellate.h"
+#include "hogel/shading/lighting_internal.h"
+#include "hogel/shading/shading.h"
+
+namespace hogel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr std::size_t vertices_per_task = 256;
+constexpr std::size_t fewer_rays = 8;  // by which all rounds but the last are cheaper
+// Vertices lie on edges, often just where other surfaces begin. What they see is looked at from a little way inside
+// their triangles.
+constexpr double inside = 0.08;
+
+/// A scene's vertices in one list, and the rays' view of them.
+struct Surfaces {
+    explicit Surfaces(const Scene& scene, ShadedScene without_light)
+        : shaded(std::move(without_light)), caster(all_triangles(shaded)), offset(ray_offset(scene)) {
+        std::vector<Vec3> middles(shaded.positions.size());
+        std::vector<std::uint32_t> uses(shaded.positions.size());
+        for (const auto& triangle : shaded.triangles)
+            for (const std::uint32_t vertex : triangle.vertices) {
+                const auto [a, b, c] = triangle.vertices;
+                middles[vertex] += (shaded.positions[a] + shaded.positions[b] + shaded.positions[c]) / 3;
+                ++uses[vertex];
+            }
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            eyes.push_back(uses[i] == 0 ? shaded.positions[i]
+                                        : (1 - inside) * shaded.positions[i] + inside / uses[i] * middles[i]);
+        for (const Mesh& mesh : scene.meshes)
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                normals.push_back(mesh.normals.empty() ? Vec3{0, 0, 0} : mesh.normals[i]);
+                colors.push_back(vertex_color(mesh, i));
+                emissions.push_back(mesh.material.emission);
+                given.push_back(mesh.radiance.empty() ? 0 : 1);
+            }
+    }
+
+    ShadedScene shaded;  // `radiance` is what the vertices show so far
+    RayCaster caster;
+    double offset;
+    std::vector<Vec3> eyes, normals;
+    std::vector<Rgb> colors, emissions;
+    std::vector<char> given;
+};
+
+ShadedScene unlit(const Scene& scene) {
+    ShadingOptions options;
+    options.model = ShadingModel::vertex;
+    Scene dark = scene;
+    dark.lights.clear();
+    return shade(dark, options);
+}
+
+/// Calls body(vertex) for all vertices, reporting from `from` to `to`.
+void for_vertices(std::size_t n, const Progress& progress, double from, double to,
+                  const std::function<void(std::size_t)>& body) {
+    const std::size_t tasks = (n + vertices_per_task - 1) / vertices_per_task;
+    std::mutex mutex;
+    std::size_t done = 0;
+    parallel_for(tasks, [&](std::size_t task) {
+        for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) body(i);
+        const std::lock_guard lock(mutex);
+        report(progress, from + (to - from) * static_cast<double>(++done) / static_cast<double>(tasks));
+    });
+}
+
+/// Direct light, reflected.
+std::vector<Rgb> direct_light(const Scene& scene, const Surfaces& surfaces, const Progress& progress, double from,
+                              double to) {
+    std::vector<Rgb> radiance(surfaces.normals.size());
+    for_vertices(radiance.size(), progress, from, to, [&](std::size_t i) {
+        const Rgb arriving = irradiance(scene, surfaces.caster, surfaces.offset, surfaces.eyes[i], surfaces.normals[i]);
+        radiance[i] = static_cast<float>(std::numbers::inv_pi) * (surfaces.colors[i] * arriving);
+    });
+    return radiance;
+}
+
+/// The mean radiance that arrives at a vertex from all directions, weighted by the cosine.
+Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std::size_t rays, std::uint64_t seed) {
+    const Vec3 normal = surfaces.normals[vertex];
+    if (normal == Vec3{}) return scene.ambient;
+    const Across frame = across(normal);
+    const Vec3 eye = surfaces.eyes[vertex] + surfaces.offset * normal;
+    const auto random = philox({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(rays), 0, 0},
+                               {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+    const double shift_a = random[0] / 4294967296.0, shift_b = random[1] / 4294967296.0;
+    // The multiples of the inverse powers of the plastic number fill the square evenly; each vertex shifts them.
+    constexpr double plastic = 1.32471795724474602596;
+    Rgb sum{0, 0, 0};
+    for (std::size_t k = 0; k < rays; ++k) {
+        const double a = shift_a + static_cast<double>(k + 1) / plastic;
+        const double b = shift_b + static_cast<double>(k + 1) / (plastic * plastic);
+        const double sine2 = a - std::floor(a), sine = std::sqrt(sine2), angle = 2 * pi * (b - std::floor(b));
+        const Vec3 direction = sine * std::cos(angle) * frame.first + sine * std::sin(angle) * frame.second +
+                               std::sqrt(1 - sine2) * normal;
+        const RayHit hit = surfaces.caster.closest(eye, direction, std::numeric_limits<double>::infinity());
+        if (hit.triangle == RayHit::miss) {
+            sum += scene.ambient;
+            continue;
+        }
+        const std::array<float, 3> weights{1 - hit.b1 - hit.b2, hit.b1, hit.b2};
+        const Vec3 facing = interpolate(surfaces.normals, surfaces.shaded.triangles[hit.triangle].vertices, weights);
+        if (dot(facing, direction) > 0) continue;
+        sum += radiance_at(surfaces.shaded, hit.triangle, weights[0], weights[1], weights[2]);
+    }
+    return 1 / static_cast<float>(rays) * sum;
+}
+
+/// Puts a value for each vertex into the meshes, but for those that brought their radiance.
+void give(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>& values) {
+    std::size_t base = 0;
+    for (Mesh& mesh : scene.meshes) {
+        const std::size_t n = mesh.positions.size();
+        if (n > 0 && !surfaces.given[base])
+            mesh.radiance.assign(values.begin() + static_cast<std::ptrdiff_t>(base),
+                                 values.begin() + static_cast<std::ptrdiff_t>(base + n));
+        base += n;
+    }
+}
+
+}  // namespace
+
+Scene bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+    if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
+    validate(scene);
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.normals.empty() && !mesh.triangles.empty() && mesh.radiance.empty())
+            throw Error(ErrorCode::bad_input, "mesh '" + mesh.name + "': no normals; expected one a vertex");
+    Surfaces coarse(scene, unlit(scene));
+    const std::size_t vertices = coarse.normals.size();
+    const std::vector<Rgb> direct = direct_light(scene, coarse, progress, 0, 0.1);
+    const auto show = [&](const std::vector<Rgb>& indirect) {
+        for (std::size_t i = 0; i < vertices; ++i)
+            if (!coarse.given[i])
+                coarse.shaded.radiance[i] = coarse.emissions[i] + direct[i] + coarse.colors[i] * indirect[i];
+    };
+    std::vector<Rgb> indirect(vertices);
+    for (std::size_t round = 0; round < options.bounces; ++round) {
+        show(indirect);
+        const bool last = round + 1 == options.bounces;
+        const std::size_t rays = last ? options.rays : (options.rays + fewer_rays - 1) / fewer_rays;
+        const double from = last ? 0.4 : 0.1 + 0.3 * static_cast<double>(round) / static_cast<double>(options.bounces);
+        for_vertices(vertices, progress, from, last ? 0.7 : from, [&](std::size_t i) {
+            if (!coarse.given[i]) indirect[i] = gather(scene, coarse, i, rays, options.seed + round);
+        });
+    }
+
+    // Cutting interpolates the radiance, which here is the light that arrives indirectly.
+    Scene baked = scene;
+    give(baked, coarse, indirect);
+    baked = tessellate(baked, options.tessellation);
+    Scene bare = baked;
+    for (std::size_t i = 0; i < bare.meshes.size(); ++i)
+        if (scene.meshes[i].radiance.empty()) bare.meshes[i].radiance.clear();
+    const Surfaces fine(bare, unlit(bare));
+    const std::vector<Rgb> fine_direct = direct_light(bare, fine, progress, 0.7, 1);
+    std::size_t base = 0;
+    for (std::size_t m = 0; m < baked.meshes.size(); ++m) {
+        Mesh& mesh = baked.meshes[m];
+        for (std::size_t i = 0; i < mesh.radiance.size() && scene.meshes[m].radiance.empty(); ++i)
+            mesh.radiance[i] =
+                fine.emissions[base + i] + fine_direct[base + i] + fine.colors[base + i] * mesh.radiance[i];
+        base += mesh.positions.size();
+    }
+    return baked;
+}
+
+Scene make_church_radiance(double hologram_size, const Progress& progress) {
+    BakeOptions options;
+    options.rays = 96;
+    options.bounces = 4;
+    options.tessellation = 6;
+    Scene scene = bake(make_builtin_scene("church", hologram_size), options, progress);
+    scene.name = "church-radiance";
+    return scene;
+}
+
+}  // namespace hogel

@@ -1,0 +1,29 @@
+#include "hogel/shading/illumination.h"
+#include "hogel/shading/lighting_internal.h"
+
+namespace hogel {
+
+RayCaster all_triangles(const ShadedScene& shaded) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (const auto& triangle : shaded.triangles) triangles.push_back(triangle.vertices);
+    return {shaded.positions, triangles};
+}
+
+double ray_offset(const Scene& scene) {
+    const Bounds box = bounds(scene);
+    return 1e-4 * length(box.high - box.low);
+}
+
+Rgb irradiance(const Scene& scene, const RayCaster& caster, double offset, Vec3 point, Vec3 normal) {
+    Rgb sum{0, 0, 0};
+    for (const Light& light : scene.lights) {
+        const Illumination from = illuminate(light, point);
+        const double cosine = dot(normal, from.to_light);
+        if (!(cosine > 0)) continue;
+        if (light.casts_shadows && caster.occluded(point + offset * normal, from.to_light, 0, from.distance)) continue;
+        sum += static_cast<float>(from.falloff * cosine) * light.intensity;
+    }
+    return sum;
+}
+
+}  // namespace hogel
