@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "hogel/codec/stream.h"
+#include "hogel/direct/scene_hologram.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
@@ -56,16 +57,6 @@ const std::map<std::string, Phases> phases{{"random", Phases::random},
 Phases phases_of(const HologramOptions& options) {
     if (!options.phase.empty()) return phases.at(options.phase);
     return methods.at(options.method) == Method::basis ? Phases::fixed : Phases::random;
-}
-
-std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
-    ShadingOptions shading;
-    shading.model = shading_model(options.shading);
-    shading.shadow_map = options.shadow_map;
-    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
-        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
-    Stage stage(session, "lighting");
-    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
 }
 
 StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
@@ -175,7 +166,7 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
               ->type_name("NAME")
               ->check(CLI::IsMember(phases).description("")));
     group(command
-              ->add_option("--average", options.average,
+              ->add_option("--lobes", options.average,
                            "What a hogel's lobes take from the directions that they light: their mean radiance, or "
                            "(always with basis) mean amplitude")
               ->type_name("radiance|amplitude")
@@ -193,6 +184,24 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
               ->type_name("0..1")
               ->check(CLI::Range(0.0, 1.0).description(""))
               ->capture_default_str());
+}
+
+void add_scene_hologram_options(CLI::App* command, HologramOptions& options) {
+    std::string names;
+    std::vector<std::string> known;
+    for (const auto& [name, method] : methods) known.push_back(name);
+    for (const SceneMethod& method : scene_methods()) {
+        known.emplace_back(method.name);
+        names += fmt::format("\n{}: {}", method.name, method.description);
+    }
+    CLI::Option* method = command->get_option("--method");
+    method->description(method->get_description() + "\nWithout a light field, from a scene:" + names);
+    CLI::Validator* check = method->get_validator();
+    *check = CLI::IsMember(known).description("");
+    const auto group = [](CLI::Option* option) { option->group("Hologram"); };
+    group(add_length(command, "--spacing", options.spacing,
+                     "Of points on surfaces and along edges; height of hpo lines"));
+    group(add_count(command, "--planes", options.planes, "Depth planes of fresnel and planes"));
 }
 
 InputKind input_kind(const std::string& name) {
@@ -235,6 +244,16 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
     }
     if (scene.lights.empty()) add_default_lights(scene);
     return scene;
+}
+
+std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
+    ShadingOptions shading;
+    shading.model = shading_model(options.shading);
+    shading.shadow_map = options.shadow_map;
+    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
+        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
+    Stage stage(session, "lighting");
+    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
 }
 
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
