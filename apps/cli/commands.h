@@ -16,6 +16,7 @@ void add_compress(CLI::App& app, Session& session);
 void add_decompress(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
 void add_info(CLI::App& app, Session& session);
+void add_bench(CLI::App& app, Session& session);
 void add_scenes(CLI::App& app, Session& session);
 
 }  // namespace hogel::cli

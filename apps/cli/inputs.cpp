@@ -49,16 +49,6 @@ const std::map<std::string, Phases> phases{{"random", Phases::random},
                                            {"phase-added", Phases::added},
                                            {"phase-added-exact", Phases::added_exactly}};
 
-std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
-    ShadingOptions shading;
-    shading.model = shading_model(options.shading);
-    shading.shadow_map = options.shadow_map;
-    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
-        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
-    Stage stage(session, "lighting");
-    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
-}
-
 StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
                                      double wavelength) {
     StereogramOptions stereogram;
@@ -206,14 +196,25 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
     return scene;
 }
 
+std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
+                                               const RenderOptions& options) {
+    ShadingOptions shading;
+    shading.model = shading_model(options.shading);
+    shading.shadow_map = options.shadow_map;
+    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
+        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
+    Stage stage(session, "lighting");
+    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+}
+
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
                                                    const RenderOptions& options) {
-    return make_renderer(options.algorithm, lit(session, scene, options), options.grid());
+    return make_renderer(options.algorithm, light_scene(session, scene, options), options.grid());
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
                                                                       const RenderOptions& options) {
-    const std::shared_ptr<const ShadedScene> shaded = lit(session, scene, options);
+    const std::shared_ptr<const ShadedScene> shaded = light_scene(session, scene, options);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
     for (const LightFieldGrid& grid : options.grids()) faces.push_back(make_renderer(options.algorithm, shaded, grid));
     return faces;

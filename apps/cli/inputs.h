@@ -13,6 +13,7 @@
 #include "hogel/io/files.h"
 #include "hogel/lightfield/light_field.h"
 #include "hogel/scene/scene.h"
+#include "hogel/shading/shaded_scene.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -56,6 +57,10 @@ InputKind input_kind(const std::string& name);
 
 /// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), lit.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
+
+/// The scene lit by the model of shading that was asked for.
+std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
+                                               const RenderOptions& options);
 
 /// The light field of a scene, rendered where it is read.
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,

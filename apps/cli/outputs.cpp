@@ -15,6 +15,10 @@ void require_writable(const fs::path& file) {
         throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
 }
 
+void write_text(const fs::path& file, const std::string& text) {
+    write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
     std::error_code error;
     created_ = fs::create_directories(path_, error);

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace hogel::cli {
 
 /// Complains now, not after an hour of work, about an output whose folder is missing or not writable.
 void require_writable(const std::filesystem::path& file);
+
+/// Writes a whole file, which appears when it is complete.
+void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// Creates a folder and those above it, and removes it again when the work failed before anything was put into it.
 class OutputFolder {
