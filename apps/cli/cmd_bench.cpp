@@ -138,12 +138,12 @@ void add_bench(CLI::App& app, Session& session) {
     add_count(command, "--largest", options->limits.side, "Largest side of a region, in hogels");
     command->add_option("--seconds", options->limits.seconds, "Enlarge a region no more that would take longer")
         ->type_name("S")
-        ->check(CLI::PositiveNumber.description(""))
+        ->check(CLI::Range(1e-3, 1e6).description(""))
         ->capture_default_str();
     command
         ->add_option("--memory", options->gigabytes, "Enlarge a region no more that would take more, at 20 bytes a ray")
         ->type_name("GB")
-        ->check(CLI::PositiveNumber.description(""))
+        ->check(CLI::Range(1e-3, 1e6).description(""))
         ->capture_default_str();
     add_counts(command, "--hogels", options->render.hogels, "Hogels across and down");
     add_counts(command, "--directions", options->render.directions, "Directions across and down in each hogel");

@@ -32,6 +32,8 @@ int compress_file(Options options, const Session& session) {
     CompressionTarget& target = compression.target;
     if (!target.sqnr && !target.pixels_per_bit && !target.step) target.sqnr = defaults.sqnr;
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
+    if (compression.method.transform.empty())
+        compression.method.transform = default_transform(compression.method.coder);
     compression.metadata = describe_run(session);
     if (source->has_depth()) session.say("hogel: the depth is left out");
     Stage stage(session, "compressing");
@@ -72,9 +74,11 @@ void add_compress(CLI::App& app, Session& session) {
     command->add_option("--coder", method.coder, fmt::format("{}", fmt::join(coder_names(), ", ")))
         ->type_name("NAME")
         ->capture_default_str();
-    command->add_option("--transform", method.transform, fmt::format("{}", fmt::join(transform_names(), ", ")))
-        ->type_name("NAME")
-        ->capture_default_str();
+    command
+        ->add_option(
+            "--transform", method.transform,
+            fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform_names(), ", ")))
+        ->type_name("NAME");
     add_counts(command, "--tile", options->tile, "Hogels across and down that are coded together; 0: as suits")
         ->default_str("");
 }

@@ -11,6 +11,7 @@ struct Options {
     std::string input, output;
     RenderOptions render;
     HologramOptions hologram;
+    bool resume = false;
 };
 
 int hologram(const Options& options, const Session& session) {
@@ -27,7 +28,8 @@ int hologram(const Options& options, const Session& session) {
 
     std::vector<FieldGrid> grids;
     for (const auto& source : sources) grids.push_back(source->grid());
-    const auto sinks = create_hologram(options.output, grids, describe_run(session));
+    const auto sinks = create_hologram(options.output, grids, describe_run(session),
+                                       options.resume ? std::optional(describe_input(options.input)) : std::nullopt);
     Stage stage(session, "hologram");
     for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
     session.say(fmt::format("{}: {}x{} samples at {}, {} wavelength{}, {}", options.output, grids[0].plane.width,
@@ -49,6 +51,7 @@ void add_hologram(CLI::App& app, Session& session) {
         ->type_name("X.h5|SCENE")
         ->required();
     command->add_option("-o,--output", options->output, "Hologram to write, HDF5")->type_name("FILE")->required();
+    add_resume_flag(command, options->resume);
     add_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
 }

@@ -11,7 +11,7 @@ struct Options {
     std::string scene, output;
     RenderOptions render;
     LightFieldFileOptions file;
-    bool single = false;
+    bool single = false, resume = false;
 };
 
 int render(const Options& options, const Session& session) {
@@ -25,6 +25,7 @@ int render(const Options& options, const Session& session) {
     LightFieldFileOptions file = options.file;
     file.type = options.single ? SampleType::single : SampleType::half;
     file.metadata = describe_run(session);
+    if (options.resume) file.resume = describe_input(options.scene);
     const auto sinks = create_light_field_faces(options.output, grids, file);
     Stage stage(session, "rendering");
     for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], stage.progress(i, sources.size()));
@@ -49,6 +50,7 @@ void add_render(CLI::App& app, Session& session) {
     command->add_option("-o,--output", options->output, "Light field to write, HDF5")->type_name("FILE")->required();
     command->add_flag("--depth", options->file.with_depth, "Store the depth of every ray too");
     command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
+    add_resume_flag(command, options->resume);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
 }

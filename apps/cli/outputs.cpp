@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
+
 #include "hogel/core/error.h"
 #include "hogel/core/output_file.h"
 
@@ -17,6 +19,19 @@ void require_writable(const fs::path& file) {
 
 void write_text(const fs::path& file, const std::string& text) {
     write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
+void add_resume_flag(CLI::App* command, bool& resume) {
+    command->add_flag("--resume", resume,
+                      "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
+}
+
+std::string describe_input(const std::string& name) {
+    std::error_code none;
+    const auto size = fs::file_size(name, none);
+    if (none) return name;
+    const auto date = fs::last_write_time(name, none).time_since_epoch();
+    return fmt::format("{}, {} bytes, {} ns", name, size, std::chrono::nanoseconds(date).count());
 }
 
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 
@@ -10,6 +11,11 @@ void require_writable(const std::filesystem::path& file);
 
 /// Writes a whole file, which appears when it is complete.
 void write_text(const std::filesystem::path& file, const std::string& text);
+
+/// --resume, for outputs that take long.
+void add_resume_flag(CLI::App* command, bool& resume);
+/// What tells an input of work that is resumed from another: its name, and the size and date of a file.
+std::string describe_input(const std::string& name);
 
 /// Creates a folder and those above it, and removes it again when the work failed before anything was put into it.
 class OutputFolder {

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "help.h"
 
@@ -80,8 +82,10 @@ Metadata describe_run(const Session& session) {
     Metadata metadata{{"software", "hogel " HOGEL_VERSION}, {"command", "hogel " + session.command->get_name()}};
     for (const CLI::Option* option : session.command->get_options()) {
         const std::string name = option->get_single_name();
-        // How many threads worked and how much was said does not touch the result: equal input, equal bytes.
-        if (name == "help" || name == "quiet" || name == "verbose" || name == "threads" || name == "output") continue;
+        // How many threads worked, how often, and how much was said does not touch the result: equal input, equal
+        // bytes.
+        constexpr std::array<std::string_view, 6> silent{"help", "quiet", "verbose", "threads", "output", "resume"};
+        if (std::ranges::find(silent, name) != silent.end()) continue;
         const bool is_flag = option->get_expected_min() == 0;
         std::string value = option->count() > 0 ? CLI::detail::join(option->results(), " ") : option->get_default_str();
         if (is_flag) value = option->count() > 0 ? "yes" : "no";

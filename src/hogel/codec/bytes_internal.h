@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hogel/core/checksum.h"
 #include "hogel/core/error.h"
 
 namespace hogel {
@@ -61,8 +62,5 @@ class ByteReader {
     std::span<const std::uint8_t> bytes_;
     std::string what_;
 };
-
-// CRC-32 as in PNG and zlib (ISO 3309, polynomial 0xEDB88320).
-std::uint32_t checksum(std::span<const std::uint8_t> bytes);
 
 }  // namespace hogel

@@ -54,7 +54,7 @@ class Compression {
         }
         Outcome sum;
         parallel_ordered<Coded>(
-            tiles.size(), default_in_flight(),
+            tiles.size(), in_flight(),
             [&](std::size_t i) {
                 return code_tile(tiling_[tiles[i]], step, most_bytes.empty() ? TileCoder::no_limit : most_bytes[i]);
             },
@@ -72,7 +72,7 @@ class Compression {
     Outcome look(std::span<const std::size_t> tiles) {
         Outcome sum;
         parallel_ordered<Outcome>(
-            tiles.size(), default_in_flight(), [&](std::size_t i) { return read(tiling_[tiles[i]]).second; },
+            tiles.size(), in_flight(), [&](std::size_t i) { return read(tiling_[tiles[i]]).second; },
             [&](std::size_t, Outcome& outcome) { sum.add(outcome); });
         return sum;
     }
@@ -84,6 +84,8 @@ class Compression {
         std::vector<std::uint8_t> bytes;
         Outcome outcome;
     };
+
+    std::size_t in_flight() const { return std::min(default_in_flight(), coder_.most_at_once()); }
 
     std::pair<LightFieldTile, Outcome> read(const HogelRange& range) const {
         LightFieldTile tile(source_.grid(), range, false);
@@ -216,7 +218,7 @@ CompressionResult compress(const LightFieldSource& source, const std::filesystem
                            const CompressionOptions& options, const Progress& progress) {
     check(options.target);
     const LightFieldGrid& grid = source.grid();
-    const std::unique_ptr<TileCoder> coder = make_tile_coder(options.method);
+    const std::unique_ptr<TileCoder> coder = make_tile_coder(options.method, grid);
     StreamInfo info{grid, options.tile.value_or(coder->preferred_tile(grid)), options.method, options.metadata};
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);

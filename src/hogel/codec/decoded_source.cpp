@@ -48,7 +48,7 @@ class DecodedSource final : public LightFieldSource {
   private:
     static std::unique_ptr<TileCoder> coder_of(const StreamReader& reader) {
         try {
-            return make_tile_coder(reader.info().method);
+            return make_tile_coder(reader.info().method, reader.info().grid);
         } catch (const Error& error) {
             reader.damaged(error.what());
         }

@@ -6,17 +6,27 @@
 #include <algorithm>
 
 #include "hogel/codec/classic_internal.h"
+#include "hogel/codec/hogel_coder_internal.h"
 #include "hogel/core/error.h"
 
 namespace hogel {
 
-std::vector<std::string_view> coder_names() { return {"threepass", "ezw", "jpeg4d"}; }
+std::vector<std::string_view> coder_names() { return {"hogel", "threepass", "ezw", "jpeg4d"}; }
 
-std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method) {
+std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid) {
     if (!std::ranges::count(coder_names(), method.coder))
         throw Error(ErrorCode::usage, fmt::format("there is no coder '{}'; expected one of {}", method.coder,
                                                   fmt::join(coder_names(), ", ")));
-    return make_classic_coder(method);
+    if (method.coder != "hogel") return make_classic_coder(method);
+    if (!method.transform.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("coder hogel has its own transform; expected none, not {}", method.transform));
+    return make_hogel_coder(grid);
+}
+
+std::string_view default_transform(std::string_view coder) {
+    if (coder == "hogel") return "";
+    return coder == "jpeg4d" ? "dct8" : "cdf97";
 }
 
 }  // namespace hogel

@@ -25,6 +25,8 @@ class TileCoder {
     virtual ~TileCoder() = default;
     /// The size of tile (s0 = t0 = 0) that it works best on.
     virtual HogelRange preferred_tile(const LightFieldGrid& grid) const = 0;
+    /// How many tiles to code at once: as many as there are threads, or fewer where a tile keeps all of them busy.
+    virtual std::size_t most_at_once() const { return std::numeric_limits<std::size_t>::max(); }
     /// True where encode() heeds most_bytes: any prefix of the bytes decodes to a coarser tile.
     virtual bool embedded() const { return false; }
     /// @param step   the quantiser's, in units of radiance: the larger, the coarser. An error is about step/√12 where
@@ -36,15 +38,18 @@ class TileCoder {
 
 /// How the samples of a tile become bytes.
 struct CodingMethod {
-    std::string coder = "threepass";
-    std::string transform = "cdf97";  ///< empty for coders that have one of their own
+    std::string coder = "hogel";
+    std::string transform;  ///< empty for the coder hogel, which has one of its own
     friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
 };
 
-/// threepass|ezw|jpeg4d.
+/// hogel|threepass|ezw|jpeg4d.
 std::vector<std::string_view> coder_names();
 
 /// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
-std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method);
+std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid);
+
+/// The transform that a coder is used with where none is named.
+std::string_view default_transform(std::string_view coder);
 
 }  // namespace hogel

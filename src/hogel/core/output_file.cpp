@@ -22,7 +22,8 @@ std::string message(int error) { return std::generic_category().message(error); 
 
 }  // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& target) : target_(target), final_name_(target) {
+OutputFile::OutputFile(const std::filesystem::path& target, Unfinished unfinished)
+    : target_(target), final_name_(target), unfinished_(unfinished) {
     static std::atomic<unsigned> count{0};
     if (target.filename().empty()) fail(target, "it has no file name");
     std::error_code status;
@@ -35,12 +36,14 @@ OutputFile::OutputFile(const std::filesystem::path& target) : target_(target), f
     const std::filesystem::path directory = final_name_.has_parent_path() ? final_name_.parent_path() : ".";
     if (!std::filesystem::is_directory(directory, status))
         fail(target, fmt::format("there is no directory '{}'", directory.string()));
-    temporary_ = directory / fmt::format(".{}.{}.{}.tmp", final_name_.filename().string(), ::getpid(), count++);
+    const std::string name = final_name_.filename().string();
+    temporary_ = directory / (unfinished == Unfinished::kept ? fmt::format("{}.part", name)
+                                                             : fmt::format(".{}.{}.{}.tmp", name, ::getpid(), count++));
 }
 
 OutputFile::~OutputFile() {
     std::error_code ignored;
-    if (!committed_) std::filesystem::remove(temporary_, ignored);
+    if (!committed_ && unfinished_ == Unfinished::removed) std::filesystem::remove(temporary_, ignored);
 }
 
 void OutputFile::commit() {

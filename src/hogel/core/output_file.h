@@ -10,8 +10,10 @@ namespace hogel {
 /// which commit() renames and the destructor removes. A symbolic link is followed, so that its target is replaced.
 class OutputFile {
   public:
+    /// What becomes of a file that is not committed. One that is kept is called as the target, with ".part" behind.
+    enum class Unfinished { removed, kept };
     /// Throws Error(cannot_write) when the directory does not exist, or the target is there and is not a plain file.
-    explicit OutputFile(const std::filesystem::path& target);
+    explicit OutputFile(const std::filesystem::path& target, Unfinished unfinished = Unfinished::removed);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -23,6 +25,7 @@ class OutputFile {
 
   private:
     std::filesystem::path target_, final_name_, temporary_;
+    Unfinished unfinished_;
     bool committed_ = false;
 };
 

@@ -100,6 +100,10 @@ void RawFile::resize(std::uint64_t bytes) {
     if (::ftruncate(file_, static_cast<off_t>(bytes)) != 0) fail(errno);
 }
 
+void RawFile::flush() {
+    if (::fdatasync(file_) != 0) fail(errno);
+}
+
 void RawFile::close() {
     if (::close(std::exchange(file_, -1)) != 0) fail(errno);
 }

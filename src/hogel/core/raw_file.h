@@ -26,6 +26,8 @@ class RawFile {
     void reserve(std::uint64_t bytes);
     /// Makes the file this long; what is added is a hole. Throws Error(cannot_write) beyond what a file may have.
     void resize(std::uint64_t bytes);
+    /// Comes back when all that was written has reached the disk. Throws Error(cannot_write).
+    void flush();
     /// Throws Error(cannot_write) when the system reports a late failure.
     void close();
 

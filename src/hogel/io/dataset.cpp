@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -175,13 +176,64 @@ void DatasetReader::read(const Box& box, std::complex<float>* to) const {
     });
 }
 
+namespace {
+
+// What tells one file that is to be written from another.
+std::vector<std::string> describe(const hdf5::Attributes& attributes, const std::vector<hdf5::NewDataset>& datasets,
+                                  const std::string& input) {
+    std::vector<std::string> lines{input};
+    const auto add = [&](const std::string& of, const hdf5::Attributes& list) {
+        for (const auto& [name, value] : list)
+            lines.push_back(
+                std::visit([&, &key = name](const auto& v) { return fmt::format("{}{} {}", of, key, v); }, value));
+    };
+    add("", attributes);
+    for (const hdf5::NewDataset& dataset : datasets) {
+        lines.push_back(fmt::format("{} {} {} bytes each", dataset.name, fmt::join(dataset.shape, "x"),
+                                    hdf5::bytes_of(dataset.element)));
+        add(dataset.name + " ", dataset.attributes);
+    }
+    return lines;
+}
+
+// Where the datasets begin in a file that was laid out for them before.
+std::vector<std::uint64_t> offsets_in(const std::filesystem::path& path,
+                                      const std::vector<hdf5::NewDataset>& datasets) {
+    const hdf5::Session session;
+    const Handle file = hdf5::open_file(path);
+    std::vector<std::uint64_t> offsets;
+    for (const hdf5::NewDataset& dataset : datasets) {
+        if (dataset_shape(file.id(), dataset.name.c_str(), path) != dataset.shape)
+            hdf5::fail(path, fmt::format("its dataset '{}' has another shape than was begun", dataset.name));
+        const Handle id(H5Dopen2(file.id(), dataset.name.c_str(), H5P_DEFAULT), H5Dclose);
+        const haddr_t offset = H5Dget_offset(id.id());
+        if (offset == HADDR_UNDEF) hdf5::fail(path, fmt::format("its dataset '{}' has no samples", dataset.name));
+        offsets.push_back(offset);
+    }
+    return offsets;
+}
+
+}  // namespace
+
 DatasetFile::DatasetFile(const std::filesystem::path& path, const hdf5::Attributes& attributes,
-                         std::vector<hdf5::NewDataset> datasets)
-    : output_(path),
-      datasets_(std::move(datasets)),
-      offsets_(hdf5::lay_out_file(output_.temporary(), path, attributes, datasets_)),
-      raw_(output_.temporary(), RawFile::Mode::write, path) {
-    raw_.reserve(raw_.size());  // HDF5 leaves a hole where the samples go: fill it with room on the disk
+                         std::vector<hdf5::NewDataset> datasets, const std::optional<std::string>& resume)
+    : output_(path, resume ? OutputFile::Unfinished::kept : OutputFile::Unfinished::removed),
+      datasets_(std::move(datasets)) {
+    const std::filesystem::path part = output_.temporary().lexically_normal();
+    if (resume) {
+        journal_.emplace(part.string() + ".journal", describe(attributes, datasets_, *resume), [&] { raw_->flush(); });
+        if (journal_->begun() && std::filesystem::exists(part)) {
+            offsets_ = offsets_in(part, datasets_);
+            raw_.emplace(part, RawFile::Mode::write, path);
+            return;
+        }
+    }
+    offsets_ = hdf5::lay_out_file(part, path, attributes, datasets_);
+    raw_.emplace(part, RawFile::Mode::write, path);
+    raw_->reserve(raw_->size());  // HDF5 leaves a hole where the samples go: fill it with room on the disk
+    if (!journal_) return;
+    raw_->flush();
+    journal_->begin();
 }
 
 // The system lets one thread at a time write to a file. Threads that wait for it call by call, thousands of times for
@@ -191,7 +243,7 @@ void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* f
     const std::size_t bytes = hdf5::bytes_of(to.element);
     const std::lock_guard lock(writing_);
     for_each_run(to.shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-        raw_.write(offsets_[dataset] + bytes * there, static_cast<const char*>(from) + bytes * here, bytes * n);
+        raw_->write(offsets_[dataset] + bytes * there, static_cast<const char*>(from) + bytes * here, bytes * n);
     });
 }
 
@@ -207,8 +259,9 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<
 }
 
 void DatasetFile::finish() {
-    raw_.close();
+    raw_->close();
     output_.commit();
+    if (journal_) journal_->remove();
 }
 
 }  // namespace hogel

@@ -4,7 +4,9 @@
 #include <complex>
 #include <memory>
 #include <mutex>
+#include <optional>
 
+#include "hogel/core/journal.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/io/hdf5_internal.h"
@@ -51,11 +53,17 @@ std::vector<std::size_t> dataset_shape(hid_t file, const char* name, const std::
 /// A file of datasets being written: laid out by HDF5, then filled in parallel, then given its name.
 class DatasetFile {
   public:
+    /// @param resume  as in LightFieldFileOptions
     DatasetFile(const std::filesystem::path& path, const hdf5::Attributes& attributes,
-                std::vector<hdf5::NewDataset> datasets);
+                std::vector<hdf5::NewDataset> datasets, const std::optional<std::string>& resume);
 
     void write(std::size_t dataset, const Box& box, const float* from);
     void write(std::size_t dataset, const Box& box, const std::complex<float>* from);
+    /// For work that can be resumed: whether a part was done before this run, and that one is done now.
+    bool was_done(const Journal::Part& part) const { return journal_ && journal_->was_done(part); }
+    void note(const Journal::Part& part) {
+        if (journal_) journal_->note(part);
+    }
     /// Closes the file and gives it its name.
     void finish();
     const std::filesystem::path& path() const { return output_.target(); }
@@ -66,8 +74,9 @@ class DatasetFile {
     OutputFile output_;
     std::vector<hdf5::NewDataset> datasets_;
     std::vector<std::uint64_t> offsets_;
-    RawFile raw_;
+    std::optional<RawFile> raw_;
     std::mutex writing_;
+    std::optional<Journal> journal_;  // goes first: it flushes the file
 };
 
 }  // namespace hogel

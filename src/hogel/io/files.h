@@ -4,6 +4,7 @@
 #include <complex>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -32,6 +33,11 @@ struct LightFieldFileOptions {
     SampleType type = SampleType::half;
     bool with_depth = false;
     Metadata metadata;  ///< kept as string attributes of the file: the options and version that made it
+    /// If given, work that was interrupted is gone on with: unfinished, the file stays beside its place as "X.part"
+    /// with notes of what is done, and whoever creates the same file again with the same options finds these tiles
+    /// already written. The text tells inputs apart that metadata does not, such as a file's date. Throws Error(usage)
+    /// where the unfinished file is of other work.
+    std::optional<std::string> resume;
 };
 
 /// The file gets its own name when finish() is called; before that it is a temporary beside it, removed when the sink
@@ -55,10 +61,11 @@ struct HologramFile {
 };
 HologramFile open_hologram(const std::filesystem::path& path);
 
-/// One sink a field; each must be finished. The file gets its own name when the last one is.
+/// One sink a field; each must be finished. The file gets its own name when the last one is. `resume` as in
+/// LightFieldFileOptions.
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
-                                                        std::span<const FieldGrid> grids,
-                                                        const Metadata& metadata = {});
+                                                        std::span<const FieldGrid> grids, const Metadata& metadata = {},
+                                                        const std::optional<std::string>& resume = {});
 
 enum class FileKind { light_field, hologram, picture, mesh, unknown };
 

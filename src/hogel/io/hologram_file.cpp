@@ -42,7 +42,14 @@ class FieldWriter final : public FieldSink {
     void write(const Region& region, View<const std::complex<float>, 2> values) override {
         validate(region, grid_, values.shape());
         shared_->file.write(index_, {{region.y0, region.x0}, {region.height, region.width}}, values.data());
+        shared_->file.note(part(region));
         written_ += region.samples();
+    }
+
+    bool has_already(const Region& region) override {
+        if (!shared_->file.was_done(part(region))) return false;
+        written_ += region.samples();
+        return true;
     }
 
     void finish() override {
@@ -54,6 +61,8 @@ class FieldWriter final : public FieldSink {
     }
 
   private:
+    Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
+
     FieldGrid grid_;
     std::size_t index_;
     std::shared_ptr<SharedFile> shared_;
@@ -112,7 +121,8 @@ HologramFile open_hologram(const std::filesystem::path& path) {
 }
 
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
-                                                        std::span<const FieldGrid> grids, const Metadata& metadata) {
+                                                        std::span<const FieldGrid> grids, const Metadata& metadata,
+                                                        const std::optional<std::string>& resume) {
     if (grids.empty() || grids.size() > most_fields)
         throw Error(ErrorCode::usage, fmt::format("hologram '{}': {} fields, but 1 to {} can be written", path.string(),
                                                   grids.size(), most_fields));
@@ -125,7 +135,7 @@ std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::p
                             field_attributes(grid)});
     }
     std::shared_ptr<SharedFile> shared(new SharedFile{
-        {path, hdf5::root_attributes(hdf5::hologram_format, metadata), std::move(datasets)}, grids.size()});
+        {path, hdf5::root_attributes(hdf5::hologram_format, metadata), std::move(datasets), resume}, grids.size()});
     std::vector<std::unique_ptr<FieldSink>> sinks;
     for (const FieldGrid& grid : grids) sinks.push_back(std::make_unique<FieldWriter>(grid, sinks.size(), shared));
     return sinks;

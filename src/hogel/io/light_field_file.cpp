@@ -73,7 +73,14 @@ class LightFieldWriter final : public LightFieldSink {
                                                       file.path().string()));
         file.write(first_dataset_, radiance_box(grid_, tile.range), tile.radiance.data());
         if (with_depth_) file.write(first_dataset_ + 1, depth_box(grid_, tile.range), tile.depth.data());
+        file.note(part(tile.range));
         hogels_ += tile.range.hogels();
+    }
+
+    bool has_already(const HogelRange& range) override {
+        if (!shared_->file.was_done(part(range))) return false;
+        hogels_ += range.hogels();
+        return true;
     }
 
     void finish() override {
@@ -86,6 +93,8 @@ class LightFieldWriter final : public LightFieldSink {
     }
 
   private:
+    Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
+
     LightFieldGrid grid_;
     std::size_t first_dataset_;  // radiance; the depth is the next
     bool with_depth_;
@@ -200,7 +209,8 @@ std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std:
     if (grids.empty() || grids.front().face != Face::front)
         throw Error(ErrorCode::usage, fmt::format("light field '{}': its front face must come first", path.string()));
     std::shared_ptr<SharedFile> shared(new SharedFile{
-        {path, hdf5::root_attributes(hdf5::light_field_format, options.metadata), std::move(datasets)}, grids.size()});
+        {path, hdf5::root_attributes(hdf5::light_field_format, options.metadata), std::move(datasets), options.resume},
+        grids.size()});
     std::vector<std::unique_ptr<LightFieldSink>> sinks;
     const std::size_t datasets_a_face = options.with_depth ? 2 : 1;
     for (const LightFieldGrid& grid : grids)

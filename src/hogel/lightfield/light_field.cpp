@@ -195,9 +195,11 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
         HogelRange range{(i % across) * size.ns, (i / across) * size.nt, size.ns, size.nt};
         range.ns = std::min(range.ns, grid.hogels_s - range.s0);
         range.nt = std::min(range.nt, grid.hogels_t - range.t0);
-        LightFieldTile tile(grid, range, source.has_depth());
-        source.read(tile);
-        sink.write(tile);
+        if (!sink.has_already(range)) {
+            LightFieldTile tile(grid, range, source.has_depth());
+            source.read(tile);
+            sink.write(tile);
+        }
         const std::lock_guard lock(reporting);
         report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
     });

@@ -99,6 +99,8 @@ class LightFieldSink {
   public:
     virtual ~LightFieldSink() = default;
     virtual void write(const LightFieldTile& tile) = 0;
+    /// Whether the sink goes on with earlier work in which this very tile was written; then it counts as written now.
+    virtual bool has_already(const HogelRange&) { return false; }
     /// Called once after the last tile; a file appears under its own name only now.
     virtual void finish() {}
 };

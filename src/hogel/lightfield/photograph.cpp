@@ -172,8 +172,19 @@ struct FaceBlock {
     Block block;
 };
 
+// Rows of hogels as long as may be, which the fastest renderer likes best and files hold together, and thick enough
+// that those which neighbours share are a small part. The sampling alone decides, so the order of every sum is the same
+// wherever the light field comes from.
+HogelRange block_size(const LightFieldGrid& grid) {
+    constexpr std::size_t rows = 16, most_bytes = std::size_t{64} << 20;
+    const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
+    const std::size_t most = std::max<std::size_t>(1, most_bytes / hogel_bytes);
+    const std::size_t nt = std::min({rows, grid.hogels_t, most});
+    return {0, 0, std::min(grid.hogels_s, most / nt), nt};
+}
+
 std::vector<Block> blocks(const LightFieldGrid& grid) {
-    const HogelRange size = default_tile(grid);
+    const HogelRange size = block_size(grid);
     // Cells lie between neighbours, so there is one less than hogels; a single hogel is its own cell.
     const std::size_t cells_s = std::max<std::size_t>(grid.hogels_s - 1, 1),
                       cells_t = std::max<std::size_t>(grid.hogels_t - 1, 1);

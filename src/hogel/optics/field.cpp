@@ -86,9 +86,11 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
         Region region{(i % across) * side, (i / across) * side, side, side};
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);
-        Array<std::complex<float>, 2> values({region.height, region.width});
-        source.read(region, look, values);
-        sink.write(region, values);
+        if (!sink.has_already(region)) {
+            Array<std::complex<float>, 2> values({region.height, region.width});
+            source.read(region, look, values);
+            sink.write(region, values);
+        }
         const std::lock_guard lock(reporting);
         report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
     });

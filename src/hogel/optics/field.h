@@ -44,6 +44,8 @@ class FieldSink {
   public:
     virtual ~FieldSink() = default;
     virtual void write(const Region& region, View<const std::complex<float>, 2> values) = 0;
+    /// Whether the sink goes on with earlier work in which this very region was written; then it counts as written now.
+    virtual bool has_already(const Region&) { return false; }
     /// Called once after the last region; a file appears under its own name only now.
     virtual void finish() {}
 };

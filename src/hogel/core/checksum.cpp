@@ -1,6 +1,6 @@
-#include <array>
+#include "hogel/core/checksum.h"
 
-#include "hogel/codec/bytes_internal.h"
+#include <array>
 
 namespace hogel {
 namespace {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "hogel/codec/reconstruct_internal.h"
+
+namespace hogel {
+
+// What the encoder decides.
+
+// The disparity of each block of a hogel, from how its neighbours in the tile show it. `sources` are the pictures of
+// all hogels of the tile, row by row.
+std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std::vector<Picture>& sources,
+                                               std::size_t columns, const HogelOrder::Hogel& hogel);
+
+// Decides on all blocks of a hogel and makes its picture as a decoder will have it. `estimated` may be empty.
+CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
+                   const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
+                   const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures);
+
+}  // namespace hogel

@@ -1,0 +1,66 @@
+#include "hogel/codec/block_kernels_internal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "hogel/core/random.h"
+
+namespace hogel {
+namespace {
+
+float random_value(std::uint32_t place, std::uint32_t seed) {
+    return static_cast<float>(philox({place, seed, 0, 0}, {3, 4})[0]) * 0x1p-31f - 1;
+}
+
+BlockSamples random_block(std::uint32_t seed) {
+    BlockSamples block;
+    for (std::uint32_t k = 0; k < block_samples; ++k) block[k] = random_value(k, seed);
+    return block;
+}
+
+// A decoder with vectors must go on from the very samples that an encoder without had.
+TEST(BlockKernels, vectors_give_the_same_bits) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        constexpr std::size_t stride = 19;
+        std::vector<float> rows(window_side * stride);
+        for (std::uint32_t k = 0; k < rows.size(); ++k) rows[k] = random_value(k, 100 + seed);
+        Taps u, v;
+        for (std::uint32_t k = 0; k < taps; ++k) {
+            u[k] = random_value(k, 200 + seed);
+            v[k] = random_value(k, 300 + seed);
+        }
+        BlockSamples fast, plain;
+        for (const Taps* along_u : {static_cast<const Taps*>(nullptr), static_cast<const Taps*>(&u)})
+            for (const Taps* along_v : {static_cast<const Taps*>(nullptr), static_cast<const Taps*>(&v)}) {
+                interpolate_block(rows.data() + 3, stride, along_u, along_v, fast);
+                interpolate_block_plain(rows.data() + 3, stride, along_u, along_v, plain);
+                ASSERT_EQ(fast, plain) << (along_u != nullptr) << (along_v != nullptr);
+            }
+        const BlockSamples a = random_block(seed), b = random_block(1000 + seed), matrix = random_block(2000 + seed);
+        EXPECT_EQ(squared_difference(a, b), squared_difference_plain(a, b));
+        transform_both_ways(matrix, b, a, fast);
+        transform_both_ways_plain(matrix, b, a, plain);
+        EXPECT_EQ(fast, plain);
+    }
+}
+
+// The weights of a sample alone move the window by whole samples.
+TEST(BlockKernels, interpolation_moves_the_window) {
+    std::vector<float> rows(window_side * window_side);
+    for (std::uint32_t k = 0; k < rows.size(); ++k) rows[k] = random_value(k, 7);
+    for (std::size_t down = 0; down < taps; ++down)
+        for (std::size_t right = 0; right < taps; ++right) {
+            Taps u{}, v{};
+            u[right] = v[down] = 1;
+            BlockSamples block;
+            interpolate_block(rows.data(), window_side, &u, &v, block);
+            for (std::size_t r = 0; r < block_side; ++r)
+                for (std::size_t c = 0; c < block_side; ++c)
+                    ASSERT_EQ(block[r * block_side + c], rows[(r + down) * window_side + c + right]);
+        }
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,233 @@
+#include "hogel/codec/block_syntax_internal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace hogel {
+namespace {
+
+constexpr int one_surface = 12;  // disparities no farther apart than this belong to one surface
+
+// The zigzag of JPEG: frequencies of a block by their sum.
+constexpr std::array<std::uint8_t, block_samples> zigzag = [] {
+    std::array<std::uint8_t, block_samples> order{};
+    std::size_t n = 0;
+    for (std::size_t sum = 0; sum < 2 * block_side - 1; ++sum)
+        for (std::size_t k = 0; k <= sum; ++k) {
+            const std::size_t row = sum % 2 == 1 ? k : sum - k, column = sum - row;
+            if (row < block_side && column < block_side)
+                order[n++] = static_cast<std::uint8_t>(row * block_side + column);
+        }
+    return order;
+}();
+
+// A number >= 0 as how many bits it has more than one, in unary, and these bits.
+template <class Coder>
+std::uint32_t code_number(Coder& coder, std::array<BitModel, BlockModels::most_bits + 1>& models, std::uint32_t value) {
+    const std::uint32_t one_more = value + 1;
+    std::size_t bits = 0;
+    while (bits < BlockModels::most_bits && coder.bit(models[bits], one_more >> (bits + 1) != 0)) ++bits;
+    std::uint32_t result = 1;
+    for (std::size_t k = bits; k-- > 0;) result = result << 1 | std::uint32_t{coder.even(one_more >> k & 1)};
+    return result - 1;
+}
+
+template <class Coder>
+void code_levels(Coder& coder, BlockModels::ForLevels& models, Levels& levels) {
+    // The place of the last level, as a path through a binary tree.
+    std::size_t last = 0;
+    for (std::size_t n = 0; n < block_samples; ++n)
+        if (levels[zigzag[n]] != 0) last = n;
+    std::size_t node = 1;
+    for (int bit = 5; bit >= 0; --bit) node = node * 2 + coder.bit(models.last[node], last >> bit & 1);
+    last = node - block_samples;
+    // From there down to the lowest frequency; what stands at the next higher frequencies tells much.
+    std::array<std::array<std::uint8_t, block_side + 2>, block_side + 2> seen{};
+    for (std::size_t n = last + 1; n-- > 0;) {
+        const std::size_t row = zigzag[n] / block_side, column = zigzag[n] % block_side;
+        const int sum = seen[row][column + 1] + seen[row + 1][column] + seen[row + 1][column + 1] +
+                        seen[row][column + 2] + seen[row + 2][column];
+        const std::size_t around = static_cast<std::size_t>(std::min(sum, 7));
+        const std::size_t place = (row + column == 0 ? 0 : row + column < 3 ? 1 : 2) * 2 + (n < 3 ? 1 : 0);
+        std::int32_t& level = levels[zigzag[n]];
+        std::uint32_t magnitude = static_cast<std::uint32_t>(std::abs(level));
+        if (n == last || coder.bit(models.significant[around][place], magnitude > 0)) {
+            if (!coder.bit(models.beyond_one[around], magnitude > 1))
+                magnitude = 1;
+            else if (!coder.bit(models.beyond_two[static_cast<std::size_t>(std::min(sum / 2, 7))], magnitude > 2))
+                magnitude = 2;
+            else
+                magnitude = 3 + code_number(coder, models.rest, magnitude - 3);
+            const bool negative = coder.even(level < 0);
+            level = negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+        } else {
+            level = 0;
+            magnitude = 0;
+        }
+        seen[row][column] = static_cast<std::uint8_t>(std::min(magnitude, 4u));
+    }
+}
+
+template <class Coder>
+void code_mode(Coder& coder, BlockModels& models, std::size_t context, bool first, Block& block) {
+    if (!first) {
+        // The best of all sides, within, and then one side after the other.
+        auto& model = models.mode[context];
+        if (!coder.bit(model[0], block.mode != 1))
+            block.mode = 1;
+        else if (!coder.bit(model[1], block.mode != 0))
+            block.mode = 0;
+        else {
+            std::uint8_t mode = 2;
+            while (mode + 1 < across_modes && coder.bit(model[mode], block.mode != mode)) ++mode;
+            block.mode = mode;
+        }
+    }
+    if (block.mode != 0) return;
+    std::uint8_t within = 0;
+    while (within + 1 < within_modes && coder.bit(models.within[within], block.within != within)) ++within;
+    block.within = within;
+}
+
+template <class Coder>
+void code_disparity(Coder& coder, BlockModels& models, std::size_t around, int unit, const Candidates& candidates,
+                    Block& block) {
+    const auto* end = candidates.disparity.begin() + candidates.count;
+    const auto* found = std::find(candidates.disparity.begin(), end, block.disparity);
+    const int likeliest = candidates.disparity[0];
+    const std::size_t spread = candidates.spread();
+    auto& model = models.disparity[spread][around];
+    if (!coder.bit(model[0], found != candidates.disparity.begin())) {
+        block.disparity = static_cast<std::int16_t>(likeliest);
+    } else if (!coder.bit(model[1], found == end)) {
+        std::size_t k = 1;
+        const auto index = static_cast<std::size_t>(found - candidates.disparity.begin());
+        while (k + 1 < candidates.count && coder.bit(models.candidate[spread][std::min<std::size_t>(k, 3)], index != k))
+            ++k;
+        block.disparity = candidates.disparity[std::min(k, candidates.count - 1)];
+    } else {
+        const int difference = (block.disparity - likeliest) / unit;
+        const bool negative = coder.bit(models.sign, difference < 0);
+        const std::uint32_t size =
+            1 + std::min(code_number(coder, models.difference, static_cast<std::uint32_t>(std::abs(difference) - 1)),
+                         std::uint32_t{4 * most_disparity});
+        const int value = likeliest + (negative ? -unit : unit) * static_cast<int>(size);
+        block.disparity = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
+    }
+}
+
+}  // namespace
+
+void Candidates::add(int value) {
+    const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
+    for (std::size_t k = 0; k < count; ++k)
+        if (disparity[k] == clamped) return;
+    disparity[count++] = clamped;
+}
+
+std::size_t Candidates::spread() const {
+    int most = 0;
+    for (std::size_t k = 1; k < count; ++k) most = std::max(most, std::abs(disparity[k] - disparity[0]));
+    return most == 0 ? 0 : most <= 2 ? 1 : most <= one_surface ? 2 : 3;
+}
+
+int disparity_unit(const HogelOrder::Hogel& hogel) {
+    if (hogel.level == 0) return 1;
+    int nearest = shift_unit;
+    for (const HogelOrder::Reference& reference : hogel.references)
+        nearest = std::min(nearest, std::abs(reference.ds) + std::abs(reference.dt));
+    return std::max(1, 4 / nearest);
+}
+
+Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
+                          const std::optional<std::int16_t>& moved, const std::vector<Block>* beside) {
+    Candidates candidates;
+    const bool left = block % grid.columns > 0, above = block >= grid.columns;
+    if (moved) candidates.add(*moved);
+    if (left) candidates.add(blocks[block - 1].disparity);
+    if (above) candidates.add(blocks[block - grid.columns].disparity);
+    if (left && above)  // as on a plane
+        candidates.add(blocks[block - 1].disparity + blocks[block - grid.columns].disparity -
+                       blocks[block - grid.columns - 1].disparity);
+    if (beside && candidates.count < 4) candidates.add((*beside)[block].disparity);
+    if (candidates.count == 0) candidates.add(0);
+    return candidates;
+}
+
+std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hogel& hogel,
+                                                           const std::vector<CodedHogel>& coded, const BlockGrid& grid,
+                                                           float aspect) {
+    constexpr std::int64_t side = static_cast<std::int64_t>(block_side) * shift_unit, half = side / 2;
+    std::vector<std::optional<std::int16_t>> moved(grid.count());
+    std::vector<std::int64_t> distance(grid.count(), std::numeric_limits<std::int64_t>::max());
+    for (const HogelOrder::Reference& reference : hogel.references) {
+        const std::int64_t apart = reference.ds * reference.ds + reference.dt * reference.dt;
+        const std::vector<Block>& blocks = coded[reference.hogel].blocks;
+        for (std::size_t block = 0; block < blocks.size(); ++block) {
+            const std::int16_t disparity = blocks[block].disparity;
+            const Shift shift = shift_of(disparity, reference, aspect);
+            const std::int64_t u = static_cast<std::int64_t>(block % grid.columns) * side + half - shift.u;
+            const std::int64_t v = static_cast<std::int64_t>(block / grid.columns) * side + half - shift.v;
+            if (u < 0 || v < 0) continue;
+            const auto column = static_cast<std::size_t>(u / side), row = static_cast<std::size_t>(v / side);
+            if (column >= grid.columns || row >= grid.rows) continue;
+            const std::int64_t du = u % side - half, dv = v % side - half;
+            const std::int64_t here = du * du + dv * dv + apart * shift_unit * shift_unit / 2;
+            // The nearer surface hides the farther one; of one surface, what comes nearest to the middle.
+            std::optional<std::int16_t>& kept = moved[row * grid.columns + column];
+            std::int64_t& kept_distance = distance[row * grid.columns + column];
+            if (!kept || disparity > *kept + one_surface || (disparity > *kept - one_surface && here < kept_distance)) {
+                kept = disparity;
+                kept_distance = here;
+            }
+        }
+    }
+    return moved;
+}
+
+template <class Coder>
+void code_hogel(Coder& coder, BlockModels& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
+                const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
+                CodedHogel& coded) {
+    const bool first = hogel.references.empty();
+    const int unit = disparity_unit(hogel);
+    std::size_t used = 0;  // levels
+    coded.blocks.resize(grid.count());
+    for (std::size_t k = 0; k < grid.count(); ++k) {
+        Block& block = coded.blocks[k];
+        const Block* left = k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr;
+        const Block* above = k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr;
+        const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
+        code_mode(coder, models, context, first, block);
+        const Candidates candidates = candidates_for(k, grid, coded.blocks, moved[k], beside);
+        if (block.mode == 0 && !first) {
+            block.disparity = candidates.disparity[0];
+        } else {
+            const std::size_t around = (left && left->surprising ? 1u : 0u) + (above && above->surprising ? 1u : 0u);
+            code_disparity(coder, models, around, unit, candidates, block);
+        }
+        block.surprising = block.disparity != candidates.disparity[0];
+        const std::size_t kind = block.mode == 0 ? 2 : block.mode == 1 ? 0 : 1;
+        std::uint8_t flags = 0;
+        for (std::size_t c = 0; c < grid.channels; ++c) {
+            const std::size_t chrominance = c > 0 ? 1 : 0;
+            const std::size_t around =
+                (left && left->coded >> c & 1 ? 1u : 0u) + (above && above->coded >> c & 1 ? 1u : 0u);
+            if (!coder.bit(models.coded[chrominance][kind][block.surprising ? 1 : 0][around], block.coded >> c & 1))
+                continue;
+            flags = static_cast<std::uint8_t>(flags | 1 << c);
+            if (used == coded.levels.size()) coded.levels.emplace_back();
+            code_levels(coder, models.levels[chrominance][block.mode == 0 ? 1 : 0], coded.levels[used++]);
+        }
+        block.coded = flags;
+    }
+}
+
+template void code_hogel(BlockWriter&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
+                         const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*, CodedHogel&);
+template void code_hogel(BlockReader&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
+                         const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*, CodedHogel&);
+
+}  // namespace hogel

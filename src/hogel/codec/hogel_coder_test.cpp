@@ -1,0 +1,196 @@
+#include "hogel/codec/hogel_coder_internal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/codec/analysis_internal.h"
+#include "hogel/codec/test_fields_internal.h"
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+LightFieldTile whole(const LightField& field) {
+    LightFieldTile tile(field.grid(), {0, 0, field.grid().hogels_s, field.grid().hogels_t}, false);
+    field.read(tile);
+    return tile;
+}
+
+// A plane with a picture of waves that directions sample well, `disparity` directions away from hogel to hogel.
+LightField plane_at(double disparity, std::size_t hogels, std::size_t directions, std::size_t directions_v) {
+    LightFieldGrid grid{hogels, hogels, 1e-3, directions, directions_v, 0.3, 0.25, 1};
+    LightField field(grid);
+    const double depth = grid.pitch / grid.step_u() / disparity, period = 14 * grid.step_u() * depth;
+    for (std::size_t j = 0; j < hogels; ++j)
+        for (std::size_t i = 0; i < hogels; ++i)
+            for (std::size_t l = 0; l < directions_v; ++l)
+                for (std::size_t k = 0; k < directions; ++k) {
+                    const double x = 6.28 / period * (grid.s(double(i)) + grid.u(double(k)) * depth);
+                    const double y = 6.28 / period * (grid.t(double(j)) + grid.v(double(l)) * depth);
+                    field.radiance(0, j, i, l, k) =
+                        static_cast<float>(2 + std::sin(x + 0.3 * y) + 0.5 * std::sin(0.7 * y - 0.2 * x + 0.1 * x * y));
+                }
+    return field;
+}
+
+TEST(HogelOrder, reaches_every_hogel_once_and_refers_to_what_was_before) {
+    for (const auto& [columns, rows] :
+         {std::pair<std::size_t, std::size_t>{1, 1}, {2, 1}, {1, 7}, {16, 16}, {13, 32}}) {
+        const HogelOrder order(columns, rows);
+        ASSERT_EQ(order.hogels().size(), columns * rows);
+        std::vector<bool> seen(columns * rows);
+        ASSERT_EQ(order.waves().back(), order.hogels().size());
+        for (std::size_t wave = 0; wave + 1 < order.waves().size(); ++wave)
+            for (std::size_t k = order.waves()[wave]; k < order.waves()[wave + 1]; ++k) {
+                const HogelOrder::Hogel& hogel = order.hogels()[k];
+                ASSERT_FALSE(seen[hogel.t * columns + hogel.s]);
+                seen[hogel.t * columns + hogel.s] = true;
+                EXPECT_EQ(hogel.references.empty(), k == 0);
+                EXPECT_GE(hogel.level, order.hogels()[k > 0 ? k - 1 : 0].level);
+                for (const HogelOrder::Reference& reference : hogel.references) {
+                    ASSERT_LT(reference.hogel, order.waves()[wave]);  // nothing of its own wave
+                    const HogelOrder::Hogel& other = order.hogels()[reference.hogel];
+                    EXPECT_EQ(std::ptrdiff_t(hogel.s) + reference.ds, std::ptrdiff_t(other.s));
+                    EXPECT_EQ(std::ptrdiff_t(hogel.t) + reference.dt, std::ptrdiff_t(other.t));
+                    EXPECT_TRUE(reference.ds == 0 || reference.dt == 0);
+                }
+            }
+    }
+}
+
+TEST(Prediction, moves_a_block_by_fractions) {
+    Plane plane(32, 24);
+    const auto wave = [](double x, double y) { return std::sin(0.6 * x + 0.2) * std::cos(0.5 * y - 0.3 * x); };
+    for (std::size_t y = 0; y < plane.height; ++y)
+        for (std::size_t x = 0; x < plane.width; ++x)
+            plane.samples[y * plane.width + x] = static_cast<float>(wave(double(x), double(y)));
+    for (const Shift shift : {Shift{0, 0}, {64, -128}, {37, 0}, {0, -21}, {-90, 75}}) {
+        BlockSamples block;
+        fetch_moved(plane, 8, 8, shift, block);
+        for (std::size_t r = 0; r < block_side; ++r)
+            for (std::size_t c = 0; c < block_side; ++c)
+                ASSERT_NEAR(block[r * block_side + c],
+                            wave(8 + double(c) + shift.u / 64.0, 8 + double(r) + shift.v / 64.0), 0.01)
+                    << shift.u << " " << shift.v;
+    }
+    // Beyond its edges a plane goes on as they are.
+    BlockSamples block;
+    fetch_moved(plane, 24, 16, {64 * 1000, 64 * 1000}, block);
+    for (const float value : block) EXPECT_NEAR(value, plane.samples.back(), 1e-6);
+}
+
+TEST(Prediction, estimates_the_disparity_of_a_plane) {
+    for (const double disparity : {0.4, -0.8, 1.55}) {
+        const LightFieldTile tile = whole(plane_at(disparity, 9, 64, 48));
+        const LightFieldGrid grid = plane_at(disparity, 9, 64, 48).grid();
+        const TileSetup setup(9, 9, 64, 48, 1, 0.01f, 1.35f, static_cast<float>(grid.step_u() / grid.step_v()));
+        std::vector<Picture> sources;
+        for (std::size_t k = 0; k < 81; ++k) {
+            sources.push_back(setup.blank());
+            std::copy_n(&tile.radiance(0, k / 9, k % 9, 0, 0), 64 * 48, sources.back()[0].samples.data());
+        }
+        for (const HogelOrder::Hogel& hogel : setup.order.hogels()) {
+            if (hogel.level > 0) break;
+            std::vector<std::int16_t> estimated = estimate_disparities(setup, sources, 9, hogel);
+            std::ranges::nth_element(estimated, estimated.begin() + std::ptrdiff_t(estimated.size() / 2));
+            EXPECT_NEAR(estimated[estimated.size() / 2] / 64.0, disparity, 0.04) << disparity;
+        }
+    }
+}
+
+TEST(Blocks, transform_is_the_orthonormal_cosine_transform) {
+    BlockSamples block, coefficients, back;
+    for (std::size_t k = 0; k < block_samples; ++k) block[k] = static_cast<float>(std::sin(double(k * k)));
+    transform_block(block, coefficients);
+    inverse_transform_block(coefficients, back);
+    double mean = 0, energy = 0, energy_after = 0;
+    for (std::size_t k = 0; k < block_samples; ++k) {
+        EXPECT_NEAR(back[k], block[k], 2e-5);
+        mean += block[k] / 64;
+        energy += double(block[k]) * block[k];
+        energy_after += double(coefficients[k]) * coefficients[k];
+    }
+    EXPECT_NEAR(coefficients[0], 8 * mean, 1e-5);
+    EXPECT_NEAR(energy_after, energy, 1e-4 * energy);
+}
+
+// What one hogel shows, the others show moved: a plane takes nearly no more bytes seen by 64 hogels than by one.
+TEST(HogelCoder, views_of_a_plane_come_nearly_free) {
+    const LightField field = plane_at(0.6, 8, 96, 64);
+    const auto coder = make_hogel_coder(field.grid());
+    LightFieldTile one(field.grid(), {0, 0, 1, 1}, false);
+    field.read(one);
+    const double step = 0.02;
+    const auto alone = coder->encode(one, step), all = coder->encode(whole(field), step);
+    EXPECT_LT(double(all.bytes.size()), 6 * double(alone.bytes.size()));
+    EXPECT_LT(all.squared_error / 64, 2 * (alone.squared_error + 96 * 64 * step * step / 12));
+}
+
+TEST(HogelCoder, error_is_what_decoding_gives) {
+    const LightField field = textured_planes(6, 5, 21, 19, 3);
+    const auto coder = make_hogel_coder(field.grid());
+    const LightFieldTile tile = whole(field);
+    const auto encoded = coder->encode(tile, 0.05);
+    LightFieldTile decoded(field.grid(), tile.range, false);
+    coder->decode(encoded.bytes, decoded);
+    double error = 0;
+    for (std::size_t i = 0; i < tile.radiance.size(); ++i) {
+        const double d = double(tile.radiance.data()[i]) - decoded.radiance.data()[i];
+        error += d * d;
+    }
+    EXPECT_NEAR(encoded.squared_error, error, 1e-9 * error);
+    EXPECT_GT(error, 0);
+}
+
+// Whatever the bytes are, decoding ends, in an Error(bad_input) or with a tile.
+TEST(HogelCoder, bytes_of_any_kind_do_no_harm) {
+    const LightField field = textured_planes(5, 4, 20, 12, 1);
+    const auto coder = make_hogel_coder(field.grid());
+    LightFieldTile tile = whole(field);
+    const std::vector<std::uint8_t> good = coder->encode(tile, 0.05).bytes;
+    const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
+        try {
+            coder->decode(bytes, tile);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+            return true;
+        }
+        return false;
+    };
+    EXPECT_FALSE(fails(good));
+    for (std::size_t length = 0; length < good.size(); ++length)
+        ASSERT_TRUE(fails({good.begin(), good.begin() + std::ptrdiff_t(length)})) << length;
+    for (std::size_t at = 0; at < good.size(); ++at) {
+        std::vector<std::uint8_t> bad = good;
+        bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
+        fails(bad);
+    }
+    std::vector<std::uint8_t> longer = good;
+    longer.insert(longer.end(), 8, 0x55);
+    EXPECT_TRUE(fails(longer));
+    for (std::uint32_t seed = 0; seed < 200; ++seed) {
+        std::vector<std::uint8_t> noise(good.begin(), good.begin() + 8);
+        for (std::uint32_t i = 0; i < 1000; ++i)
+            noise.push_back(static_cast<std::uint8_t>(philox({i, seed, 0, 0}, {5, 6})[0]));
+        fails(noise);
+    }
+}
+
+TEST(HogelCoder, tiles_that_are_too_large_are_refused) {
+    const LightFieldGrid grid{65, 1, 1e-3, 4, 4, 0.3, 0.3, 1};
+    const auto coder = make_hogel_coder(grid);
+    LightFieldTile tile(grid, {0, 0, 65, 1}, false);
+    EXPECT_THROW(coder->encode(tile, 0.1), Error);
+    EXPECT_LE(coder->preferred_tile(grid).ns, 33u);
+    // A colour light field of 512 × 512 directions: tiles that still fit.
+    const LightFieldGrid large{128, 128, 1e-3, 512, 512, 0.3, 0.3, 3};
+    const HogelRange preferred = coder->preferred_tile(large);
+    EXPECT_LE(double(preferred.hogels()) * 512 * 512 * 3, 0x1p27);
+    EXPECT_GE(preferred.ns, 12u);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,69 @@
+#include "hogel/codec/hogel_order_internal.h"
+
+#include <algorithm>
+
+namespace hogel {
+namespace {
+
+// The level of each of n places in a row: 0 for the ends, then that of the halving that reaches it.
+std::vector<int> halving_levels(std::size_t n) {
+    std::vector<int> levels(n, 0);
+    std::vector<std::size_t> ends{0, n - 1};
+    for (int level = 1;; ++level) {
+        std::vector<std::size_t> next;
+        for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+            next.push_back(ends[k]);
+            if (ends[k + 1] - ends[k] < 2) continue;
+            const std::size_t middle = (ends[k] + ends[k + 1]) / 2;
+            levels[middle] = level;
+            next.push_back(middle);
+        }
+        next.push_back(ends.back());
+        if (next.size() == ends.size()) return levels;
+        ends = std::move(next);
+    }
+}
+
+}  // namespace
+
+HogelOrder::HogelOrder(std::size_t columns, std::size_t rows) {
+    const std::vector<int> of_column = halving_levels(columns), of_row = halving_levels(rows);
+    const int levels = 1 + std::max(*std::ranges::max_element(of_column), *std::ranges::max_element(of_row));
+    std::vector<std::vector<std::size_t>> in_row(rows), in_column(columns);  // places in the order
+    const auto distance = [](std::size_t from, std::size_t to) {
+        return static_cast<int>(to) - static_cast<int>(from);
+    };
+    const auto add = [&](std::size_t s, std::size_t t, int level) {
+        Hogel hogel{s, t, level, waves_.size() - 1, {}};
+        for (const std::size_t k : in_row[t]) hogel.references.push_back({k, distance(s, hogels_[k].s), 0});
+        for (const std::size_t k : in_column[s]) hogel.references.push_back({k, 0, distance(t, hogels_[k].t)});
+        hogels_.push_back(std::move(hogel));
+    };
+    // Hogels of a wave do not refer to each other, so they count as coded only when the wave is complete.
+    const auto end_wave = [&] {
+        for (std::size_t k = waves_.back(); k < hogels_.size(); ++k) {
+            in_row[hogels_[k].t].push_back(k);
+            in_column[hogels_[k].s].push_back(k);
+        }
+    };
+    // The corners one by one: each but the first leans on the ones before it.
+    for (std::size_t t = 0; t < rows; ++t)
+        for (std::size_t s = 0; s < columns; ++s)
+            if (of_column[s] == 0 && of_row[t] == 0) {
+                waves_.push_back(hogels_.size());
+                add(s, t, 0);
+                end_wave();
+            }
+    for (int level = 1; level < levels; ++level)
+        for (const bool both : {false, true}) {  // new in one direction; then in both, between those
+            waves_.push_back(hogels_.size());
+            for (std::size_t t = 0; t < rows; ++t)
+                for (std::size_t s = 0; s < columns; ++s)
+                    if (std::max(of_column[s], of_row[t]) == level && (of_column[s] == of_row[t]) == both)
+                        add(s, t, level);
+            end_wave();
+        }
+    waves_.push_back(hogels_.size());
+}
+
+}  // namespace hogel

@@ -1,0 +1,137 @@
+#include "hogel/codec/reconstruct_internal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/core/error.h"
+#include "hogel/transform/dct.h"
+
+namespace hogel {
+namespace {
+
+struct Cosines {
+    // [frequency][sample] and transposed, in units of 2^-20 so that every machine has the same.
+    std::array<BlockSamples, 2> of;
+    Cosines() {
+        for (std::size_t k = 0; k < block_side; ++k)
+            for (std::size_t j = 0; j < block_side; ++j) {
+                const auto element =
+                    static_cast<float>(std::nearbyint(dct_element(block_side, k, j) * 0x1p20) * 0x1p-20);
+                of[0][k * block_side + j] = of[1][j * block_side + k] = element;
+            }
+    }
+};
+const Cosines cosines;
+
+}  // namespace
+
+TileSetup::TileSetup(std::size_t columns, std::size_t rows, std::size_t directions_u, std::size_t directions_v,
+                     std::size_t channels, float finest_step, float step_growth, float v_per_u)
+    : order(columns, rows),
+      grid{(directions_u + block_side - 1) / block_side, (directions_v + block_side - 1) / block_side, channels},
+      width(directions_u),
+      height(directions_v),
+      aspect(v_per_u),
+      step(static_cast<std::size_t>(order.levels()), finest_step) {
+    for (std::size_t level = step.size() - 1; level-- > 0;) step[level] = step[level + 1] / step_growth;
+    for (const HogelOrder::Hogel& hogel : order.hogels()) {
+        const float ratio = step[static_cast<std::size_t>(hogel.level)] / step[0];
+        noise.push_back(ratio * ratio);
+    }
+}
+
+Picture TileSetup::blank() const {
+    return Picture(grid.channels, Plane(grid.columns * block_side, grid.rows * block_side));
+}
+
+void transform_block(const BlockSamples& in, BlockSamples& out) {
+    transform_both_ways(cosines.of[0], cosines.of[1], in, out);
+}
+
+void inverse_transform_block(const BlockSamples& in, BlockSamples& out) {
+    transform_both_ways(cosines.of[1], cosines.of[0], in, out);
+}
+
+void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block) {
+    // Where one of the edges is missing the other's first sample stands for it; in the first block both are 0.
+    float left[block_side] = {}, above[block_side] = {};
+    const auto sample = [&](std::size_t column, std::size_t row) { return plane.samples[row * plane.width + column]; };
+    for (std::size_t k = 0; k < block_side; ++k) {
+        left[k] = x > 0 ? sample(x - 1, y + k) : y > 0 ? sample(x, y - 1) : 0;
+        above[k] = y > 0 ? sample(x + k, y - 1) : x > 0 ? sample(x - 1, y) : 0;
+    }
+    float mean = 0;
+    for (std::size_t k = 0; k < block_side; ++k) mean += left[k] + above[k];
+    mean /= 2 * block_side;
+    for (std::size_t r = 0; r < block_side; ++r)
+        for (std::size_t c = 0; c < block_side; ++c) {
+            float value = mean;
+            if (how == 0)  // a surface through both edges
+                value = (static_cast<float>(7 - c) * left[r] + static_cast<float>(c + 1) * above[7] +
+                         static_cast<float>(7 - r) * above[c] + static_cast<float>(r + 1) * left[7]) /
+                        16;
+            else if (how == 2)
+                value = left[r];
+            else if (how == 3)
+                value = above[c];
+            block[r * block_side + c] = value;
+        }
+}
+
+bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
+                    const ReferenceWeights::Choice& choice, std::size_t channel, std::size_t x, std::size_t y,
+                    BlockSamples& block) {
+    if (choice.count == 0) return false;
+    const auto fetch = [&](std::size_t k, BlockSamples& to) {
+        fetch_moved(pictures[hogel.references[choice.reference[k]].hogel][channel], static_cast<int>(x),
+                    static_cast<int>(y), choice.shift[k], to);
+    };
+    fetch(0, block);
+    if (choice.count == 2) {
+        BlockSamples other;
+        fetch(1, other);
+        for (std::size_t k = 0; k < block_samples; ++k)
+            block[k] = choice.weight[0] * block[k] + choice.weight[1] * other[k];
+    }
+    return true;
+}
+
+void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
+                 float step) {
+    BlockSamples residual{};
+    if (levels) {
+        BlockSamples coefficients;
+        for (std::size_t k = 0; k < block_samples; ++k) coefficients[k] = static_cast<float>((*levels)[k]) * step;
+        inverse_transform_block(coefficients, residual);
+    }
+    for (std::size_t r = 0; r < block_side; ++r)
+        for (std::size_t c = 0; c < block_side; ++c)
+            plane.samples[(y + r) * plane.width + x + c] =
+                prediction[r * block_side + c] + residual[r * block_side + c];
+}
+
+void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::vector<Picture>& pictures) {
+    const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
+    ReferenceWeights weights(place, setup.noise, setup.aspect);
+    const float step = setup.step[static_cast<std::size_t>(place.level)];
+    Picture picture = setup.blank();
+    auto levels = coded.levels.begin();
+    BlockSamples prediction;
+    for (std::size_t k = 0; k < setup.grid.count(); ++k) {
+        const Block& block = coded.blocks[k];
+        const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
+        ReferenceWeights::Choice choice;
+        if (block.mode > 0)
+            choice = weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
+        for (std::size_t c = 0; c < setup.grid.channels; ++c) {
+            if (block.mode == 0)
+                predict_within(picture[c], x, y, block.within, prediction);
+            else if (!predict_across(pictures, place, choice, c, x, y, prediction))
+                throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
+            place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step);
+        }
+    }
+    pictures[hogel] = std::move(picture);
+}
+
+}  // namespace hogel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "hogel/codec/block_syntax_internal.h"
+
+namespace hogel {
+
+// The channels of one hogel as they are decoded, whole blocks.
+using Picture = std::vector<Plane>;
+
+// What all hogels of a tile share.
+struct TileSetup {
+    TileSetup(std::size_t columns, std::size_t rows, std::size_t directions_u, std::size_t directions_v,
+              std::size_t channels, float finest_step, float step_growth, float v_per_u);
+
+    HogelOrder order;
+    BlockGrid grid;
+    std::size_t width, height;  // directions, without what fills the last blocks
+    float aspect;               // ΔU/ΔV
+    std::vector<float> step;    // the quantiser's, of each level of the order
+    std::vector<float> noise;   // (step / that of level 0)², of each hogel in the order
+    Picture blank() const;
+};
+
+// The orthonormal DCT of a block and its inverse. Depend on the order of the additions, which is part of the format.
+void transform_block(const BlockSamples& in, BlockSamples& out);
+void inverse_transform_block(const BlockSamples& in, BlockSamples& out);
+
+// A block as it follows from the samples to its left and above it.
+void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block);
+// As it follows from other hogels; false where there is none on that side.
+bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
+                    const ReferenceWeights::Choice& choice, std::size_t channel, std::size_t x, std::size_t y,
+                    BlockSamples& block);
+
+// Adds levels times a step to a prediction, and puts it into its place.
+void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
+                 float step);
+
+// The picture of a hogel whose blocks are known, from those of its references.
+// Throws Error(bad_input) where a block asks for a reference that is not there.
+void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::vector<Picture>& pictures);
+
+}  // namespace hogel

@@ -1,0 +1,114 @@
+#include "hogel/core/journal.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "hogel/core/error.h"
+
+namespace hogel {
+namespace {
+
+class JournalTest : public testing::Test {
+  protected:
+    JournalTest() { std::filesystem::remove(path_); }
+    ~JournalTest() override { std::filesystem::remove(path_); }
+
+    Journal open(std::vector<std::string> work) const {
+        return {path_, std::move(work), [] {}};
+    }
+    std::string text() const {
+        std::ifstream file(path_, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+
+    std::filesystem::path path_ =
+        std::filesystem::temp_directory_path() / ("hogel_journal_" + std::to_string(::getpid()));
+};
+
+TEST_F(JournalTest, remembers_what_is_done) {
+    {
+        Journal journal = open({"scene pumpkin", "two\nlines"});
+        EXPECT_FALSE(journal.begun());
+        journal.begin();
+        journal.note({0, 1, 2});
+        journal.note({7});
+        EXPECT_FALSE(journal.was_done({7}));  // in this run
+    }
+    Journal journal = open({"scene pumpkin", "two\nlines"});
+    EXPECT_TRUE(journal.begun());
+    EXPECT_TRUE(journal.was_done({0, 1, 2}));
+    EXPECT_TRUE(journal.was_done({7}));
+    EXPECT_FALSE(journal.was_done({0, 1}));
+    journal.remove();
+    EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
+TEST_F(JournalTest, flushes_before_it_says_so) {
+    std::string seen = "never";
+    {
+        Journal journal(path_, {"work"}, [&] { seen = text(); });
+        journal.begin();
+        journal.note({1});
+    }
+    EXPECT_EQ(seen.find("done"), std::string::npos);
+    EXPECT_NE(seen, "never");
+    EXPECT_NE(text().find("done 1\n"), std::string::npos);
+}
+
+TEST_F(JournalTest, names_what_differs_in_other_work) {
+    open({"scene pumpkin", "hogels 64x64"}).begin();
+    for (const auto& other : {std::vector<std::string>{"scene pumpkin", "hogels 32x32"}, {"scene pumpkin"}}) try {
+            open(other);
+            ADD_FAILURE() << "accepted";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+            EXPECT_NE(std::string(error.what()).find("'hogels 64x64'"), std::string::npos) << error.what();
+        }
+}
+
+TEST_F(JournalTest, is_written_by_one_at_a_time) {
+    const Journal first = open({"work"});
+    EXPECT_THROW(open({"work"}), Error);
+}
+
+// Whatever happens to the file, no part that was not done is taken for done.
+TEST_F(JournalTest, damage_costs_work_and_nothing_else) {
+    {
+        Journal journal = open({"work"});
+        journal.begin();
+        for (std::uint64_t i = 0; i < 8; ++i) journal.note({i, 10 * i});
+    }
+    const std::string good = text();
+    const auto check = [&](const std::string& damaged) {
+        write(damaged);
+        try {
+            Journal journal = open({"work"});
+            for (std::uint64_t i = 0; i < 100; ++i)
+                if (journal.was_done({i, 10 * i})) {
+                    ASSERT_LT(i, 8u);
+                    ASSERT_TRUE(journal.begun());
+                }
+            // What is added to the damaged file counts.
+            if (!journal.begun()) journal.begin();
+            journal.note({1000});
+        } catch (const Error& error) {
+            ASSERT_TRUE(error.code() == ErrorCode::bad_input || error.code() == ErrorCode::usage) << error.what();
+            return;
+        }
+        ASSERT_TRUE(open({"work"}).was_done({1000}));
+    };
+    for (std::size_t length = 0; length < good.size(); ++length) check(good.substr(0, length));
+    for (std::size_t i = 0; i < good.size(); ++i)
+        for (const char flip : {1, 64}) {
+            std::string damaged = good;
+            damaged[i] = static_cast<char>(damaged[i] ^ flip);
+            check(damaged);
+        }
+}
+
+}  // namespace
+}  // namespace hogel
