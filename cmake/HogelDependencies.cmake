@@ -2,6 +2,7 @@
 # and by no public header, so a program that uses the installed library needs none of their headers.
 find_package(PkgConfig REQUIRED)
 find_package(TBB REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(assimp REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(fmt REQUIRED)

@@ -116,11 +116,14 @@ TEST_F(PumpkinPhotograph, has_the_silhouette_that_geometric_optics_says) {
     }
 }
 
+// Rows of a picture that are compared together: enough for speckle to move them by less than half a pixel.
+constexpr std::size_t strip = 36;
+
 // The horizontal shift of a strip of one picture that fits another one best, in pixels.
 double shift_between(const Image& from, const Image& to, std::size_t row) {
     const auto correlation = [&](int shift) {
         double ab = 0, aa = 0, bb = 0;
-        for (std::size_t y = row; y < row + 24; ++y)
+        for (std::size_t y = row; y < row + strip; ++y)
             for (int x = 40; x < static_cast<int>(pixels) - 40; ++x) {
                 const double a = from.pixels(y, static_cast<std::size_t>(x), 0),
                              b = to.pixels(y, static_cast<std::size_t>(x + shift), 0);
@@ -140,7 +143,7 @@ double shift_between(const Image& from, const Image& to, std::size_t row) {
 // Between two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in waves as
 // in rays, to a fraction of a pixel.
 TEST_F(PumpkinPhotograph, has_the_parallax_that_geometric_optics_says) {
-    for (std::size_t row = 60; row + 60 < pixels; row += 24) {
+    for (std::size_t row = 60; row + 60 < pixels; row += strip) {
         const double by_waves = shift_between(photographs().waves[0], photographs().waves[2], row);
         const double by_rays = shift_between(photographs().rays[0], photographs().rays[2], row);
         EXPECT_NEAR(by_waves, by_rays, 0.5) << row;

@@ -105,6 +105,15 @@ CLI::Option* add_counts(CLI::App* command, const std::string& name, Counts& coun
                       parse_counts);
 }
 
+CLI::Option* add_resolution(CLI::App* command, const std::string& name, Counts& counts, const std::string& help) {
+    return add_parsed(command, name, counts, help, "W|WxH", fmt::format("{}", counts.columns),
+                      [](const std::string& text, const std::string& what) {
+                          Counts read = parse_counts(text, what);
+                          if (text.find('x') == std::string::npos) read.rows = 0;
+                          return read;
+                      });
+}
+
 CLI::Option* add_point(CLI::App* command, const std::string& name, Vec3& point, const std::string& help) {
     return add_parsed(command, name, point, help, "X,Y,Z",
                       fmt::format("{:.6g},{:.6g},{:.6g}mm", point.x * 1e3, point.y * 1e3, point.z * 1e3), parse_point);

@@ -24,6 +24,8 @@ struct Angles {
 CLI::Option* add_angle(CLI::App* command, const std::string& name, double& radians, const std::string& help);
 CLI::Option* add_angles(CLI::App* command, const std::string& name, Angles& angles, const std::string& help);
 CLI::Option* add_counts(CLI::App* command, const std::string& name, Counts& counts, const std::string& help);
+/// "400" for so many across and as many down as it takes (rows 0), or "640x480".
+CLI::Option* add_resolution(CLI::App* command, const std::string& name, Counts& counts, const std::string& help);
 /// "0,0,300mm": a component without a unit takes the one of the last.
 CLI::Option* add_point(CLI::App* command, const std::string& name, Vec3& point, const std::string& help);
 /// A positive whole number.

@@ -1,8 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "camera_options.h"
 #include "commands.h"
+#include "display.h"
+#include "fields.h"
 #include "hogel/lightfield/photograph.h"
+#include "hogel/optics/photograph.h"
 #include "inputs.h"
+#include "movie.h"
 #include "outputs.h"
 
 namespace hogel::cli {
@@ -12,14 +19,19 @@ struct Options {
     std::string input, output;
     RenderOptions render;
     HologramOptions hologram;
-    Vec3 eye{0, 0, defaults.eye_distance};
-    double focus = 0;
-    double pupil = defaults.pupil;
-    std::size_t resolution = defaults.resolution;
+    FieldOptions field;
+    CameraOptions view;
     std::size_t looks = defaults.looks;
     std::size_t pupil_samples = defaults.pupil_samples;
-    std::string exposure = "auto";
+    std::string exposure = "auto", display = "intensity";
+    std::string camera{defaults.camera};
     bool geometric = false, wave = false;
+
+    // Where the full camera may put what does not fit into memory: beside the picture.
+    std::optional<std::filesystem::path> scratch() const {
+        if (camera != "full") return {};
+        return std::filesystem::absolute(output).parent_path();
+    }
 };
 
 double parse_exposure(const std::string& text) {
@@ -29,78 +41,105 @@ double parse_exposure(const std::string& text) {
     return exposure;
 }
 
-Camera make_camera(const Options& options, double width, double height) {
-    Camera camera = camera_for(width, height, options.resolution);
-    camera.eye = options.eye;
-    camera.focus_depth = options.focus;
-    camera.pupil = options.pupil;
-    validate(camera);
-    return camera;
-}
-
-Image photograph_of_hologram(const Options& options, const Session& session) {
-    const HologramFile file = open_hologram(options.input);
+std::vector<Image> photographs_of_hologram(const Options& options, const Session& session) {
+    const HologramFile file = open_fields(options.input, options.field, session.command, options.hologram.pitch,
+                                          options.hologram.wavelengths);
     if (file.fields.size() != 1 && file.fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
                                                       options.input, file.fields.size()));
     const Grid& plane = file.fields.front()->grid().plane;
-    const Camera camera = make_camera(options, plane.size_x(), plane.size_y());
+    const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
+    for (const auto& field : file.fields)
+        for (const Camera& camera : cameras) require_light_towards(field->grid(), camera);
     Stage stage(session, "wave photograph");
-    return photograph_colours(stage, file.fields, {&camera, 1}).front();
+    std::vector<Image> pictures = photograph_colours(stage, file.fields, cameras, options.scratch());
+    const auto black = [](const Image& picture) {
+        return std::ranges::all_of(picture.pixels.elements(), [](float value) { return value == 0; });
+    };
+    // Even a hologram's edge sends a little light everywhere: nothing at all comes from nothing.
+    if (std::ranges::all_of(pictures, black))
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: is empty; no light comes from it to the eye", options.input));
+    return pictures;
 }
 
-Image photograph_of_light_field(const Options& options, const Session& session, InputKind kind, bool geometric) {
+std::vector<Image> photographs_of_light_field(const Options& options, const Session& session, InputKind kind,
+                                              bool geometric) {
     auto faces = open_or_render_faces(session, options.input, options.render);
     const LightFieldGrid grid = faces.front()->grid();
-    const Camera camera = make_camera(options, grid.pitch * static_cast<double>(grid.hogels_s),
-                                      grid.pitch * static_cast<double>(grid.hogels_t));
+    const std::vector<Camera> cameras = make_cameras(options.view, grid.pitch * static_cast<double>(grid.hogels_s),
+                                                     grid.pitch * static_cast<double>(grid.hogels_t));
     if (geometric) {
         Stage stage(session, "geometric photograph");
         std::vector<const LightFieldSource*> sources;
         for (const auto& face : faces) sources.push_back(face.get());
-        return photograph(sources, {&camera, 1}, options.pupil_samples, stage.progress()).front();
+        return photograph(sources, cameras, options.pupil_samples, stage.progress());
     }
     auto light_field = std::move(faces.front());
-    require_holograms(grid, options.hologram, {&camera, 1});
+    require_holograms(grid, options.hologram, cameras);
     if (kind == InputKind::scene)
         light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
     const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
-    return photograph_colours(stage, holograms, {&camera, 1}).front();
+    return photograph_colours(stage, holograms, cameras, options.scratch());
 }
 
 int photo(const Options& options, const Session& session) {
     const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
-    const InputKind kind = input_kind(options.input);
-    require_picture_name(options.output);
+    const bool foreign = is_foreign(options.input, options.field);
+    const InputKind kind = foreign ? InputKind::hologram : input_kind(options.input);
+    const bool movie = options.view.frames > 1;
+    movie ? require_movie(options.output) : require_picture_name(options.output);
     require_writable(options.output);
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
     if (kind == InputKind::scene && options.render.hemicube && !options.geometric)
         throw Error(ErrorCode::usage, "--hemicube: only a photograph by rays has use for the sides; add --geometric");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
-    const Image picture = kind == InputKind::hologram ? photograph_of_hologram(options, session)
-                                                      : photograph_of_light_field(options, session, kind, geometric);
-    const double exposure = given > 0 ? given : automatic_exposure(picture);
+    if (geometric && options.camera != defaults.camera)
+        throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
+    std::vector<Image> pictures = kind == InputKind::hologram
+                                      ? photographs_of_hologram(options, session)
+                                      : photographs_of_light_field(options, session, kind, geometric);
+    // One exposure for all, so that a film does not flicker.
+    double exposure = given;
+    if (options.display == "log") {
+        for (Image& picture : pictures) picture = logarithmic(picture);
+        exposure = 1;
+    } else if (given == 0) {
+        exposure = automatic_exposure(pictures.front());
+        for (const Image& picture : pictures) exposure = std::min(exposure, automatic_exposure(picture));
+    }
     Metadata metadata = describe_run(session);
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
-    write_image(options.output, picture, exposure, metadata);
-    session.say(
-        fmt::format("{}: {}x{} pixels, exposure {:.6g}", options.output, picture.width(), picture.height(), exposure));
+    const Image& first = pictures.front();
+    if (movie)
+        write_movie(options.output, pictures, exposure, options.view.frame_rate, metadata);
+    else
+        write_image(options.output, first, exposure, metadata);
+    session.say(fmt::format("{}: {}{}x{} pixels, exposure {:.6g}", options.output,
+                            movie ? fmt::format("{} pictures of ", pictures.size()) : "", first.width(), first.height(),
+                            exposure));
     return 0;
 }
 
-void add_camera_options(CLI::App* command, Options& options) {
+void add_photo_options(CLI::App* command, Options& options) {
     const auto group = [](CLI::Option* option) { option->group("Camera"); };
-    group(add_point(command, "--eye", options.eye, "Centre of the lens; the hologram is around 0,0,0"));
-    group(add_length(command, "--focus", options.focus,
-                     "Depth in focus: positive behind the hologram, negative in front"));
-    group(add_length(command, "--pupil", options.pupil, "Diameter of the lens"));
-    group(add_count(command, "--resolution", options.resolution, "Pixels across"));
-    group(add_count(command, "--looks", options.looks,
+    group(add_count(command, "--looks,--average", options.looks,
                     "Photographs averaged against speckle, unless of a hologram file"));
     group(command->add_option("--exposure", options.exposure, "What linear values are multiplied by in PNG, or auto")
               ->type_name("NUMBER|auto")
+              ->capture_default_str());
+    group(command->add_option("--display", options.display, "Linear light, or four decades of it from black to white")
+              ->type_name("intensity|log")
+              ->check(CLI::IsMember({"intensity", "log"}).description(""))
+              ->capture_default_str());
+    group(command
+              ->add_option("--camera", options.camera,
+                           "How waves are photographed:\nnarrow: the band that enters the lens, tile by tile"
+                           "\nfull: plane waves to the lens and back, exact and slow")
+              ->type_name("narrow|full")
+              ->check(CLI::IsMember({"narrow", "full"}).description(""))
               ->capture_default_str());
     CLI::Option* geometric =
         command->add_flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
@@ -118,18 +157,23 @@ void add_photo(CLI::App& app, Session& session) {
     CLI::App* command = add_command(app, session, "photo", "Photograph a hologram, a light field or a scene",
                                     "  hogel photo hologram.h5 -o left.png --eye -30,0,300mm --focus 5mm\n"
                                     "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
-                                    "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8",
+                                    "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
+                                    "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
+                                    "  hogel photo phase.png -o p.png --values phase --pitch 8um --wavelength 532nm",
                                     [options, &session] { return photo(*options, session); });
-    command->add_option("input", options->input, "Hologram, light field, mesh file or built-in scene")
+    command
+        ->add_option("input", options->input, "Hologram, light field, mesh file, built-in scene, .npy, .mat or picture")
         ->type_name("F.h5|X.h5|SCENE")
         ->required();
     command->add_option("-o,--output", options->output, "Picture to write: .png, .tif (sRGB) or .exr (linear)")
         ->type_name("FILE")
         ->required();
-    add_camera_options(command, *options);
+    add_camera_options(command, options->view);
+    add_photo_options(command, *options);
     add_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    add_field_options(command, options->field);
 }
 
 }  // namespace hogel::cli

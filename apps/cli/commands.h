@@ -12,6 +12,7 @@ void add_hologram(CLI::App& app, Session& session);
 void add_slm(CLI::App& app, Session& session);
 void add_print(CLI::App& app, Session& session);
 void add_photo(CLI::App& app, Session& session);
+void add_propagate(CLI::App& app, Session& session);
 void add_compress(CLI::App& app, Session& session);
 void add_decompress(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);

@@ -30,8 +30,11 @@ struct Defaults {
     double red = 633_nm, green = 532_nm, blue = 460_nm;
 
     // camera
+    std::string_view camera = "narrow";
     double eye_distance = 300_mm;
     double pupil = 6_mm;
+    double focal_length = 50_mm;     ///< of a lens whose opening is given as an f-number
+    double frame_rate = 12;          ///< of a film
     std::size_t resolution = 400;    ///< pixels across a photograph
     std::size_t looks = 16;          ///< photographs averaged against speckle
     std::size_t pupil_samples = 64;  ///< points of the pupil in a geometric photograph

@@ -7,7 +7,6 @@
 #include <map>
 #include <numbers>
 
-#include "hogel/optics/narrow_band.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
@@ -253,7 +252,8 @@ void require_holograms(const LightFieldGrid& light_field, const HologramOptions&
     // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
     const double shortest = *std::ranges::min_element(options.wavelengths);
     const FieldGrid hologram = stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
-    for (const Camera& camera : cameras) NarrowBand(hologram, camera.eye, camera.pupil);
+    require_photographs(hologram, cameras);
+    for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
 
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
@@ -269,11 +269,15 @@ std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
 }
 
 std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
-                                      std::span<const Camera> cameras) {
+                                      std::span<const Camera> cameras,
+                                      const std::optional<std::filesystem::path>& full) {
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
     for (std::size_t c = 0; c < colours; ++c) {
-        const std::vector<Image> seen = photograph(*holograms[c], cameras, stage.progress(c, colours));
+        const Progress progress = stage.progress(c, colours);
+        const std::vector<Image> seen =
+            full ? photograph_fully(*holograms[c], cameras, progress, {.memory = Scratch().memory, .folder = *full})
+                 : photograph(*holograms[c], cameras, progress);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
             for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -93,9 +94,11 @@ void require_holograms(const LightFieldGrid& light_field, const HologramOptions&
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
                                                          const HologramOptions& options, std::size_t looks);
 
-/// Photographs holograms of one or three wavelengths by wave optics and joins the colours.
+/// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With a folder for scratch
+/// files by the full chain of plane waves, otherwise by the narrow band.
 std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
-                                      std::span<const Camera> cameras);
+                                      std::span<const Camera> cameras,
+                                      const std::optional<std::filesystem::path>& full = {});
 
 /// A camera that frames a hologram of this size with so many pixels across.
 Camera camera_for(double width, double height, std::size_t resolution);

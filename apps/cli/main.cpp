@@ -39,6 +39,7 @@ void build(CLI::App& app, Session& session) {
     add_slm(app, session);
     add_print(app, session);
     add_photo(app, session);
+    add_propagate(app, session);
     add_compress(app, session);
     add_decompress(app, session);
     add_compare(app, session);

@@ -16,6 +16,13 @@ bool positive(double value) { return std::isfinite(value) && value > 0; }
 
 }  // namespace
 
+double focus_ratio(const Camera& camera, double x, double y) {
+    const Vec3& eye = camera.eye;
+    const double slope_x = camera.focus_slope_x, slope_y = camera.focus_slope_y;
+    return (eye.z + camera.focus_depth + slope_x * eye.x + slope_y * eye.y) /
+           (eye.z - slope_x * (x - eye.x) - slope_y * (y - eye.y));
+}
+
 void validate(const Camera& camera) {
     const Vec3& eye = camera.eye;
     if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !positive(eye.z))
@@ -37,6 +44,13 @@ void validate(const Camera& camera) {
                          picture.pitch_y));
     if (!std::isfinite(picture.center_x) || !std::isfinite(picture.center_y))
         fail(fmt::format("the centre of the picture ({}, {}) is not finite", picture.center_x, picture.center_y));
+    if (camera.focus_slope_x == 0 && camera.focus_slope_y == 0) return;
+    const double half_x = 0.5 * picture.size_x(), half_y = 0.5 * picture.size_y();
+    for (double x : {picture.center_x - half_x, picture.center_x + half_x})
+        for (double y : {picture.center_y - half_y, picture.center_y + half_y})
+            if (!positive(focus_ratio(camera, x, y)))
+                fail(fmt::format("a plane in focus with the slopes {} and {} is not everywhere in front of the eye",
+                                 camera.focus_slope_x, camera.focus_slope_y));
 }
 
 }  // namespace hogel

@@ -31,12 +31,29 @@ TEST(Camera, validate_names_what_is_wrong) {
     EXPECT_NE(refusal([](Camera& c) { c.eye.x = nan; }).find("eye"), std::string::npos);
     EXPECT_NE(refusal([](Camera& c) { c.focus_depth = -0.3; }).find("focus"), std::string::npos);
     EXPECT_NE(refusal([](Camera& c) { c.focus_depth = nan; }).find("focus"), std::string::npos);
+    EXPECT_EQ(refusal([](Camera& c) { c.focus_slope_x = 50; }), "");
+    EXPECT_NE(refusal([](Camera& c) { c.focus_slope_x = 100; }).find("slopes"), std::string::npos);
+    EXPECT_NE(refusal([](Camera& c) { c.focus_slope_y = nan; }).find("slopes"), std::string::npos);
     EXPECT_NE(refusal([](Camera& c) { c.pupil = 0; }).find("pupil"), std::string::npos);
     EXPECT_NE(refusal([](Camera& c) { c.picture.height = 0; }).find("64x0"), std::string::npos);
     EXPECT_NE(refusal([](Camera& c) { c.picture.width = c.picture.height = std::size_t{1} << 32; }).find("addressed"),
               std::string::npos);
     EXPECT_NE(refusal([](Camera& c) { c.picture.pitch_y = -1; }).find("pitch"), std::string::npos);
     EXPECT_NE(refusal([](Camera& c) { c.picture.center_y = nan; }).find("centre"), std::string::npos);
+}
+
+// In focus is what lies on the line of sight and on the plane.
+TEST(Camera, focus_ratio_leads_to_the_plane_in_focus) {
+    Camera camera;
+    camera.eye = {0.02, -0.01, 0.25};
+    camera.focus_depth = 4e-3;
+    EXPECT_DOUBLE_EQ(focus_ratio(camera, 1e-3, 7e-3), 1 + 4e-3 / 0.25);
+    camera.focus_slope_x = 0.3;
+    camera.focus_slope_y = -0.2;
+    for (const Vec3 h : {Vec3{0, 0, 0}, Vec3{5e-3, -2e-3, 0}, Vec3{-8e-3, 1e-3, 0}}) {
+        const Vec3 p = camera.eye + focus_ratio(camera, h.x, h.y) * (h - camera.eye);
+        EXPECT_NEAR(-p.z, 4e-3 + 0.3 * p.x - 0.2 * p.y, 1e-12);
+    }
 }
 
 }  // namespace

@@ -50,6 +50,14 @@ Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std
 Image decode_image(std::span<const unsigned char> bytes, const std::string& name,
                    std::size_t max_pixels = std::size_t{1} << 28);
 
+/// What a picture says as numbers and not as light, a number a pixel: values[y][x] as they stand in the file.
+struct Codes {
+    Array<float, 2> values;
+    std::size_t levels = 0;  ///< 256 or 65536 for whole numbers below that, 0 for floating point ones
+};
+/// Throws as read_image() does, and for a picture whose colours differ.
+Codes read_codes(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
+
 /// The words that a picture file carries, those of write_image() and of other programs; a TIFF file keeps them as lines
 /// of its "ImageDescription". Throws as read_image() does.
 Metadata read_metadata(const std::filesystem::path& path);

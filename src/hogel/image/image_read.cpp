@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <memory>
@@ -162,6 +163,35 @@ Image decode_image(std::span<const unsigned char> bytes, const std::string& name
         const OpenPicture picture = open_bytes(bytes, format, name);
         check_size(picture.in->spec(), name, max_pixels, bytes.size());
         return read_pixels(*picture.in, name);
+    });
+}
+
+Codes read_codes(const std::filesystem::path& path, std::size_t max_pixels) {
+    const std::string name = path.string();
+    return guarded(name, [&] {
+        std::uint64_t file_bytes = 0;
+        const OpenPicture picture = open_file(path, file_bytes);
+        const OIIO::ImageSpec& spec = picture.in->spec();
+        check_size(spec, name, max_pixels, file_bytes);
+        // Grey with or without alpha, or three channels that say the same.
+        const std::size_t channels = spec.nchannels >= 3 ? 3 : 1;
+        std::vector<float> values(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                                  channels);
+        Codes codes;
+        const bool whole = !spec.format.is_floating_point() && spec.format.size() <= 2;
+        // As floats, whole numbers are read as fractions of the largest.
+        if (whole) codes.levels = spec.format.size() == 1 ? 256 : 65536;
+        const float scale = whole ? static_cast<float>(codes.levels - 1) : 1.0f;
+        if (!picture.in->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::FLOAT, values.data()))
+            fail_read(name, picture.in->geterror());
+        codes.values = Array<float, 2>({static_cast<std::size_t>(spec.height), static_cast<std::size_t>(spec.width)});
+        for (std::size_t i = 0; i < codes.values.size(); ++i) {
+            const float* pixel = &values[i * channels];
+            if (channels == 3 && (pixel[0] != pixel[1] || pixel[0] != pixel[2]))
+                fail_read(name, "its channels differ, but one number a pixel was expected");
+            codes.values.data()[i] = whole ? std::round(pixel[0] * scale) : pixel[0];
+        }
+        return codes;
     });
 }
 

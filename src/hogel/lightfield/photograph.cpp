@@ -223,6 +223,9 @@ std::vector<Image> photograph(std::span<const LightFieldSource* const> faces, st
     std::vector<Exposure> exposures;
     for (const Camera& camera : cameras) {
         validate(camera);
+        if (camera.focus_slope_x != 0 || camera.focus_slope_y != 0)
+            throw Error(ErrorCode::usage,
+                        "rays are photographed on a film parallel to the hologram; it cannot be tilted");
         exposures.emplace_back(grids, camera, std::max<std::size_t>(pupil_samples, 1));
     }
     std::vector<FaceBlock> list;

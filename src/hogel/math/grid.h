@@ -40,4 +40,19 @@ inline Grid part(const Grid& grid, const Region& region) {
     return {region.width, region.height, grid.pitch_x, grid.pitch_y, grid.x(middle_column), grid.y(middle_row)};
 }
 
+/// A rectangle of a plane, metres; points on its left and lower edge belong to it.
+struct Rectangle {
+    double left = 0, right = 0, bottom = 0, top = 0;
+
+    explicit Rectangle(const Grid& plane)
+        : left(plane.center_x - 0.5 * plane.size_x()),
+          right(plane.center_x + 0.5 * plane.size_x()),
+          bottom(plane.center_y - 0.5 * plane.size_y()),
+          top(plane.center_y + 0.5 * plane.size_y()) {}
+    bool holds(double x, double y) const { return x >= left && x < right && y >= bottom && y < top; }
+    bool meets(const Rectangle& other) const {
+        return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+    }
+};
+
 }  // namespace hogel

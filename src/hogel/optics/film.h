@@ -8,39 +8,35 @@
 
 namespace hogel {
 
-/// A rectangle of a plane, metres; points on its left and lower edge belong to it.
-struct Rectangle {
-    double left = 0, right = 0, bottom = 0, top = 0;
+/// How large one eye's film is.
+struct FilmSize {
+    SineGrid sines;
+    std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< of the pupil, in steps of its plane at a transform's frequencies
+    std::size_t band_rows = 0;
 
-    explicit Rectangle(const Grid& plane)
-        : left(plane.center_x - 0.5 * plane.size_x()),
-          right(plane.center_x + 0.5 * plane.size_x()),
-          bottom(plane.center_y - 0.5 * plane.size_y()),
-          top(plane.center_y + 0.5 * plane.size_y()) {}
-    bool holds(double x, double y) const { return x >= left && x < right && y >= bottom && y < top; }
-    bool meets(const Rectangle& other) const {
-        return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
-    }
+    FilmSize(const NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
+    /// Bytes of a pupil's wave, and of what Film::pupil_wave() and expose() need at the most besides their results.
+    double pupil_bytes() const;
+    double work_bytes() const;
 };
 
 /// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
 /// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
-/// section 4). Each step works on all threads; an array that the caller gives is all that it needs.
+/// section 4). The pupil takes a quarter of the band in x and in y, so its wave is small, and neither transform
+/// computes more of the other axis than that. Each step works on all threads.
 class Film {
   public:
-    /// @param blur  the widest defocus_blur() of the cameras that will be used; their pupils are at most the one that
-    ///              the band was made for
-    Film(const NarrowBand& band, const FieldGrid& hologram, double blur);
+    /// @param pupil  the widest of the cameras that will be used, at most the one that the band was made for
+    /// @param blur   the widest defocus_blur() of these cameras
+    Film(const NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
 
-    const SineGrid& sines() const { return sines_; }
+    const SineGrid& sines() const { return size_.sines; }
 
-    /// The wave over the pupil's plane, at the frequencies of a transform of sines() samples.
+    /// The wave over the pupil, [row][column] of frequencies −reach … reach of a transform of sines() samples.
     Array<std::complex<float>, 2> pupil_wave(View<const std::complex<float>, 2> band) const;
 
-    /// Adds the intensity that a camera's film receives, in the film's own sampling. `field` is room for the work. Both
-    /// have the shape of the pupil's wave.
-    void expose(View<const std::complex<float>, 2> pupil_wave, const Camera& camera, View<std::complex<float>, 2> field,
-                View<float, 2> intensity) const;
+    /// Adds the intensity that a camera's film receives, in the film's own sampling, [sines().size_y][sines().size_x].
+    void expose(View<const std::complex<float>, 2> pupil_wave, const Camera& camera, View<float, 2> intensity) const;
 
     /// Adds a camera's picture, in radiance, of what lies in `shown` of the hologram plane.
     /// @param weight  what the intensities are multiplied by: one over the number of looks that they are the sum of
@@ -48,12 +44,10 @@ class Film {
                  Image& picture) const;
 
   private:
-    class Lens;
-
     NarrowBand band_;
     FieldGrid hologram_;
-    SineGrid sines_;
-    Fft2 fft_;
+    FilmSize size_;
+    Fft1 along_, down_;
 };
 
 }  // namespace hogel

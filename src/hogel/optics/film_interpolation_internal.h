@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <vector>
@@ -53,23 +52,24 @@ class InterpolationTable {
     std::vector<float> weights_;
 };
 
-/// Catmull and Rom's cubic through four neighbours: intensities come with two samples to their finest wave, for which
-/// straight lines would be too coarse. Nothing outside, and never negative.
-inline double cubic_at(View<const float, 2> values, double row, double column) {
-    const auto weights = [](double f) {
-        return std::array{((-0.5 * f + 1) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1, ((-1.5 * f + 2) * f + 0.5) * f,
-                          (0.5 * f - 0.5) * f * f};
-    };
-    const double row0 = std::floor(row), column0 = std::floor(column);
-    if (row0 < 1 || column0 < 1 || row0 + 2 >= static_cast<double>(values.extent(0)) ||
-        column0 + 2 >= static_cast<double>(values.extent(1)))
-        return 0;
-    const auto down = weights(row - row0), across = weights(column - column0);
-    const auto j = static_cast<std::size_t>(row0) - 1, i = static_cast<std::size_t>(column0) - 1;
-    double sum = 0;
-    for (std::size_t b = 0; b < 4; ++b)
-        for (std::size_t a = 0; a < 4; ++a) sum += down[b] * across[a] * values(j + b, i + a);
-    return std::max(sum, 0.0);
+/// Catmull and Rom's cubic through four neighbours of value(0 … count − 1) at a place between: intensities come with
+/// two samples to their finest wave, for which straight lines would be too coarse. Nothing outside.
+template <class Value>
+float cubic_at(std::size_t count, double place, const Value& value) {
+    const double whole = std::floor(place);
+    if (!(whole >= 1 && whole + 2 < static_cast<double>(count))) return 0;
+    const auto i = static_cast<std::size_t>(whole);
+    const auto x = static_cast<float>(place - whole);
+    const float a = value(i - 1), b = value(i), c = value(i + 1), d = value(i + 2);
+    return b + 0.5f * x * ((c - a) + x * ((2 * a - 5 * b + 4 * c - d) + x * (3 * (b - c) + d - a)));
+}
+
+/// The same in two dimensions, of value(row, column), and never negative.
+template <class Value>
+float cubic_at(std::size_t height, std::size_t width, double row, double column, const Value& value) {
+    return std::max(0.0f, cubic_at(height, row, [&](std::size_t j) {
+                        return cubic_at(width, column, [&](std::size_t i) { return value(j, i); });
+                    }));
 }
 
 }  // namespace hogel

@@ -1,8 +1,14 @@
 #include "hogel/optics/photograph.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/units.h"
 #include "hogel/optics/photograph_plan_internal.h"
+#include "hogel/optics/spectrum.h"
 
 namespace hogel {
 namespace {
@@ -34,7 +40,7 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
     for (std::size_t e = 0; e < eyes.size(); ++e) {
         bands.emplace_back(window.grid(), cameras[eyes[e].members.front()].eye, eyes[e].pupil);
-        films.emplace_back(bands.back(), window.grid(), eyes[e].blur);
+        films.emplace_back(bands.back(), window.grid(), eyes[e].pupil, eyes[e].blur);
         const SineGrid& sines = films.back().sines();
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
             intensities[e].emplace_back(Shape<2>{sines.size_y, sines.size_x});
@@ -54,9 +60,8 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
             for (std::size_t look = 0; look < count; ++look) {
                 const Array<std::complex<float>, 2> wave = films[e].pupil_wave(drawn[e][look]);
                 drawn[e][look] = {};
-                Array<std::complex<float>, 2> field(wave.shape());
                 for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
-                    films[e].expose(wave, cameras[eyes[e].members[c]], field, intensities[e][c]);
+                    films[e].expose(wave, cameras[eyes[e].members[c]], intensities[e][c]);
                 tell(0.9 + 0.1 * static_cast<double>(e * count + look + 1) / static_cast<double>(eyes.size() * count));
             }
     }
@@ -71,16 +76,38 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
 
 double resolution_cell(const Camera& camera, double wavelength) { return wavelength * camera.eye.z / camera.pupil; }
 
+void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options) {
+    plan_photographs(hologram, cameras, static_cast<double>(options.memory));
+}
+
+void require_light_towards(const FieldGrid& hologram, const Camera& camera) {
+    validate(camera);
+    const Rectangle pupil(Grid{1, 1, camera.pupil, camera.pupil, camera.eye.x, camera.eye.y});
+    const Band band = band_between(Rectangle(hologram.plane), pupil, camera.eye.z, hologram.wavelength);
+    const auto check = [&](double frequency, double pitch, const char* axis) {
+        if (frequency * pitch <= 0.5) return;
+        const double degrees = 180 / std::numbers::pi;
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("the eye sees the hologram from up to {:.2f} degrees in {}, but a pitch of {} sends light "
+                        "of {} no farther than {:.2f}; a pitch of {} or less would do",
+                        degrees * std::asin(frequency * hologram.wavelength), axis, format_length(pitch),
+                        format_length(hologram.wavelength),
+                        degrees * std::asin(std::min(1.0, 0.5 * hologram.wavelength / pitch)),
+                        format_length(0.5 / frequency)));
+    };
+    check(std::max(-band.low_x, band.high_x), hologram.plane.pitch_x, "x");
+    check(std::max(-band.low_y, band.high_y), hologram.plane.pitch_y, "y");
+}
+
 std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress,
                               const PhotographOptions& options) {
     const auto memory = static_cast<double>(options.memory);
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);
     std::vector<Image> images;
     for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
-    const double spare = std::max(0.0, memory - plan.bytes),
-                 parts = static_cast<double>(plan.passes.size()) * static_cast<double>(plan.windows.size());
-    const std::size_t looks_at_once =
-        1 + static_cast<std::size_t>(std::min(spare / plan.bytes_a_look, static_cast<double>(hologram.looks())));
+    const double parts = static_cast<double>(plan.passes.size()) * static_cast<double>(plan.windows.size());
+    const std::size_t looks_at_once = plan.looks_at_once(memory, hologram.looks());
     std::size_t done = 0;
     for (const std::vector<std::size_t>& pass : plan.passes)
         for (const PhotographPlan::Window& window : plan.windows) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "hogel/core/large_array.h"
 #include "hogel/image/camera.h"
 #include "hogel/image/image.h"
 #include "hogel/optics/field.h"
@@ -25,6 +26,23 @@ struct PhotographOptions {
 /// more than the field's pitch supports, or that cannot be done within the memory.
 std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
                               const Progress& progress = {}, const PhotographOptions& options = {});
+
+/// Throws what photograph() would throw at once, without a hologram to photograph: to be asked before one is made.
+void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
+                         const PhotographOptions& options = {});
+
+/// Throws Error(usage) for a camera that makes no sense, or that looks at a hologram from directions to which its
+/// samples send no light. photograph() shows there what a modulator of such samples shows, copies of the picture that
+/// belongs elsewhere: right for a field that is known to have just these directions, and else a mistake.
+void require_light_towards(const FieldGrid& hologram, const Camera& camera);
+
+/// The same by the chain of [K] 6, with no approximation but that the hologram is a window of its own: plane waves to
+/// the lens, of the directions between the hologram and the pupil alone, by which the copies that sampling makes stay
+/// out; the opening; and from it back to the plane in focus, which is what a perfect lens shows on its film. Cost:
+/// transforms of the hologram with room for the pupil around it. Memory: what `scratch` allows, the rest in a file.
+/// Throws Error(usage) for an eye in directions to which the hologram's samples send no light.
+std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
+                                    const Progress& progress = {}, const Scratch& scratch = {});
 
 /// The same by direct summation: every sample of the hologram to every point of the pupil, every point of the pupil to
 /// every pixel, no approximation but the scalar one. Cost: hologram samples × pupil points; for tests and small

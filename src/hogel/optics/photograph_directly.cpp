@@ -56,7 +56,6 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
             pupil[i].field = sum * plane.pitch_x * plane.pitch_y / Complex(0, grid.wavelength);
         });
         // A perfect lens: waves from the point p of the plane in focus arrive at p's place on the film in step.
-        const double magnify = (camera.eye.z + camera.focus_depth) / camera.eye.z;
         const double points_a_pixel = static_cast<double>(subpixels * subpixels);
         parallel_for(camera.picture.height, [&](std::size_t row) {
             for (std::size_t column = 0; column < camera.picture.width; ++column)
@@ -67,7 +66,8 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
                         };
                         const Vec3 on_hologram{camera.picture.x(static_cast<double>(column) + within(a)),
                                                camera.picture.y(static_cast<double>(row) + within(b)), 0};
-                        const Vec3 p = camera.eye + magnify * (on_hologram - camera.eye);
+                        const Vec3 p =
+                            camera.eye + focus_ratio(camera, on_hologram.x, on_hologram.y) * (on_hologram - camera.eye);
                         Complex film = 0;
                         for (const PupilPoint& q : pupil)
                             film += q.field * std::polar(step * step, -k * length(q.position - p));

@@ -62,22 +62,21 @@ Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std:
     double largest = 0;
     for (const SharedEye& eye : eyes) {
         const NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
-        const SineGrid sines = sine_grid(band, hologram.plane, eye.blur);
-        const double samples = static_cast<double>(sines.samples());
+        const FilmSize film(band, hologram, eye.pupil, eye.blur);
         bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
         // Tiles on their way into the band.
         const double tile = NarrowBand::tile_width / static_cast<double>(band.factor) + 2 * NarrowBand::margin;
         bytes.a_look += 8.0 * static_cast<double>(default_in_flight()) * tile * tile;
-        bytes.fixed += 4.0 * samples * static_cast<double>(eye.members.size());
-        const double columns = static_cast<double>(sines.size_x) * static_cast<double>(band.plane.height);
-        largest = std::max(largest, 8.0 * samples + 8.0 * std::max(samples, columns));
+        bytes.fixed += 4.0 * static_cast<double>(film.sines.samples()) * static_cast<double>(eye.members.size());
+        largest = std::max(largest, film.pupil_bytes() + film.work_bytes());
     }
     bytes.fixed += largest;
     return bytes;
 }
 
 // The least work that fits, in passes over the whole hologram; passes.empty() where nothing does.
-PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> cameras, double memory) {
+PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
+                         std::span<const std::size_t> counts) {
     std::vector<std::size_t> sorted(cameras.size());
     std::iota(sorted.begin(), sorted.end(), std::size_t{0});
     std::stable_sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
@@ -96,7 +95,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
             passes.emplace_back(
                 sorted.begin() + static_cast<std::ptrdiff_t>(first),
                 sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first + cameras_a_pass, sorted.size())));
-        for (std::size_t count : window_counts) {
+        for (std::size_t count : counts) {
             const std::vector<PhotographPlan::Window> list = windows(hologram.plane, count, around);
             double read = 0;
             for (const PhotographPlan::Window& window : list) read += static_cast<double>(window.region.samples());
@@ -137,19 +136,28 @@ std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<c
     return eyes;
 }
 
-PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory) {
+std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks) const {
+    const double spare = std::max(0.0, memory - bytes);
+    return 1 + static_cast<std::size_t>(std::min(spare / bytes_a_look, static_cast<double>(looks)));
+}
+
+PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
+                                PhotographPlan::Windows windows) {
     for (const Camera& camera : cameras) {
         validate(camera);
         NarrowBand(hologram, camera.eye, camera.pupil);  // says so where the pupil is too wide for the pitch
     }
-    PhotographPlan plan = find_plan(hologram, cameras, memory);
-    if (cameras.empty() || !plan.passes.empty()) return plan;
+    if (cameras.empty()) return {};
+    const std::span<const std::size_t> counts =
+        windows == PhotographPlan::Windows::one ? std::span(window_counts).first(1) : std::span(window_counts);
+    PhotographPlan plan = find_plan(hologram, cameras, memory, counts);
+    if (!plan.passes.empty()) return plan;
     double fits = 0, fails = 1;
     for (int i = 0; i < 8; ++i) {
         const double scale = 0.5 * (fits + fails);
         std::vector<Camera> smaller(cameras.begin(), cameras.end());
         for (Camera& camera : smaller) camera.pupil *= scale;
-        (find_plan(hologram, smaller, memory).passes.empty() ? fails : fits) = scale;
+        (find_plan(hologram, smaller, memory, counts).passes.empty() ? fails : fits) = scale;
     }
     double widest = 0;
     for (const Camera& camera : cameras) widest = std::max(widest, camera.pupil);

@@ -21,10 +21,17 @@ struct PhotographPlan {
 
     double bytes = 0;         ///< at the most, with one look at a time
     double bytes_a_look = 0;  ///< what each look more takes
+
+    /// How many of so many looks there is memory for at a time; at least one.
+    std::size_t looks_at_once(double memory, std::size_t looks) const;
+
+    enum class Windows { one, many };
 };
 
 /// The plan with least work. Throws Error(usage) with a pupil that would do where there is none.
-PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory);
+/// @param windows  whether the hologram may be taken in parts
+PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
+                                PhotographPlan::Windows windows = PhotographPlan::Windows::many);
 
 /// The cameras of one pass with one eye: they share its narrow band.
 struct SharedEye {

@@ -33,8 +33,13 @@ double least_slope(const ViewGeometry& geometry, const Grid& plane) {
 }  // namespace
 
 double defocus_blur(const Camera& camera) {
-    const double R = camera.eye.z;
-    return camera.pupil * std::abs(1 / R - 1 / (R + camera.focus_depth));
+    const Grid& picture = camera.picture;
+    const double R = camera.eye.z, half_x = 0.5 * picture.size_x(), half_y = 0.5 * picture.size_y();
+    double most = 0;
+    for (double x : {picture.center_x - half_x, picture.center_x + half_x})
+        for (double y : {picture.center_y - half_y, picture.center_y + half_y})
+            most = std::max(most, std::abs(1 - 1 / focus_ratio(camera, x, y)));
+    return camera.pupil / R * most;
 }
 
 SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
@@ -55,9 +60,11 @@ SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
     SineGrid grid;
     // Nowhere coarser than the band itself, which has room for the pupil and its intensity: so nothing folds back.
     grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * least_slope(geometry, plane);
-    // What is out of focus spreads by the blur; room for it keeps it from coming in again at the other side.
+    // What is out of focus spreads by the blur, and what is in focus by some resolution cells, four samples each; room
+    // for it keeps it from coming in again at the other side.
+    constexpr double room = 64;
     const auto choose = [&](const Range& range, std::size_t& size, double& first) {
-        const double wanted = (range.high - range.low + blur) / grid.step + 8;
+        const double wanted = (range.high - range.low + blur) / grid.step + room;
         size = good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
         // Rows that are a large power of two apart fall on each other in the caches: ten times slower.
         while (size % 128 == 0) size = good_fft_size(size + 1);

@@ -21,7 +21,8 @@ struct SineGrid {
 /// @param blur  how far light out of focus spreads in the sines, see defocus_blur()
 SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur);
 
-/// The width in direction sines of the disc that a point of the hologram plane becomes on a film in focus elsewhere.
+/// The width in direction sines of the disc that a point of the hologram plane becomes on a film in focus elsewhere, at
+/// the most in the picture.
 double defocus_blur(const Camera& camera);
 
 }  // namespace hogel

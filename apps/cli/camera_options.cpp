@@ -1,0 +1,83 @@
+#include "camera_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "hogel/core/error.h"
+
+namespace hogel::cli {
+namespace {
+
+double mix(double a, double b, double part) { return a + part * (b - a); }
+
+Camera make_camera(const CameraOptions& options, double width, double height, double part) {
+    Camera camera;
+    camera.eye = options.moves_eye ? options.eye + part * (options.last_eye - options.eye) : options.eye;
+    camera.focus_depth = options.moves_focus ? mix(options.focus, options.last_focus, part) : options.focus;
+    camera.focus_slope_x = std::tan(options.focus_tilt.across);
+    camera.focus_slope_y = std::tan(options.focus_tilt.down);
+    camera.pupil = options.f_number > 0 ? options.focal_length / options.f_number : options.pupil;
+    if (camera.eye.z > 0 && !(options.gaze.z < camera.eye.z))
+        throw Error(ErrorCode::usage, "--gaze: the eye looks at a point in front of it, not beside or behind it");
+    // Where the line of sight to that point meets the hologram plane is the middle of the picture.
+    const Vec3 middle = camera.eye + camera.eye.z / (camera.eye.z - options.gaze.z) * (options.gaze - camera.eye);
+    const double shown = options.angle_of_view > 0 ? 2 * camera.eye.z * std::tan(0.5 * options.angle_of_view) : width;
+    const double pixel = shown / static_cast<double>(options.resolution.columns);
+    std::size_t rows = options.resolution.rows;
+    if (rows == 0)
+        rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(shown * height / width / pixel)));
+    camera.picture = {options.resolution.columns, rows, pixel, pixel, middle.x, middle.y};
+    validate(camera);
+    return camera;
+}
+
+}  // namespace
+
+void add_camera_options(CLI::App* command, CameraOptions& options) {
+    const auto group = [](CLI::Option* option) {
+        option->group("Camera");
+        return option;
+    };
+    group(add_point(command, "--eye", options.eye, "Centre of the lens; the hologram is around 0,0,0"));
+    group(add_point(command, "--gaze", options.gaze, "What is in the middle of the picture"));
+    group(add_length(command, "--focus", options.focus,
+                     "Depth in focus: positive behind the hologram, negative in front"));
+    group(add_angles(command, "--focus-tilt", options.focus_tilt,
+                     "Tilt of the plane in focus, as by a tilted film:\nits depth grows to the right, and upwards"));
+    CLI::Option* pupil = group(add_length(command, "--pupil", options.pupil, "Diameter of the lens"));
+    group(command->add_option("--f-number", options.f_number, "The same as a part of the focal length")
+              ->type_name("NUMBER")
+              ->check(CLI::PositiveNumber.description(""))
+              ->excludes(pupil));
+    group(add_length(command, "--focal-length", options.focal_length, "With --f-number"));
+    group(add_angle(command, "--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram"));
+    group(add_resolution(command, "--resolution", options.resolution, "Pixels across, or across and down"));
+    const auto moves = [&](CLI::Option* option, bool& flag) {
+        group(option)->each([&flag](const std::string&) { flag = true; });
+    };
+    moves(add_point(command, "--to-eye", options.last_eye, "The eye of the last frame"), options.moves_eye);
+    moves(add_length(command, "--to-focus", options.last_focus, "The depth in focus of the last frame"),
+          options.moves_focus);
+    group(add_count(command, "--frames", options.frames,
+                    "Pictures on the way, for an output .mp4, .gif, .apng or name####.png"));
+    group(command->add_option("--frame-rate", options.frame_rate, "Frames a second of a film")
+              ->type_name("NUMBER")
+              ->check(CLI::PositiveNumber.description(""))
+              ->capture_default_str());
+}
+
+std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height) {
+    if (options.frames == 1 && (options.moves_eye || options.moves_focus))
+        throw Error(ErrorCode::usage, "--to-eye and --to-focus: with --frames, for there is but one picture");
+    if (!(options.angle_of_view >= 0 && options.angle_of_view < 3.1))
+        throw Error(ErrorCode::usage, "--angle-of-view: an angle below 180deg was expected");
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < options.frames; ++i)
+        cameras.push_back(
+            make_camera(options, width, height,
+                        options.frames > 1 ? static_cast<double>(i) / static_cast<double>(options.frames - 1) : 0));
+    return cameras;
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "arguments.h"
+#include "defaults.h"
+#include "hogel/image/camera.h"
+
+namespace hogel::cli {
+
+/// Cameras as people describe them.
+struct CameraOptions {
+    Vec3 eye{0, 0, defaults.eye_distance}, gaze;
+    double focus = 0;
+    Angles focus_tilt;
+    double pupil = defaults.pupil, f_number = 0, focal_length = defaults.focal_length;
+    double angle_of_view = 0;  ///< across; 0: what shows the hologram
+    Counts resolution{defaults.resolution, 0};
+
+    Vec3 last_eye;
+    double last_focus = 0;
+    std::size_t frames = 1;
+    double frame_rate = defaults.frame_rate;
+    bool moves_eye = false, moves_focus = false;
+};
+void add_camera_options(CLI::App* command, CameraOptions& options);
+
+/// The cameras of all frames, for a hologram of this size. Throws Error(usage).
+std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height);
+
+}  // namespace hogel::cli

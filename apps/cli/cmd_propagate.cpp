@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "commands.h"
+#include "display.h"
+#include "fields.h"
+#include "hogel/optics/spectrum.h"
+#include "inputs.h"
+#include "outputs.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string input, output;
+    double distance = 0;
+    double pitch = defaults.pitch;
+    std::vector<double> wavelengths;
+    FieldOptions field;
+    std::string display = "intensity";
+};
+
+enum class OutputKind { hologram, array, picture };
+
+OutputKind output_kind(const std::filesystem::path& path) {
+    if (path.extension() == ".h5") return OutputKind::hologram;
+    if (path.extension() == ".npy") return OutputKind::array;
+    require_picture_name(path);
+    return OutputKind::picture;
+}
+
+void require_one_wavelength(const HologramFile& file, const std::string& what) {
+    if (file.fields.size() != 1)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: is made of one wavelength, but the hologram has {}", what, file.fields.size()));
+}
+
+// What one colour's picture shows.
+Image shown(const Field& field, const std::string& display) {
+    if (display == "phase") return phases(field.samples);
+    Image picture(field.samples.extent(1), field.samples.extent(0), 1);
+    for (std::size_t i = 0; i < field.samples.size(); ++i) {
+        const float square = std::norm(field.samples.data()[i]);
+        picture.pixels.data()[i] = display == "amplitude" ? std::sqrt(square) : square;
+    }
+    return picture;
+}
+
+int propagate_fields(const Options& options, const Session& session) {
+    const OutputKind kind = output_kind(options.output);
+    require_writable(options.output);
+    const HologramFile file =
+        open_fields(options.input, options.field, session.command, options.pitch, options.wavelengths);
+    if (kind == OutputKind::array) require_one_wavelength(file, options.output);
+    if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(file, "--display phase");
+    if (kind == OutputKind::picture && file.fields.size() != 1 && file.fields.size() != 3)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a picture takes one or three",
+                                                      options.input, file.fields.size()));
+    // What does not fit into memory lies beside the output.
+    const Scratch scratch{Scratch().memory, std::filesystem::absolute(options.output).parent_path()};
+    Metadata metadata = describe_run(session);
+    std::vector<FieldGrid> grids;
+    for (const auto& field : file.fields) grids.push_back(field->grid());
+    Stage stage(session, "propagation");
+    const auto colour = [&](std::size_t c, FieldSink& sink) {
+        propagate(*file.fields[c], options.distance, sink, 0, scratch, stage.progress(c, grids.size()));
+    };
+    const Grid& plane = grids.front().plane;
+    if (kind == OutputKind::hologram) {
+        const auto sinks = create_hologram(options.output, grids, metadata);
+        for (std::size_t c = 0; c < grids.size(); ++c) colour(c, *sinks[c]);
+    } else if (kind == OutputKind::array) {
+        Field field(grids.front());
+        colour(0, field);
+        write_npy(options.output, field.samples);
+    } else {
+        Image picture(plane.width, plane.height, grids.size());
+        for (std::size_t c = 0; c < grids.size(); ++c) {
+            Field field(grids[c]);
+            colour(c, field);
+            const Image one = shown(field, options.display);
+            for (std::size_t i = 0; i < one.pixels.size(); ++i)
+                picture.pixels.data()[i * grids.size() + c] = one.pixels.data()[i];
+        }
+        if (options.display == "log") picture = logarithmic(picture);
+        const bool grey = options.display == "log" || options.display == "phase";
+        const double exposure = grey ? 1 : automatic_exposure(picture);
+        metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
+        write_image(options.output, picture, exposure, metadata);
+    }
+    session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
+                            format_length(plane.pitch_x), format_length(options.distance)));
+    return 0;
+}
+
+}  // namespace
+
+void add_propagate(CLI::App& app, Session& session) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        add_command(app, session, "propagate", "The field of a hologram on another plane, as a picture or an array",
+                    "  hogel propagate hologram.h5 -o face.png --distance -4mm\n"
+                    "  hogel propagate hologram.h5 -o nearer.h5 --distance 20mm\n"
+                    "  hogel propagate slm.npy -o there.npy --distance 0.2m --pitch 8um --wavelength 532nm",
+                    [options, &session] { return propagate_fields(*options, session); });
+    command->add_option("input", options->input, "Hologram, or another program's field")
+        ->type_name("F.h5|F.npy|F.mat|P.png")
+        ->required();
+    command->add_option("-o,--output", options->output, "Hologram (.h5), array (.npy) or picture (.png, .tif, .exr)")
+        ->type_name("FILE")
+        ->required();
+    add_length(command, "--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
+        ->required();
+    command
+        ->add_option("--display", options->display,
+                     "What a picture shows; log: four decades, phase: black at -pi to white at pi")
+        ->type_name("intensity|amplitude|log|phase")
+        ->check(CLI::IsMember({"intensity", "amplitude", "log", "phase"}).description(""))
+        ->capture_default_str();
+    add_length(command, "--pitch", options->pitch, "Of another program's samples");
+    add_wavelengths(command, options->wavelengths);
+    add_field_options(command, options->field);
+}
+
+}  // namespace hogel::cli

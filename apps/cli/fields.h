@@ -1,0 +1,24 @@
+#pragma once
+
+#include "hogel/io/files.h"
+#include "hogel/io/foreign.h"
+#include "session.h"
+
+namespace hogel::cli {
+
+/// What the user says of a field that another program wrote.
+struct FieldOptions {
+    std::string values, imaginary, variable;
+    bool conjugate = false;
+};
+void add_field_options(CLI::App* command, FieldOptions& options);
+
+/// Whether a name is that of another program's field: an array, or a picture that was said to be one.
+bool is_foreign(const std::string& name, const FieldOptions& options);
+
+/// A hologram, or another program's field with the --pitch and the one --wavelength that `command` was given. Throws
+/// Error(usage) where they are missing, or given for a hologram, which has its own.
+HologramFile open_fields(const std::string& name, const FieldOptions& options, const CLI::App* command, double pitch,
+                         const std::vector<double>& wavelengths);
+
+}  // namespace hogel::cli

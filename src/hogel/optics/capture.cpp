@@ -1,0 +1,95 @@
+#include "hogel/optics/capture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "hogel/core/units.h"
+#include "hogel/optics/photograph_plan_internal.h"
+
+namespace hogel {
+namespace {
+
+// An eye as the cameras need it: its widest pupil, and what spreads farthest on a film.
+struct Eye {
+    Camera widest;
+    double blur;
+};
+
+std::vector<Eye> eyes_of(std::span<const Camera> cameras) {
+    std::vector<Eye> eyes;
+    for (const Camera& camera : cameras) {
+        validate(camera);
+        const auto same = std::ranges::find_if(eyes, [&](const Eye& eye) { return eye.widest.eye == camera.eye; });
+        if (same == eyes.end()) {
+            eyes.push_back({camera, defocus_blur(camera)});
+            continue;
+        }
+        if (camera.pupil > same->widest.pupil) same->widest = camera;
+        same->blur = std::max(same->blur, defocus_blur(camera));
+    }
+    return eyes;
+}
+
+}  // namespace
+
+Image CapturedEye::photograph(const Camera& camera) const {
+    validate(camera);
+    constexpr double rounding = 1 + 1e-9;
+    if (!(camera.eye == eye_))
+        throw Error(ErrorCode::usage, fmt::format("light was captured at the eye ({}, {}, {}) m, not at ({}, {}, {}) m",
+                                                  eye_.x, eye_.y, eye_.z, camera.eye.x, camera.eye.y, camera.eye.z));
+    if (camera.pupil > pupil_ * rounding)
+        throw Error(ErrorCode::usage, fmt::format("light was captured through a pupil of {}, too narrow for one of {}",
+                                                  format_length(pupil_), format_length(camera.pupil)));
+    if (defocus_blur(camera) > blur_ * rounding)
+        throw Error(ErrorCode::usage, fmt::format("light was captured for focuses nearer to the hologram than {}",
+                                                  format_length(camera.focus_depth)));
+    const SineGrid& sines = film_.sines();
+    Array<float, 2> intensity({sines.size_y, sines.size_x});
+    for (const auto& look : looks_) film_.expose(look, camera, intensity);
+    Image picture(camera.picture.width, camera.picture.height, 1);
+    film_.develop(intensity, camera, Rectangle(plane_), 1 / static_cast<double>(looks_.size()), picture);
+    return picture;
+}
+
+std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress,
+                                 const PhotographOptions& options) {
+    const std::vector<Eye> eyes = eyes_of(cameras);
+    std::vector<Camera> widest;
+    for (const Eye& eye : eyes) widest.push_back(eye.widest);
+    const auto memory = static_cast<double>(options.memory);
+    const PhotographPlan plan = plan_photographs(hologram.grid(), widest, memory, PhotographPlan::Windows::one);
+    const std::size_t looks = hologram.looks(), looks_at_once = plan.looks_at_once(memory, looks);
+    const double parts = static_cast<double>(plan.passes.size()) * static_cast<double>(looks);
+    std::vector<std::optional<CapturedEye>> captured(eyes.size());
+    std::size_t done = 0;
+    for (const std::vector<std::size_t>& pass : plan.passes) {
+        std::vector<NarrowBand> bands;
+        for (std::size_t i : pass) {
+            bands.emplace_back(hologram.grid(), widest[i].eye, widest[i].pupil);
+            captured[i] = CapturedEye(hologram.grid(), bands.back(), widest[i].pupil, eyes[i].blur);
+        }
+        for (std::size_t first = 0; first < looks; first += looks_at_once) {
+            const std::size_t count = std::min(looks_at_once, looks - first);
+            auto drawn = draw_narrow_bands(hologram, bands, first, count, [&](double fraction) {
+                return !progress ||
+                       progress((static_cast<double>(done) + 0.95 * fraction * static_cast<double>(count)) / parts);
+            });
+            for (std::size_t e = 0; e < pass.size(); ++e)
+                for (auto& band : drawn[e]) {
+                    captured[pass[e]]->looks_.push_back(captured[pass[e]]->film_.pupil_wave(band));
+                    band = {};
+                }
+            done += count;
+            report(progress, static_cast<double>(done) / parts);
+        }
+    }
+    std::vector<CapturedEye> result;
+    for (auto& eye : captured) result.push_back(std::move(*eye));
+    return result;
+}
+
+}  // namespace hogel

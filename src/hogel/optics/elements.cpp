@@ -1,0 +1,90 @@
+#include "hogel/optics/elements.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/units.h"
+#include "hogel/optics/phase_walk.h"
+
+namespace hogel {
+namespace {
+
+// Multiplies every sample by factor(x, y).
+template <class Factor>
+void multiply_everywhere(Wave& wave, const Factor& factor) {
+    const Grid& plane = wave.grid().plane;
+    parallel_for(plane.height, [&](std::size_t row) {
+        const double y = plane.y(static_cast<double>(row));
+        std::complex<float>* samples = &wave.samples.view()(row, 0);
+        for (std::size_t column = 0; column < plane.width; ++column) {
+            const std::complex<double> value(samples[column]);
+            samples[column] = std::complex<float>(times(value, factor(plane.x(static_cast<double>(column)), y)));
+        }
+    });
+}
+
+// 1 inside, 0 outside, over one sample: `inside` metres from the edge.
+double edge(double inside, double pitch) { return std::clamp(inside / pitch + 0.5, 0.0, 1.0); }
+
+void require_opening(double diameter) {
+    if (!(std::isfinite(diameter) && diameter > 0))
+        throw Error(ErrorCode::usage, fmt::format("an opening of {} m: it must be positive and finite", diameter));
+}
+
+}  // namespace
+
+double circular_aperture(Wave& wave, double center_x, double center_y, double diameter) {
+    require_opening(diameter);
+    const Grid& plane = wave.grid().plane;
+    const double pitch = std::max(plane.pitch_x, plane.pitch_y);
+    const auto passes = [&](double x, double y) {
+        return edge(0.5 * diameter - std::hypot(x - center_x, y - center_y), pitch);
+    };
+    multiply_everywhere(wave, passes);
+    double sum = 0;
+    for (std::size_t row = 0; row < plane.height; ++row) {
+        const double y = plane.y(static_cast<double>(row));
+        if (std::abs(y - center_y) > 0.5 * diameter + pitch) continue;
+        for (std::size_t column = 0; column < plane.width; ++column) {
+            const double part = passes(plane.x(static_cast<double>(column)), y);
+            sum += part * part;
+        }
+    }
+    return sum * plane.pitch_x * plane.pitch_y;
+}
+
+void rectangular_aperture(Wave& wave, const Rectangle& opening) {
+    const Grid& plane = wave.grid().plane;
+    multiply_everywhere(wave, [&](double x, double y) {
+        return edge(std::min(x - opening.left, opening.right - x), plane.pitch_x) *
+               edge(std::min(y - opening.bottom, opening.top - y), plane.pitch_y);
+    });
+}
+
+void thin_lens(Wave& wave, double center_x, double center_y, double diameter, double focal_length) {
+    require_opening(diameter);
+    if (!std::isfinite(focal_length) || focal_length == 0)
+        throw Error(ErrorCode::usage, fmt::format("a lens with a focal length of {} m", focal_length));
+    const double wavelength = wave.grid().wavelength;
+    const double pitch = std::max(wave.grid().plane.pitch_x, wave.grid().plane.pitch_y);
+    // The phase turns a/(λl) times a metre at its edge, of which samples tell half a turn each.
+    const double widest = wavelength * std::abs(focal_length) / pitch;
+    if (diameter > widest)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("a lens of {} with a focal length of {} is too steep for samples {} apart; a diameter of "
+                        "{} or samples {} apart would do",
+                        format_length(diameter), format_length(std::abs(focal_length)), format_length(pitch),
+                        format_length(widest), format_length(pitch * widest / diameter)));
+    multiply_everywhere(wave, [&](double x, double y) -> std::complex<double> {
+        const double square = (x - center_x) * (x - center_x) + (y - center_y) * (y - center_y);
+        const double passes = edge(0.5 * diameter - std::sqrt(square), pitch);
+        if (passes == 0) return 0;
+        return passes * unit_phasor(-square / (2 * focal_length * wavelength));
+    });
+}
+
+}  // namespace hogel

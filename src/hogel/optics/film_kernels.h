@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace hogel {
+
+/// The inner loops that bring a film to a picture, each plain and as fast as this processor allows; the twins agree to
+/// rounding. Both interpolate by Catmull and Rom's cubic through four neighbours: intensities come with two samples to
+/// their finest wave, for which straight lines would be too coarse. Outside there is nothing.
+
+/// out[i] += weight · the value of column i of `values` (`height` rows of `stride` floats) at row
+/// offset + scale · slopes[i].
+struct ColumnPlaces {
+    std::span<const double> slopes;  ///< as many as `out`
+    double scale = 0, offset = 0;
+};
+void add_down_columns_plain(const float* values, std::size_t stride, std::size_t height, const ColumnPlaces& places,
+                            float weight, std::span<float> out);
+void add_down_columns(const float* values, std::size_t stride, std::size_t height, const ColumnPlaces& places,
+                      float weight, std::span<float> out);
+
+/// out[k] += weight · r³ · the value of `line` at offset + scale · d/r, with d = first + k · pitch and
+/// r = √(d² + square): what lies in direction sine d/r. Values below zero count as zero.
+struct LinePlaces {
+    double first = 0, pitch = 0, square = 0;
+    double scale = 0, offset = 0;
+};
+void add_along_line_plain(std::span<const float> line, const LinePlaces& places, float weight, std::span<float> out);
+void add_along_line(std::span<const float> line, const LinePlaces& places, float weight, std::span<float> out);
+
+}  // namespace hogel

@@ -1,0 +1,340 @@
+#include "hogel/optics/spectrum.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/units.h"
+#include "hogel/math/fft.h"
+#include "hogel/optics/phase_walk.h"
+#include "hogel/optics/spectrum_steps_internal.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// Lines that one thread takes together, so that columns are read a whole cache line at a time.
+constexpr std::size_t lines_together = 16;
+
+// Room between lines of so many samples, so that they do not all begin in the same places of the caches.
+std::size_t stride_of(std::size_t samples) { return (samples + 15) / 8 * 8; }
+
+std::size_t blocks_of(std::size_t lines, std::size_t size = lines_together) { return (lines + size - 1) / size; }
+
+// Where frequency j of n stands in a transform.
+std::size_t wrapped(std::ptrdiff_t j, std::size_t n) {
+    const auto size = static_cast<std::ptrdiff_t>(n);
+    return static_cast<std::size_t>(((j % size) + size) % size);
+}
+
+// e^{−2πi j (½ − N/2)/N} for j = first … first + count − 1: transforms count from the first sample, frequencies from
+// the window's middle. `samples` is N, `sign` −1 for the way into the spectrum.
+std::vector<Complex> centring(std::ptrdiff_t first, std::size_t count, std::size_t samples, double sign, double scale) {
+    std::vector<Complex> phases(count);
+    const double n = static_cast<double>(samples);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double j = static_cast<double>(first) + static_cast<double>(i);
+        phases[i] = Complex(scale * unit_phasor(sign * std::fmod(j * (0.5 - 0.5 * n), n) / n));
+    }
+    return phases;
+}
+
+// The steps of frequency in [low, high] that n samples carry around a carrier.
+std::pair<std::ptrdiff_t, std::ptrdiff_t> steps(double low, double high, double size, std::size_t n, double carrier) {
+    const double most = 0.5 * static_cast<double>(n), middle = std::round(carrier * size);
+    constexpr double rounding = 1e-6;
+    const double first = std::max(std::ceil(low * size - rounding), middle - std::floor(most));
+    const double last = std::min(std::floor(high * size + rounding), middle + std::ceil(most) - 1);
+    if (!(first <= last))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("no wave between {:.4g} and {:.4g} cycles per mm can be told from others at a pitch of {}",
+                        low * 1e-3, high * 1e-3, format_length(size / static_cast<double>(n))));
+    return {static_cast<std::ptrdiff_t>(first), static_cast<std::ptrdiff_t>(last)};
+}
+
+// 1 within reach, 0 beyond reach and fade, and a smooth way between.
+double passes(double distance, double reach, double fade) {
+    if (distance <= reach) return 1;
+    if (distance >= reach + fade) return 0;
+    const double c = std::cos(0.5 * std::numbers::pi * (distance - reach) / fade);
+    return c * c;
+}
+
+void multiply_into(Complex* out, const Complex* a, const Complex* b, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i)
+        out[i] = {a[i].real() * b[i].real() - a[i].imag() * b[i].imag(),
+                  a[i].real() * b[i].imag() + a[i].imag() * b[i].real()};
+}
+
+}  // namespace
+
+Band Band::of(const Grid& plane) {
+    const double x = 0.5 / plane.pitch_x, y = 0.5 / plane.pitch_y;
+    return {-x, x, -y, y};
+}
+
+Wave::Wave(const FieldGrid& grid, const Scratch& scratch) : grid_(grid) {
+    validate(grid, ErrorCode::usage, "wave");
+    samples = LargeArray({grid.plane.height, grid.plane.width}, scratch);
+}
+
+void Wave::read(const Region& region, std::size_t look, View<Complex, 2> out) const {
+    validate(region, grid_, out.shape());
+    if (look != 0) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a wave that has one", look));
+    for (std::size_t y = 0; y < region.height; ++y)
+        std::copy_n(&samples.view()(region.y0 + y, region.x0), region.width, &out(y, 0));
+}
+
+Grid padded(const Grid& plane, double size_x, double size_y) {
+    Grid window = plane;
+    const auto grown = [](std::size_t samples, double size, double pitch) {
+        const auto wanted = static_cast<std::size_t>(std::ceil(size / pitch));
+        std::size_t n = good_fft_size(std::max(wanted, samples));
+        // The samples stand in the middle, so what is added must be even.
+        while ((n - samples) % 2 != 0) n = good_fft_size(n + 1);
+        return n;
+    };
+    window.width = grown(plane.width, size_x, plane.pitch_x);
+    window.height = grown(plane.height, size_y, plane.pitch_y);
+    return window;
+}
+
+Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
+                        const Scratch& scratch) {
+    Spectrum result;
+    result.window = window;
+    result.wavelength = wavelength;
+    const auto [first_column, last_column] = steps(band.low_x, band.high_x, window.size_x(), window.width, carrier_x);
+    const auto [first_row, last_row] = steps(-band.high_y, -band.low_y, window.size_y(), window.height, -carrier_y);
+    result.first_column = first_column;
+    result.first_row = first_row;
+    result.samples = LargeArray(
+        {static_cast<std::size_t>(last_row - first_row + 1), static_cast<std::size_t>(last_column - first_column + 1)},
+        scratch);
+    return result;
+}
+
+namespace {
+
+Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& window, const Band& band,
+                     double carrier_x, double carrier_y, const Scratch& scratch, const Progress& progress) {
+    const Grid& plane = source.grid().plane;
+    if (window.width < plane.width || window.height < plane.height || (window.width - plane.width) % 2 != 0 ||
+        (window.height - plane.height) % 2 != 0 || window.pitch_x != plane.pitch_x || window.pitch_y != plane.pitch_y)
+        throw Error(ErrorCode::usage, fmt::format("a window of {}x{} samples cannot stand around a field of {}x{}",
+                                                  window.width, window.height, plane.width, plane.height));
+    Spectrum result = empty_spectrum(window, source.grid().wavelength, band, carrier_x, carrier_y, scratch);
+    result.window.center_x = plane.center_x;
+    result.window.center_y = plane.center_y;
+    const std::ptrdiff_t first_column = result.first_column, first_row = result.first_row;
+    const std::size_t columns = result.width(), rows = result.height();
+
+    // Along the rows, of which only the band's columns are kept.
+    LargeArray half({plane.height, columns}, scratch);
+    const Fft1 along(window.width), down(window.height);
+    const std::vector<Complex> centre_x =
+        centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
+    const std::size_t together = source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1);
+    const std::size_t row_blocks = blocks_of(plane.height, together), all_blocks = row_blocks + blocks_of(columns);
+    std::mutex reporting;
+    std::size_t done = 0;
+    const auto tell = [&] {
+        const std::lock_guard lock(reporting);
+        report(progress, static_cast<double>(++done) / static_cast<double>(all_blocks));
+    };
+    const std::size_t left = (window.width - plane.width) / 2, above = (window.height - plane.height) / 2;
+    parallel_for(row_blocks, [&](std::size_t block) {
+        const std::size_t y0 = block * together, height = std::min(together, plane.height - y0);
+        Array<Complex, 2> lines({height, plane.width});
+        source.read({0, y0, plane.width, height}, look, lines);
+        Array<Complex, 1> line({window.width});
+        for (std::size_t y = 0; y < height; ++y) {
+            std::ranges::fill(line.elements(), Complex(0));
+            std::copy_n(&lines(y, 0), plane.width, &line(left));
+            along.forward(line.data());
+            Complex* kept = &half.view()(y0 + y, 0);
+            for (std::size_t i = 0; i < columns; ++i)
+                kept[i] = line(wrapped(first_column + static_cast<std::ptrdiff_t>(i), window.width));
+            multiply_into(kept, kept, centre_x.data(), columns);
+        }
+        tell();
+    });
+
+    // Down the columns, of which only the band's rows are kept.
+    const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
+    parallel_for(blocks_of(columns), [&](std::size_t block) {
+        const std::size_t x0 = block * lines_together, width = std::min(lines_together, columns - x0);
+        Array<Complex, 2> lines({width, stride_of(window.height)});
+        for (std::size_t y = 0; y < plane.height; ++y)
+            for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = half.view()(y, x0 + i);
+        for (std::size_t i = 0; i < width; ++i) down.forward(&lines(i, 0));
+        for (std::size_t r = 0; r < rows; ++r) {
+            const std::size_t at = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
+            for (std::size_t i = 0; i < width; ++i) result.samples.view()(r, x0 + i) = lines(i, at) * centre_y[r];
+        }
+        tell();
+    });
+    return result;
+}
+
+}  // namespace
+
+Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
+                     const Scratch& scratch, const Progress& progress) {
+    return transformed(field, look, window, band, 0, 0, scratch, progress);
+}
+
+Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const Scratch& scratch,
+                     const Progress& progress) {
+    return transformed(wave, 0, window, band, wave.carrier_x, wave.carrier_y, scratch, progress);
+}
+
+Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const Scratch& scratch) {
+    const Grid& window = spectrum.window;
+    const std::size_t columns = spectrum.width(), rows = spectrum.height();
+    if (width < columns || height < rows)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}x{} samples are too few for {}x{} frequencies", width, height, columns, rows));
+    Wave wave({{width, height, window.size_x() / static_cast<double>(width),
+                window.size_y() / static_cast<double>(height), window.center_x, window.center_y},
+               spectrum.wavelength},
+              scratch);
+    wave.carrier_x = spectrum.frequency_x(static_cast<double>(columns / 2));
+    wave.carrier_y = spectrum.frequency_y(static_cast<double>(rows / 2));
+    const Fft1 along(width), down(height);
+    const std::vector<Complex> centre_x =
+        centring(spectrum.first_column, columns, width, 1, 1 / (window.size_x() * window.size_y()));
+    const std::vector<Complex> centre_y = centring(spectrum.first_row, rows, height, 1, 1);
+    // Up the columns first, into the left part of the result, where the rows then are filled in place.
+    parallel_for(blocks_of(columns), [&](std::size_t block) {
+        const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns - x0);
+        Array<Complex, 2> lines({count, stride_of(height)});
+        for (std::size_t r = 0; r < rows; ++r) {
+            const std::size_t at = wrapped(spectrum.first_row + static_cast<std::ptrdiff_t>(r), height);
+            for (std::size_t i = 0; i < count; ++i)
+                lines(i, at) = spectrum.samples.view()(r, x0 + i) * (centre_y[r] * centre_x[x0 + i]);
+        }
+        for (std::size_t i = 0; i < count; ++i) down.backward(&lines(i, 0));
+        for (std::size_t y = 0; y < height; ++y)
+            for (std::size_t i = 0; i < count; ++i) wave.samples.view()(y, x0 + i) = lines(i, y);
+    });
+    parallel_for(blocks_of(height), [&](std::size_t block) {
+        Array<Complex, 1> line({width});
+        for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, height); ++y) {
+            std::ranges::fill(line.elements(), Complex(0));
+            Complex* row = &wave.samples.view()(y, 0);
+            for (std::size_t i = 0; i < columns; ++i)
+                line(wrapped(spectrum.first_column + static_cast<std::ptrdiff_t>(i), width)) = row[i];
+            along.backward(line.data());
+            std::copy_n(line.data(), width, row);
+        }
+    });
+    return wave;
+}
+
+void propagate(Spectrum& spectrum, const Way& way) {
+    const double frequency = 1 / spectrum.wavelength, z = way.distance;
+    const double reach_x = way.reach_x > 0 ? way.reach_x : 0.5 * spectrum.window.size_x();
+    const double reach_y = way.reach_y > 0 ? way.reach_y : 0.5 * spectrum.window.size_y();
+    parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
+        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height());
+             ++r) {
+            const double fy = spectrum.frequency_y(static_cast<double>(r));
+            Complex* row = &spectrum.samples.view()(r, 0);
+            const auto along_z = [&](double column) {
+                const double fx = spectrum.frequency_x(column);
+                return std::sqrt(std::max(frequency * frequency - fx * fx - fy * fy, 0.0));
+            };
+            const auto turns = [&](double column) {
+                return along_z(column) * z + spectrum.frequency_x(column) * way.shift_x + fy * way.shift_y;
+            };
+            // How much of a direction stays.
+            const auto stays = [&](double column) {
+                const double fz = along_z(column);
+                if (fz <= 0) return 0.0;
+                return passes(std::abs(z * spectrum.frequency_x(column) / fz - way.shift_x), reach_x, way.fade_x) *
+                       passes(std::abs(z * fy / fz - way.shift_y), reach_y, way.fade_y);
+            };
+            constexpr std::size_t stretch = 32;
+            for (std::size_t begin = 0; begin < spectrum.width(); begin += stretch) {
+                const std::size_t count = std::min(stretch, spectrum.width() - begin);
+                const double at = static_cast<double>(begin);
+                // How far the phase is from a parabola between three points half a stretch apart: the third derivative,
+                // 3 z f_x f_z⁻⁵/λ² at most, times the cube of half a stretch and 0.065.
+                const double fz = std::min(along_z(at), along_z(at + stretch));
+                const double fx =
+                    std::max(std::abs(spectrum.frequency_x(at)), std::abs(spectrum.frequency_x(at + stretch)));
+                const double half = 0.5 * stretch / spectrum.window.size_x();
+                const double error =
+                    0.2 * std::abs(z) * fx * frequency * frequency / std::pow(fz, 5) * half * half * half;
+                const auto times_phase = [&](std::size_t i, std::complex<double> phase) {
+                    Complex& value = row[begin + i];
+                    const double part = stays(at + static_cast<double>(i));
+                    value = part > 0 ? Complex(part * times(std::complex<double>(value), phase)) : 0;
+                };
+                if (error < 1e-4) {
+                    walk_phase(
+                        count, [&](double step) { return turns(at + step); }, times_phase);
+                } else {
+                    for (std::size_t i = 0; i < count; ++i)
+                        times_phase(i, unit_phasor(turns(at + static_cast<double>(i))));
+                }
+            }
+        }
+    });
+    spectrum.window.center_x += way.shift_x;
+    spectrum.window.center_y += way.shift_y;
+}
+
+void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
+               const Progress& progress) {
+    const Grid& plane = source.grid().plane;
+    validate(source.grid(), ErrorCode::usage, "propagated field");
+    if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));
+    Spectrum waves =
+        spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), scratch,
+                    [&](double done) { return !progress || progress(0.4 * done); });
+    propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
+    report(progress, 0.6);
+    const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
+    report(progress, 0.9);
+    const std::size_t left = (waves.window.width - plane.width) / 2, above = (waves.window.height - plane.height) / 2;
+    parallel_for(blocks_of(plane.height), [&](std::size_t block) {
+        const std::size_t y0 = block * lines_together, rows = std::min(lines_together, plane.height - y0);
+        Array<Complex, 2> lines({rows, plane.width});
+        wave.read({left, above + y0, plane.width, rows}, 0, lines);
+        sink.write({0, y0, plane.width, rows}, lines);
+    });
+    sink.finish();
+    report(progress, 1);
+}
+
+Field propagate(const FieldSource& source, double distance, std::size_t look) {
+    Field result(source.grid());
+    propagate(source, distance, result, look, {SIZE_MAX, {}});
+    return result;
+}
+
+Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength) {
+    const auto least = [](double low, double high) {
+        return low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
+    };
+    const double dx_low = to.left - from.right, dx_high = to.right - from.left;
+    const double dy_low = to.bottom - from.top, dy_high = to.top - from.bottom;
+    const auto sines = [&](double low, double high, double other_low, double other_high) {
+        // Outwards the sine is largest where the other offset is least, inwards where it is most.
+        const double near = least(other_low, other_high), far = std::max(std::abs(other_low), std::abs(other_high));
+        const auto sine = [&](double offset, double other) { return offset / std::hypot(offset, other, distance); };
+        return std::pair(sine(low, low < 0 ? near : far), sine(high, high > 0 ? near : far));
+    };
+    const auto x = sines(dx_low, dx_high, dy_low, dy_high), y = sines(dy_low, dy_high, dx_low, dx_high);
+    return {x.first / wavelength, x.second / wavelength, y.first / wavelength, y.second / wavelength};
+}
+
+}  // namespace hogel
