@@ -41,24 +41,32 @@ struct Range {
     }
 };
 
-// Logarithms to pixels.
+// Values to pixels.
 struct Axes {
-    Range x, y;  // log2, log10
+    PlotText::Scale scale;
+    Range x, y;  // log2; log10 or tens
 
     double column(double value) const {
         return left + (std::log2(value) - x.low) / (x.high - x.low) * (width - left - right);
     }
     double row(double value) const {
-        return height - bottom - (std::log10(value) - y.low) / (y.high - y.low) * (height - top - bottom);
+        return height - bottom - (on_scale(value) - y.low) / (y.high - y.low) * (height - top - bottom);
+    }
+    double on_scale(double value) const {
+        return scale == PlotText::Scale::logarithmic ? std::log10(value) : value / 10;
+    }
+    // The other way.
+    double value_at(double place) const {
+        return scale == PlotText::Scale::logarithmic ? std::pow(10, place) : 10 * place;
     }
 };
 
-Axes axes_of(const std::vector<Curve>& curves) {
-    Axes axes;
+Axes axes_of(PlotText::Scale scale, const std::vector<Curve>& curves) {
+    Axes axes{scale, {}, {}};
     for (const Curve& curve : curves)
         for (const auto& [x, y] : curve.points) {
             axes.x.include(std::log2(x));
-            axes.y.include(std::log10(y));
+            axes.y.include(axes.on_scale(y));
         }
     axes.x = {std::floor(axes.x.low), std::max(std::ceil(axes.x.high), std::floor(axes.x.low) + 1)};
     axes.y = {std::floor(axes.y.low), std::max(std::ceil(axes.y.high), std::floor(axes.y.low) + 1)};
@@ -72,13 +80,14 @@ std::string text_at(double x, double y, const std::string& text, const std::stri
 std::string grid_lines(const Axes& axes) {
     std::string svg;
     for (double power = axes.y.low; power <= axes.y.high; ++power) {
-        const double y = axes.row(std::pow(10, power));
+        const double y = axes.row(axes.value_at(power));
         svg += fmt::format("<line x1=\"{}\" y1=\"{:.1f}\" x2=\"{}\" y2=\"{:.1f}\" stroke=\"#d0d7de\"/>\n", left, y,
                            width - right, y);
-        svg += text_at(left - 9, y + 4, fmt::format("{:g}", std::pow(10, power)), "text-anchor=\"end\"");
+        svg += text_at(left - 9, y + 4, fmt::format("{:g}", axes.value_at(power)), "text-anchor=\"end\"");
         if (power == axes.y.high) break;
-        for (const double part : {2.0, 5.0}) {
-            const double between = axes.row(part * std::pow(10, power));
+        const bool linear = axes.scale == PlotText::Scale::linear;
+        for (const double part : {linear ? 0.25 : 0.30103, linear ? 0.5 : 0.69897, linear ? 0.75 : 0.69897}) {
+            const double between = axes.row(axes.value_at(power + part));
             svg += fmt::format("<line x1=\"{}\" y1=\"{:.1f}\" x2=\"{}\" y2=\"{:.1f}\" stroke=\"#eef1f4\"/>\n", left,
                                between, width - right, between);
         }
@@ -135,7 +144,7 @@ std::string curve_svg(const Axes& axes, const Curve& curve, const char* colour, 
 }  // namespace
 
 std::string plot_svg(const PlotText& text, const std::vector<Curve>& curves) {
-    const Axes axes = axes_of(curves);
+    const Axes axes = axes_of(text.y, curves);
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" font-size=\"12.5\" fill=\"#24292f\">\n"

@@ -6,15 +6,18 @@
 
 namespace hogel::cli {
 
-/// A curve: points (x, y), both positive.
+/// A curve: points (x, y), positive where their axis is logarithmic.
 struct Curve {
     std::string name;
     std::vector<std::pair<double, double>> points;
 };
 
-/// What stands beside the curves; both axes are logarithmic, x with marks at powers of two.
+/// What stands beside the curves. The x axis is logarithmic, with marks at powers of two.
 struct PlotText {
+    enum class Scale { logarithmic, linear };
+
     std::string title, subtitle, x_axis, y_axis;
+    Scale y = Scale::logarithmic;
 };
 
 /// Curves as a picture in SVG, each with its name at its end. At least one of them must have a point.
