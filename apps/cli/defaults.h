@@ -27,6 +27,9 @@ struct Defaults {
 
     // hologram
     double pitch = 1.5625_um;  ///< 32 samples a hogel; blue must still be diffracted over the field of view
+    std::string_view basis = "cdf97";
+    double spacing = 10_um;  ///< of points on surfaces
+    std::size_t planes = 16;
     double red = 633_nm, green = 532_nm, blue = 460_nm;
 
     // camera

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hogel/codec/tile_coder.h"
+#include "session.h"
+
+namespace hogel::cli {
+
+/// What coding a light field with some quality came to. Speeds are in million samples a second of one core, counted in
+/// processor time, so that other work beside it matters little.
+struct RatePoint {
+    double pixels_per_bit, sqnr, encoding, decoding;
+};
+
+/// A coder at several qualities, from the best to the worst.
+struct RateCurve {
+    std::string name;
+    std::vector<RatePoint> points;
+
+    /// Between the points: straight in the logarithms of all but the SQNR. Nothing where they do not reach.
+    std::optional<RatePoint> at(double sqnr) const;
+};
+
+/// From one SQNR to another.
+struct QualityRange {
+    double low, high;
+};
+
+/// One of our coders, with steps that halve until the whole range is covered.
+RateCurve measure_method(const LightField& field, const CodingMethod& method, const QualityRange& range);
+
+/// Coders that other programs have.
+std::vector<std::string> peer_names();
+/// A peer on the hogels of a light field of one channel as pictures, row by row and back, of 10 bits for video and 16
+/// for still pictures. Nothing where the program is not installed or lacks the coder.
+std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range);
+
+}  // namespace hogel::cli

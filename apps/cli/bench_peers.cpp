@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+
+#include "bench_codec.h"
+#include "temporary_folder.h"
+
+namespace hogel::cli {
+namespace {
+
+// How ffmpeg is told to use a coder. {} of `encoder` is the quality, the best first.
+struct Peer {
+    const char *name, *needs, *encoder, *file;
+    std::vector<double> qualities;
+    bool video;
+};
+
+const std::vector<Peer>& peers() {
+    static const std::vector<Peer> all{
+        {"x265",
+         "libx265",
+         "-c:v libx265 -preset slow -crf {} -x265-params log-level=none:pools=none:frame-threads=1",
+         "a.hevc",
+         {4, 10, 16, 22, 28, 34, 40, 46},
+         true},
+        {"svt-av1",
+         "libsvtav1",
+         "-c:v libsvtav1 -preset 4 -crf {} -svtav1-params lp=1",
+         "a.obu",
+         {4, 10, 18, 26, 34, 42, 50, 58},
+         true},
+        {"jpeg2000",
+         "libopenjpeg",
+         "-c:v libopenjpeg -compression_level {}",
+         "%06d.jp2",
+         {4, 8, 16, 32, 64, 128, 256},
+         false},
+        {"jpegxl", "libjxl", "-c:v libjxl -effort 7 -distance {}", "%06d.jxl", {0.1, 0.3, 1, 3, 6, 12}, false},
+    };
+    return all;
+}
+
+// Of the programs that were run and have ended.
+double processor_seconds_of_programs() {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+bool run(const std::string& command) {
+    return std::system(("(" + command + ") >/dev/null 2>&1 </dev/null").c_str()) == 0;
+}
+
+std::string quoted(const std::filesystem::path& path) {
+    std::string result = "'";
+    for (const char c : path.string()) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+// The hogels as pictures of whole numbers, row by row and back, so that neighbours follow each other.
+class Pictures {
+  public:
+    Pictures(const LightField& field, bool video) : field_(field), video_(video), top_(video ? 1023 : 65535) {
+        for (const float value : field.radiance.elements()) {
+            peak_ = std::max(peak_, value);
+            signal_ += static_cast<double>(value) * value;
+        }
+    }
+    // Video coders want chrominance too: half as wide and as high, and nothing in it.
+    std::size_t samples_of_picture() const {
+        const std::size_t luminance = field_.grid().directions();
+        return video_ ? luminance + luminance / 2 : luminance;
+    }
+    void write(const std::filesystem::path& path) const {
+        std::ofstream file(path, std::ios::binary);
+        std::vector<std::uint16_t> picture(samples_of_picture(), static_cast<std::uint16_t>((top_ + 1) / 2));
+        for (std::size_t k = 0; k < field_.grid().hogels(); ++k) {
+            std::ranges::transform(hogel(k), picture.begin(), [&](float value) {
+                return static_cast<std::uint16_t>(std::lround(std::clamp(value / peak_, 0.0f, 1.0f) * float(top_)));
+            });
+            file.write(reinterpret_cast<const char*>(picture.data()), std::streamsize(2 * picture.size()));
+        }
+    }
+    // Against the light field itself, before it was made whole numbers.
+    double sqnr_of(const std::filesystem::path& path) const {
+        std::ifstream file(path, std::ios::binary);
+        std::vector<std::uint16_t> picture(samples_of_picture());
+        double error = 0;
+        for (std::size_t k = 0; k < field_.grid().hogels(); ++k) {
+            if (!file.read(reinterpret_cast<char*>(picture.data()), std::streamsize(2 * picture.size()))) return 0;
+            const std::span<const float> truth = hogel(k);
+            for (std::size_t i = 0; i < truth.size(); ++i) {
+                const double difference = truth[i] - double(picture[i]) * peak_ / top_;
+                error += difference * difference;
+            }
+        }
+        return 10 * std::log10(signal_ / error);
+    }
+    std::string format() const {
+        return fmt::format("-f rawvideo -pix_fmt {} -s {}x{}", video_ ? "yuv420p10le" : "gray16le",
+                           field_.grid().directions_u, field_.grid().directions_v);
+    }
+
+  private:
+    std::span<const float> hogel(std::size_t k) const {
+        const std::size_t t = k / field_.grid().hogels_s, s = k % field_.grid().hogels_s;
+        return field_.radiance[0][t][t % 2 == 0 ? s : field_.grid().hogels_s - 1 - s].elements();
+    }
+
+    const LightField& field_;
+    bool video_;
+    int top_;
+    float peak_ = 0;
+    double signal_ = 0;
+};
+
+double bytes_in(const std::filesystem::path& folder) {
+    double sum = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) sum += static_cast<double>(entry.file_size());
+    return sum;
+}
+
+}  // namespace
+
+std::vector<std::string> peer_names() {
+    std::vector<std::string> names;
+    for (const Peer& peer : peers()) names.emplace_back(peer.name);
+    return names;
+}
+
+std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range) {
+    const Peer& peer = *std::ranges::find(peers(), name, &Peer::name);
+    if (!run(fmt::format("ffmpeg -hide_banner -h encoder={} | grep -q '^Encoder {}'", peer.needs, peer.needs)))
+        return std::nullopt;
+    const TemporaryFolder folder;
+    const Pictures pictures(field, peer.video);
+    const std::filesystem::path raw = folder.path() / "raw", back = folder.path() / "back",
+                                coded = folder.path() / "coded";
+    pictures.write(raw);
+    RateCurve curve{name, {}};
+    const double samples = field.grid().samples() * 1e-6;
+    for (const double quality : peer.qualities) {
+        std::filesystem::remove_all(coded);
+        std::filesystem::create_directory(coded);
+        const double began = processor_seconds_of_programs();
+        const bool encoded =
+            run(fmt::format("ffmpeg -y -threads 1 {} -i {} {} {}", pictures.format(), quoted(raw),
+                            fmt::format(fmt::runtime(peer.encoder), quality), quoted(coded / peer.file)));
+        const double between = processor_seconds_of_programs();
+        const bool decoded = encoded && run(fmt::format("ffmpeg -y -threads 1 -i {} -threads 1 {} {}",
+                                                        quoted(coded / peer.file), pictures.format(), quoted(back)));
+        const double ended = processor_seconds_of_programs();
+        if (!decoded) continue;
+        const double sqnr = pictures.sqnr_of(back);
+        curve.points.push_back(
+            {samples * 1e6 / (8 * bytes_in(coded)), sqnr, samples / (between - began), samples / (ended - between)});
+        if (sqnr < range.low) break;
+    }
+    return curve;
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "bench_codec.h"
+#include "commands.h"
+#include "hogel/codec/compress.h"
+#include "hogel/core/output_file.h"
+#include "hogel/transform/transform.h"
+#include "inputs.h"
+#include "outputs.h"
+#include "plot.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string input, output;
+    RenderOptions render;
+    std::vector<std::string> coders, transforms, peers;
+    std::vector<double> sqnrs{25, 30, 35, 40};
+    bool grey = false;
+};
+
+// The whole light field in memory; its colours' mean where that is asked for.
+LightField load(const LightFieldSource& source, bool grey, const Progress& progress) {
+    LightField field(source.grid());
+    copy(source, field, progress);
+    if (!grey || field.grid().channels == 1) return field;
+    LightFieldGrid grid = field.grid();
+    grid.channels = 1;
+    LightField mean(grid);
+    const std::size_t count = mean.radiance.size();
+    const float* in = field.radiance.data();
+    for (std::size_t i = 0; i < count; ++i) mean.radiance.data()[i] = (in[i] + in[count + i] + in[2 * count + i]) / 3;
+    return mean;
+}
+
+// Each coder with the transforms that go with it.
+std::vector<CodingMethod> methods_of(const Options& options) {
+    const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
+        return names.empty() || std::ranges::count(names, name) > 0;
+    };
+    std::vector<CodingMethod> methods;
+    for (const std::string_view coder : coder_names()) {
+        if (!wanted(options.coders, coder)) continue;
+        if (default_transform(coder).empty()) methods.push_back({std::string(coder), ""});
+        for (const std::string_view transform : transform_names())
+            if (!default_transform(coder).empty() && (coder == "jpeg4d") == (transform == "dct8") &&
+                wanted(options.transforms, transform))
+                methods.push_back({std::string(coder), std::string(transform)});
+    }
+    return methods;
+}
+
+std::string table(const std::vector<RateCurve>& curves, const std::vector<double>& sqnrs) {
+    std::string text = "| |";
+    for (const double sqnr : sqnrs) text += fmt::format(" {:g} dB |", sqnr);
+    text += " encode | decode |\n|---|";
+    for (std::size_t i = 0; i < sqnrs.size() + 2; ++i) text += "---|";
+    text += "\n";
+    const double middle = sqnrs[(sqnrs.size() - 1) / 2];
+    for (const RateCurve& curve : curves) {
+        text += fmt::format("| {} |", curve.name);
+        for (const double sqnr : sqnrs) {
+            const auto point = curve.at(sqnr);
+            text += point ? fmt::format(" {:.2f} |", point->pixels_per_bit) : " |";
+        }
+        const auto point = curve.at(middle);
+        text += point ? fmt::format(" {:.2g} | {:.2g} |\n", point->encoding, point->decoding) : " | |\n";
+    }
+    return text;
+}
+
+int bench(const Options& options, const Session& session) {
+    const auto source = open_or_render(session, options.input, options.render);
+    for (const std::string& name : options.coders)
+        make_tile_coder({name, std::string(default_transform(name))}, source->grid());
+    std::optional<Stage> reading(std::in_place, session, "reading");
+    const LightField field = load(*source, options.grey, reading->progress());
+    reading.reset();
+    const LightFieldGrid& grid = field.grid();
+    if (!options.peers.empty() && grid.channels != 1)
+        throw Error(ErrorCode::usage, "peers are compared on one channel; expected --grey");
+    std::optional<OutputFolder> folder;
+    if (!options.output.empty()) folder.emplace(options.output);
+    std::vector<double> sqnrs = options.sqnrs;
+    std::ranges::sort(sqnrs);
+    const QualityRange range{sqnrs.front(), sqnrs.back()};
+    std::vector<RateCurve> curves;
+    const auto stop_if_asked = [] {
+        if (interrupted_by() != 0) throw Error(ErrorCode::cancelled, "stopped");
+    };
+    for (const CodingMethod& method : methods_of(options)) {
+        stop_if_asked();
+        session.detail(fmt::format("{} {}", method.coder, method.transform));
+        curves.push_back(measure_method(field, method, range));
+    }
+    for (const std::string& name : options.peers) {
+        stop_if_asked();
+        session.detail(name);
+        if (auto curve = measure_peer(field, name, range))
+            curves.push_back(std::move(*curve));
+        else
+            session.say(fmt::format("{}: left out, ffmpeg does not have it", name));
+    }
+    const std::string name = std::filesystem::path(options.input).stem().string();
+    const std::string subtitle =
+        fmt::format("{}x{} hogels, {}x{} directions, {}", grid.hogels_s, grid.hogels_t, grid.directions_u,
+                    grid.directions_v, grid.channels == 1 ? "grey" : "colour");
+    fmt::print("{}; {}.\nPixels per bit at SQNRs; million samples a second of one core, at {:g} dB.\n\n{}", name,
+               subtitle, sqnrs[(sqnrs.size() - 1) / 2], table(curves, sqnrs));
+    if (folder) {
+        std::vector<Curve> drawn;
+        for (const RateCurve& curve : curves) {
+            Curve& line = drawn.emplace_back(Curve{curve.name, {}});
+            for (const RatePoint& point : curve.points) line.points.emplace_back(point.pixels_per_bit, point.sqnr);
+        }
+        const std::string svg =
+            plot_svg({name, subtitle, "Pixels per bit", "SQNR (dB)", PlotText::Scale::linear}, drawn);
+        write_file(folder->path() / fmt::format("codec_{}.svg", name),
+                   {reinterpret_cast<const unsigned char*>(svg.data()), svg.size()});
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_bench_codec(CLI::App& app, Session& session) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = add_command(app, session, "codec", "Measure coders: quality against size, and speed",
+                                    "  hogel bench codec pumpkin --hogels 16x16 --directions 128 -o plots\n"
+                                    "  hogel bench codec a.h5 --coders hogel --grey --peers x265,svt-av1",
+                                    [options, &session] { return bench(*options, session); });
+    command->add_option("input", options->input, "Light field or scene")->type_name("X.h5|X.hgl|SCENE")->required();
+    command->add_option("-o,--output", options->output, "Folder for a plot, SVG")->type_name("DIR");
+    command
+        ->add_option("--coders", options->coders,
+                     fmt::format("{}; all if none are named", fmt::join(coder_names(), ", ")))
+        ->type_name("NAME,...")
+        ->delimiter(',');
+    command->add_option("--transforms", options->transforms, "Transforms; all if none are named")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->check(CLI::IsMember(transform_names()).description(""));
+    command->add_option("--sqnr", options->sqnrs, "SQNRs to tell the rate at")
+        ->type_name("DB,...")
+        ->delimiter(',')
+        ->check(CLI::Range(1.0, 120.0).description(""))
+        ->capture_default_str();
+    command->add_flag("--grey", options->grey, "Measure the mean of the colours");
+    command
+        ->add_option("--peers", options->peers,
+                     fmt::format("Others, by way of ffmpeg: {}", fmt::join(peer_names(), ", ")))
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->check(CLI::IsMember(peer_names()).description(""));
+    add_render_options(command, options->render);
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,392 @@
+#!/usr/bin/env python3
+"""Decodes a compressed light field (.hgl) of the coder "hogel" as docs/format.md says, slowly and plainly, and compares
+it with what `hogel decompress --float` made of it: every sample must be the same, to the last bit before colours are
+joined.
+
+usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5
+"""
+import math
+import struct
+import sys
+import zlib
+
+import h5py
+import numpy as np
+
+f32 = np.float32
+
+
+class Bytes:
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def take(self, form):
+        values = struct.unpack_from("<" + form, self.data, self.at)
+        self.at += struct.calcsize("<" + form)
+        return values if len(values) > 1 else values[0]
+
+    def text(self):
+        length = self.take("I")
+        self.at += length
+        return self.data[self.at - length:self.at].decode()
+
+
+class Model:
+    def __init__(self):
+        self.a = self.b = 32768
+
+
+class Models(dict):
+    """A model for every name that is asked for."""
+
+    def __missing__(self, name):
+        self[name] = Model()
+        return self[name]
+
+
+class Decoder:
+    def __init__(self, data):
+        self.data, self.at, self.range, self.code = data, 0, 2**32 - 1, 0
+        for _ in range(4):
+            self.code = self.code << 8 | self.byte()
+
+    def byte(self):
+        self.at += 1
+        return self.data[self.at - 1] if self.at <= len(self.data) else 0
+
+    def narrow(self, start, size):
+        self.code -= start
+        self.range = size
+        while self.range < 2**24:
+            self.range <<= 8
+            self.code = self.code << 8 | self.byte()
+
+    def bit(self, model):
+        zero = (self.range >> 16) * ((model.a + model.b) // 2)
+        if self.code < zero:
+            self.narrow(0, zero)
+            model.a += (65536 - model.a) >> 4
+            model.b += (65536 - model.b) >> 7
+            return 0
+        self.narrow(zero, self.range - zero)
+        model.a -= model.a >> 4
+        model.b -= model.b >> 7
+        return 1
+
+    def even(self):
+        half = self.range >> 1
+        value = min(self.code // half, 1)
+        self.narrow(half * value, half)
+        return value
+
+    def number(self, models, name):
+        bits = 0
+        while bits < 30 and self.bit(models[name, bits]):
+            bits += 1
+        value = 1
+        for _ in range(bits):
+            value = value << 1 | self.even()
+        return value - 1
+
+
+def levels_of_places(n):
+    level, ends, result = 1, [0, n - 1], [0] * n
+    while True:
+        grown = []
+        for a, b in zip(ends, ends[1:]):
+            grown.append(a)
+            if b - a >= 2:
+                result[(a + b) // 2] = level
+                grown.append((a + b) // 2)
+        grown.append(ends[-1])
+        if len(grown) == len(ends):
+            return result
+        ends, level = grown, level + 1
+
+
+class Hogel:
+    def __init__(self, s, t, level, references):
+        self.s, self.t, self.level, self.references, self.blocks = s, t, level, references, []
+
+
+def order_of(columns, rows):
+    """The hogels in their order, and for each its references (place in the order, i, j)."""
+    of_column, of_row = levels_of_places(columns), levels_of_places(rows)
+    top = max(of_column + of_row)
+    waves = [[(s, t)] for t in range(rows) for s in range(columns) if of_column[s] == of_row[t] == 0]
+    for level in range(1, top + 1):
+        for same in (False, True):
+            waves.append([(s, t) for t in range(rows) for s in range(columns)
+                          if max(of_column[s], of_row[t]) == level and (of_column[s] == of_row[t]) == same])
+    hogels = []
+    for wave in waves:
+        before = list(enumerate(hogels))
+        for s, t in wave:
+            references = [(k, h.s - s, 0) for k, h in before if h.t == t]
+            references += [(k, 0, h.t - t) for k, h in before if h.s == s]
+            hogels.append(Hogel(s, t, max(of_column[s], of_row[t]), references))
+    return hogels, top
+
+
+ZIGZAG = []
+for total in range(15):
+    for k in range(total + 1):
+        row = k if total % 2 else total - k
+        if row < 8 and total - row < 8:
+            ZIGZAG.append((row, total - row))
+
+COSINES = np.array([[f32(np.rint((math.sqrt(1 / 8) if k == 0 else 0.5) * math.cos(math.pi * k * (2 * j + 1) / 16)
+                                 * 2**20) / 2**20) for j in range(8)] for k in range(8)], f32)
+
+
+def taps_at(fraction):
+    def sinc(x):
+        return 1.0 if x == 0 else math.sin(x) / x
+
+    weights = [sinc(math.pi * (k - 2 - fraction / 64)) * sinc(math.pi * (k - 2 - fraction / 64) / 3) for k in range(6)]
+    return [f32(np.rint(w / sum(weights) * 2**14) / 2**14) for w in weights]
+
+
+TAPS = [taps_at(fraction) for fraction in range(64)]
+ALIAS = [f32(np.rint(math.sin(math.pi * fraction / 64)**2 * 2**14) / 2**14) for fraction in range(64)]
+
+
+class Tile:
+    def __init__(self, data, columns, rows, shape, aspect):
+        source = Bytes(data)
+        step, growth = f32(source.take("f")), f32(source.take("f"))
+        self.decoder, self.models = Decoder(data[8:]), Models()
+        self.channels, self.height, self.width = shape
+        self.across, self.down, self.aspect = -(-self.width // 8), -(-self.height // 8), aspect
+        self.hogels, top = order_of(columns, rows)
+        self.steps = [step] * (top + 1)
+        for level in range(top - 1, -1, -1):
+            self.steps[level] = self.steps[level + 1] / growth
+        for hogel in self.hogels:
+            self.decode(hogel)
+
+    def shift(self, disparity, reference):
+        _, i, j = reference
+        return -disparity * i, math.floor(float(-disparity * j) * float(self.aspect) + 0.5)
+
+    def moved(self, hogel):
+        kept = {}
+        for reference in hogel.references:
+            k, i, j = reference
+            for n, block in enumerate(self.hogels[k].blocks):
+                shift_u, shift_v = self.shift(block["disparity"], reference)
+                u, v = n % self.across * 512 + 256 - shift_u, n // self.across * 512 + 256 - shift_v
+                if not (0 <= u < 512 * self.across and 0 <= v < 512 * self.down):
+                    continue
+                place = v // 512 * self.across + u // 512
+                far = (u % 512 - 256)**2 + (v % 512 - 256)**2 + (i * i + j * j) * 2048
+                d = block["disparity"]
+                if place not in kept or d > kept[place][0] + 12 or (d > kept[place][0] - 12 and far < kept[place][1]):
+                    kept[place] = d, far
+        return {place: d for place, (d, _) in kept.items()}
+
+    def candidates(self, hogel, n, moved):
+        blocks, result = hogel.blocks, []
+
+        def add(value):
+            value = max(-2**14, min(2**14, value))
+            if value not in result:
+                result.append(value)
+
+        left, above = n % self.across > 0, n >= self.across
+        if n in moved:
+            add(moved[n])
+        if left:
+            add(blocks[n - 1]["disparity"])
+        if above:
+            add(blocks[n - self.across]["disparity"])
+        if left and above:
+            add(blocks[n - 1]["disparity"] + blocks[n - self.across]["disparity"]
+                - blocks[n - self.across - 1]["disparity"])
+        if hogel.references and len(result) < 4:
+            add(self.hogels[hogel.references[0][0]].blocks[n]["disparity"])
+        return result or [0]
+
+    def unary(self, name, most):
+        value = 0
+        while value < most and self.decoder.bit(self.models[name, value]):
+            value += 1
+        return value
+
+    def disparity(self, candidates, around, unit):
+        bit, models = self.decoder.bit, self.models
+        far = max(abs(c - candidates[0]) for c in candidates)
+        spread = 0 if far == 0 else 1 if far <= 2 else 2 if far <= 12 else 3
+        if not bit(models["not first", spread, around]):
+            return candidates[0]
+        if not bit(models["none", spread, around]):
+            k = 1
+            while k + 1 < len(candidates) and bit(models["which", spread, min(k, 3)]):
+                k += 1
+            return candidates[min(k, len(candidates) - 1)]
+        sign = -1 if bit(models["sign"]) else 1
+        size = 1 + min(self.decoder.number(models, "difference"), 2**16)
+        return max(-2**14, min(2**14, candidates[0] + sign * unit * size))
+
+    def levels(self, name):
+        bit, models = self.decoder.bit, self.models
+        node = 1
+        for _ in range(6):
+            node = node * 2 + bit(models[name, "last", node])
+        last, result, seen = node - 64, np.zeros((8, 8), f32), np.zeros((10, 10), int)
+        for n in range(last, -1, -1):
+            r, c = ZIGZAG[n]
+            total = seen[r, c + 1] + seen[r + 1, c] + seen[r + 1, c + 1] + seen[r, c + 2] + seen[r + 2, c]
+            place = (0 if r + c == 0 else 1 if r + c < 3 else 2, n < 3)
+            if n == last or bit(models[name, "some", min(total, 7), place]):
+                size = 1
+                if bit(models[name, "above 1", min(total, 7)]):
+                    size = 2
+                    if bit(models[name, "above 2", min(total // 2, 7)]):
+                        size = 3 + self.decoder.number(models, (name, "rest"))
+                result[r, c] = -size if self.decoder.even() else size
+                seen[r, c] = min(size, 4)
+        return result
+
+    def decode(self, hogel):
+        first, moved = not hogel.references, self.moved(hogel)
+        nearest = min([abs(i) + abs(j) for _, i, j in hogel.references] + [64])
+        unit = 1 if hogel.level == 0 else max(1, 4 // nearest)
+        self.picture = np.zeros((self.channels, 8 * self.down, 8 * self.across), f32)
+        bit, models = self.decoder.bit, self.models
+        for n in range(self.across * self.down):
+            near = [hogel.blocks[n - 1] if n % self.across else None,
+                    hogel.blocks[n - self.across] if n >= self.across else None]
+            near = [b for b in near if b]
+            block = {"mode": 0, "within": 0}
+            if not first:
+                odd = sum(b["mode"] != 1 for b in near)
+                if not bit(models["mode", odd, 0]):
+                    block["mode"] = 1
+                elif bit(models["mode", odd, 1]):
+                    block["mode"] = 2
+                    while block["mode"] < 5 and bit(models["mode", odd, block["mode"]]):
+                        block["mode"] += 1
+            if block["mode"] == 0:
+                block["within"] = self.unary("within", 3)
+            candidates = self.candidates(hogel, n, moved)
+            block["disparity"] = candidates[0]
+            if block["mode"] or first:
+                block["disparity"] = self.disparity(candidates, sum(b["surprising"] for b in near), unit)
+            block["surprising"] = block["disparity"] != candidates[0]
+            kind = "within" if block["mode"] == 0 else "any" if block["mode"] == 1 else "side"
+            block["coded"] = []
+            hogel.blocks.append(block)
+            for c in range(self.channels):
+                around = sum(b["coded"][c] for b in near)
+                block["coded"].append(bit(models["coded", c > 0, kind, block["surprising"], around]))
+                levels = self.levels((c > 0, kind == "within")) if block["coded"][c] else None
+                self.reconstruct(hogel, n, block, c, levels)
+        hogel.picture = self.picture
+
+    def predict_within(self, plane, x, y, how):
+        left = plane[y:y + 8, x - 1] if x else np.full(8, plane[y - 1, x] if y else 0, f32)
+        above = plane[y - 1, x:x + 8] if y else np.full(8, plane[y, x - 1] if x else 0, f32)
+        if how == 2:
+            return np.repeat(left[:, None], 8, 1)
+        if how == 3:
+            return np.repeat(above[None, :], 8, 0)
+        if how == 1:
+            mean = f32(0)
+            for k in range(8):
+                mean += left[k] + above[k]
+            return np.full((8, 8), mean / f32(16), f32)
+        k = np.arange(8, dtype=f32)
+        r, c = k[:, None], k[None, :]
+        return ((7 - c) * left[:, None] + (c + 1) * above[7] + (7 - r) * above[None, :] + (r + 1) * left[7]) / f32(16)
+
+    def predict_across(self, hogel, c, x, y, block):
+        found = []
+        for reference in hogel.references:
+            k, i, j = reference
+            side = block["mode"] - 1
+            if side and not [i < 0, i > 0, j < 0, j > 0][side - 1]:
+                continue
+            ratio = self.steps[self.hogels[k].level] / self.steps[0]
+            u, v = self.shift(block["disparity"], reference)
+            noise = (f32(0.03) * (ratio * ratio) + f32(0.003) * f32(i * i + j * j)) + ALIAS[u % 64] + ALIAS[v % 64]
+            found.append((noise, k, u, v))
+        found.sort(key=lambda entry: entry[0])
+        blocks = [self.interpolate(self.hogels[k].picture[c], x, y, u, v) for _, k, u, v in found[:2]]
+        if block["mode"] > 1 or len(blocks) == 1:
+            return blocks[0]
+        weight = found[1][0] / (found[0][0] + found[1][0])
+        return weight * blocks[0] + (f32(1) - weight) * blocks[1]
+
+    def interpolate(self, plane, x, y, u, v):
+        rows = np.clip(np.arange(-2, 11) + y + (v >> 6), 0, plane.shape[0] - 1)
+        columns = np.clip(np.arange(-2, 11) + x + (u >> 6), 0, plane.shape[1] - 1)
+        window = plane[np.ix_(rows, columns)]
+        across = window[:, 2:10]
+        if u % 64:
+            across = TAPS[u % 64][0] * window[:, 0:8]
+            for k in range(1, 6):
+                across = across + TAPS[u % 64][k] * window[:, k:k + 8]
+        if v % 64 == 0:
+            return across[2:10]
+        block = TAPS[v % 64][0] * across[0:8]
+        for k in range(1, 6):
+            block = block + TAPS[v % 64][k] * across[k:k + 8]
+        return block
+
+    def reconstruct(self, hogel, n, block, c, levels):
+        x, y, plane = n % self.across * 8, n // self.across * 8, self.picture[c]
+        if block["mode"]:
+            prediction = self.predict_across(hogel, c, x, y, block)
+        else:
+            prediction = self.predict_within(plane, x, y, block["within"])
+        residual = np.zeros((8, 8), f32)
+        if levels is not None:
+            coefficients, across = levels * self.steps[hogel.level], np.zeros((8, 8), f32)
+            for j in range(8):
+                across = across + coefficients[:, j:j + 1] * COSINES[j:j + 1, :]
+            for r in range(8):
+                residual = residual + COSINES[r:r + 1, :].T * across[r:r + 1, :]
+        plane[y:y + 8, x:x + 8] = prediction + residual
+
+
+def main():
+    data = open(sys.argv[1], "rb").read()
+    source = Bytes(data)
+    assert data[:8] == b"\x89HGL\r\n\x1a\n"
+    source.at = 8
+    version, length = source.take("II")
+    assert version == 1
+    channels, columns, rows, n_u, n_v = source.take("5Q")
+    _, tan_u, tan_v, _, _ = source.take("5d")
+    assert source.text() == "front"
+    tile_s, tile_t = source.take("2Q")
+    assert source.text() == "hogel" and source.text() == ""
+    source.at = 16 + length
+    assert source.take("I") == zlib.crc32(data[:16 + length])
+    begin, = struct.unpack_from("<Q", data, len(data) - 12)
+    assert struct.unpack_from("<I", data, len(data) - 4)[0] == zlib.crc32(data[begin:-4])
+    index = Bytes(data[begin:])
+    aspect = f32((2 * tan_u / n_u) / (2 * tan_v / n_v))
+    with h5py.File(sys.argv[2], "r") as file:
+        expected = file["radiance"][:]
+    for t0 in range(0, rows, tile_t):
+        for s0 in range(0, columns, tile_s):
+            size, checksum = index.take("QI")
+            code = data[source.at:source.at + size]
+            source.at += size
+            assert zlib.crc32(code) == checksum
+            across, down = min(tile_s, columns - s0), min(tile_t, rows - t0)
+            for hogel in Tile(code, across, down, (channels, n_v, n_u), aspect).hogels:
+                picture = hogel.picture[:, :n_v, :n_u]
+                truth = expected[:, t0 + hogel.t, s0 + hogel.s]
+                if channels == 1:
+                    assert np.array_equal(picture, truth), f"hogel {s0 + hogel.s}, {t0 + hogel.t} differs"
+                else:
+                    a, b, c = picture * np.array([3**-0.5, 2**-0.5, 6**-0.5])[:, None, None]
+                    joined = np.stack([a + b + c, a - 2 * c, a - b + c])
+                    assert np.allclose(joined, truth, rtol=0, atol=1e-6 * np.abs(truth).max()), "colours differ"
+    print("the same")
+
+
+main()
