@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "hogel/direct/scene_hologram.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -14,13 +15,57 @@ struct Options {
     bool resume = false;
 };
 
-int hologram(const Options& options, const Session& session) {
+void say_what_was_made(const Options& options, const std::vector<FieldGrid>& grids, const Session& session) {
+    session.say(fmt::format("{}: {}x{} samples at {}, {} wavelength{}, {}", options.output, grids[0].plane.width,
+                            grids[0].plane.height, format_length(grids[0].plane.pitch_x), grids.size(),
+                            grids.size() == 1 ? "" : "s",
+                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+}
+
+// The field of a scene by a method that knows no light fields.
+int straight_from_scene(const Options& options, const SceneMethod& method, const Session& session) {
+    if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
+    require_writable(options.output);
+    const double width = options.render.size;
+    const double height =
+        width * static_cast<double>(options.render.hogels.rows) / static_cast<double>(options.render.hogels.columns);
+    const double pitch = options.hologram.pitch;
+    if (!(width >= pitch && height >= pitch && pitch > 0))
+        throw Error(ErrorCode::usage, "--size, --pitch: the hologram must hold samples");
+    std::vector<FieldGrid> grids;
+    for (const double wavelength : options.hologram.wavelengths)
+        grids.push_back({{static_cast<std::size_t>(std::lround(width / pitch)),
+                          static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
+                         wavelength});
+    for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
+    const auto scene = lit(session, load_scene(session, options.input, options.render), options.render);
+    const auto sinks = create_hologram(options.output, grids, describe_run(session));
+    SceneHologramOptions how;
+    how.seed = session.seed;
+    how.spacing = options.hologram.spacing;
+    how.planes = options.hologram.planes;
+    if (!(how.spacing > 0)) throw Error(ErrorCode::usage, "--spacing: must be positive");
+    Stage stage(session, "hologram");
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        how.channel = colour_of(grids[i].wavelength);
+        copy(method.make(*scene, grids[i], how, stage.progress(i, grids.size())), *sinks[i]);
+    }
+    say_what_was_made(options, grids, session);
+    return 0;
+}
+
+int hologram(Options options, const Session& session) {
     const InputKind kind = input_kind(options.input);
+    if (const SceneMethod* method = find_scene_method(options.hologram.method)) {
+        if (kind == InputKind::scene) return straight_from_scene(options, *method, session);
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: is no scene, and method {} works on scenes", options.input, method->name));
+    }
     if (kind == InputKind::hologram)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
-    auto light_field = open_or_render(session, options.input, options.render);
+    auto light_field = open_for_hologram(session, options.input, options.render, options.hologram);
     require_holograms(light_field->grid(), options.hologram);
     if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
         light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
@@ -32,10 +77,7 @@ int hologram(const Options& options, const Session& session) {
                                        options.resume ? std::optional(describe_input(options.input)) : std::nullopt);
     Stage stage(session, "hologram");
     for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
-    session.say(fmt::format("{}: {}x{} samples at {}, {} wavelength{}, {}", options.output, grids[0].plane.width,
-                            grids[0].plane.height, format_length(grids[0].plane.pitch_x), grids.size(),
-                            grids.size() == 1 ? "" : "s",
-                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    say_what_was_made(options, grids, session);
     return 0;
 }
 
@@ -53,6 +95,7 @@ void add_hologram(CLI::App& app, Session& session) {
     command->add_option("-o,--output", options->output, "Hologram to write, HDF5")->type_name("FILE")->required();
     add_resume_flag(command, options->resume);
     add_hologram_options(command, options->hologram);
+    add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "commands.h"
-#include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
 #include "hogel/lightfield/photograph.h"
 #include "inputs.h"
@@ -99,10 +98,6 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
             write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, metadata);
         }
     }
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    write_file(path, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
 }
 
 int make(const Options& options, const Session& session) {

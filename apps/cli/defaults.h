@@ -20,13 +20,16 @@ struct Defaults {
     std::size_t hogels = 400, directions = 32;
     double field_of_view = 16_deg;  ///< full angle, 2θ
     double front = 0.3;             ///< how much of a fitted mesh stands in front of the plane
+    double sqnr = 40;               ///< decibels of a compressed light field
 
     // baking
     std::size_t bake_rays = 256, bake_bounces = 5;
-    double sqnr = 40;  ///< decibels of a compressed light field
 
     // hologram
     double pitch = 1.5625_um;  ///< 32 samples a hogel; blue must still be diffracted over the field of view
+    std::string_view basis = "cdf97";
+    double spacing = 10_um;  ///< of points on surfaces
+    std::size_t planes = 16;
     double red = 633_nm, green = 532_nm, blue = 460_nm;
 
     // camera
@@ -38,6 +41,12 @@ struct Defaults {
     std::size_t resolution = 400;    ///< pixels across a photograph
     std::size_t looks = 16;          ///< photographs averaged against speckle
     std::size_t pupil_samples = 64;  ///< points of the pupil in a geometric photograph
+
+    // benchmark of renderers
+    std::size_t bench_hogels = 360, bench_directions = 128;
+    double bench_field_of_view = 40_deg;
+    std::size_t bench_largest_region = 128;
+    double bench_seconds = 8, bench_gigabytes = 6;
 };
 inline constexpr Defaults defaults;
 

@@ -1,18 +1,22 @@
 #include "inputs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
+#include "hogel/codec/stream.h"
+#include "hogel/direct/scene_hologram.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
 #include "hogel/scene/import.h"
 #include "hogel/shading/bake.h"
 #include "hogel/shading/shading.h"
+#include "hogel/transform/transform.h"
 
 namespace hogel::cli {
 namespace {
@@ -41,21 +45,18 @@ Tangents tangents(double field_of_view, double toward) {
 }
 
 // What the user calls a method or its phases, and the library's word for it.
-const std::map<std::string, Method> methods{{"fourier", Method::fourier}, {"olas", Method::overlap_add}};
+const std::map<std::string, Method> methods{
+    {"fourier", Method::fourier}, {"basis", Method::basis}, {"olas", Method::overlap_add}};
+const std::map<std::string, Average> averages{{"radiance", Average::radiance}, {"amplitude", Average::amplitude}};
 const std::map<std::string, Phases> phases{{"random", Phases::random},
                                            {"fixed", Phases::fixed},
                                            {"designed", Phases::designed},
                                            {"phase-added", Phases::added},
                                            {"phase-added-exact", Phases::added_exactly}};
 
-std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
-    ShadingOptions shading;
-    shading.model = shading_model(options.shading);
-    shading.shadow_map = options.shadow_map;
-    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
-        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
-    Stage stage(session, "lighting");
-    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+Phases phases_of(const HologramOptions& options) {
+    if (!options.phase.empty()) return phases.at(options.phase);
+    return methods.at(options.method) == Method::basis ? Phases::fixed : Phases::random;
 }
 
 StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
@@ -65,7 +66,10 @@ StereogramOptions stereogram_options(const LightFieldGrid& light_field, const Ho
     stereogram.pitch = options.pitch;
     stereogram.channel = light_field.channels == 1 ? 0 : colour_of(wavelength);
     stereogram.method = methods.at(options.method);
-    stereogram.phases = phases.at(options.phase);
+    stereogram.phases = phases_of(options);
+    stereogram.average = averages.at(options.average);
+    stereogram.transform = options.basis.empty() ? std::string(defaults.basis) : options.basis;
+    stereogram.tolerance = options.tolerance;
     return stereogram;
 }
 
@@ -146,6 +150,7 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
     group(command
               ->add_option("--method", options.method,
                            "fourier: one transform a hogel\n"
+                           "basis: a sum of basis fringes a hogel\n"
                            "olas: overlapping windows, for hogels of a few samples; needs depth")
               ->type_name("NAME")
               ->check(CLI::IsMember(methods).description(""))
@@ -153,14 +158,50 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
     group(command
               ->add_option("--phase", options.phase,
                            "Phases of each hogel's directions\n"
-                           "random: independent everywhere\n"
-                           "fixed: the same in all hogels (olas: none, a smooth surface)\n"
+                           "random: independent everywhere (default)\n"
+                           "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
                            "designed: the same in all hogels, for a fringe of flat modulus\n"
                            "phase-added: of spherical waves from what rays meet; needs depth\n"
                            "phase-added-exact: the same, each ray with its own frequency")
               ->type_name("NAME")
-              ->check(CLI::IsMember(phases).description(""))
+              ->check(CLI::IsMember(phases).description("")));
+    group(command
+              ->add_option("--lobes", options.average,
+                           "What a hogel's lobes take from the directions that they light: their mean radiance, or "
+                           "(always with basis) mean amplitude")
+              ->type_name("radiance|amplitude")
+              ->check(CLI::IsMember(averages).description(""))
               ->capture_default_str());
+    group(command
+              ->add_option("--basis", options.basis,
+                           fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
+                                       "direction), {} (default: the file's, or {})",
+                                       fmt::join(transform_names(), ", "), defaults.basis))
+              ->type_name("NAME"));
+    group(command
+              ->add_option("--tolerance", options.tolerance,
+                           "Share of a hogel's amplitude that left-out basis fringes may carry")
+              ->type_name("0..1")
+              ->check(CLI::Range(0.0, 1.0).description(""))
+              ->capture_default_str());
+}
+
+void add_scene_hologram_options(CLI::App* command, HologramOptions& options) {
+    std::string names;
+    std::vector<std::string> known;
+    for (const auto& [name, method] : methods) known.push_back(name);
+    for (const SceneMethod& method : scene_methods()) {
+        known.emplace_back(method.name);
+        names += fmt::format("\n{}: {}", method.name, method.description);
+    }
+    CLI::Option* method = command->get_option("--method");
+    method->description(method->get_description() + "\nWithout a light field, from a scene:" + names);
+    CLI::Validator* check = method->get_validator();
+    *check = CLI::IsMember(known).description("");
+    const auto group = [](CLI::Option* option) { option->group("Hologram"); };
+    group(add_length(command, "--spacing", options.spacing,
+                     "Of points on surfaces and along edges; height of hpo lines"));
+    group(add_count(command, "--planes", options.planes, "Depth planes of fresnel and planes"));
 }
 
 InputKind input_kind(const std::string& name) {
@@ -205,6 +246,16 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
     return scene;
 }
 
+std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
+    ShadingOptions shading;
+    shading.model = shading_model(options.shading);
+    shading.shadow_map = options.shadow_map;
+    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
+        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
+    Stage stage(session, "lighting");
+    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+}
+
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
                                                    const RenderOptions& options) {
     return make_renderer(options.algorithm, lit(session, scene, options), options.grid());
@@ -224,6 +275,19 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
     return render_on_demand(session, load_scene(session, name, options), options);
 }
 
+std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
+                                                    const RenderOptions& render, HologramOptions& hologram) {
+    if (methods.at(hologram.method) == Method::basis && input_kind(name) == InputKind::light_field && is_stream(name)) {
+        const CodingMethod stored = read_stream_info(name).method;
+        if (stored.coder == "fringes" && (hologram.basis.empty() || hologram.basis == stored.transform)) {
+            hologram.basis = stored.transform;
+            hologram.coefficients = true;
+            return open_coefficients(name);
+        }
+    }
+    return open_or_render(session, name, render);
+}
+
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
                                                                     const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
@@ -233,7 +297,7 @@ std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Sessio
 bool needs_depth(const HologramOptions& options) {
     StereogramOptions stereogram;
     stereogram.method = methods.at(options.method);
-    stereogram.phases = phases.at(options.phase);
+    stereogram.phases = phases_of(options);
     return needs_depth(stereogram);
 }
 
@@ -262,7 +326,8 @@ std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
         StereogramOptions stereogram = stereogram_options(light_field.grid(), options, wavelength);
         stereogram.looks = looks;
         stereogram.seed = session.seed;
-        holograms.push_back(make_stereogram(light_field, stereogram));
+        holograms.push_back(options.coefficients ? make_stereogram_of_coefficients(light_field, stereogram)
+                                                 : make_stereogram(light_field, stereogram));
     }
     return holograms;
 }

@@ -14,6 +14,7 @@
 #include "hogel/io/files.h"
 #include "hogel/lightfield/light_field.h"
 #include "hogel/scene/scene.h"
+#include "hogel/shading/shaded_scene.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -46,9 +47,17 @@ struct HologramOptions {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
     std::string method = "fourier";
-    std::string phase = "random";
+    std::string phase;  ///< empty: what suits the method
+    std::string average = "radiance";
+    std::string basis;  ///< empty: the one that the light field's coefficients are of, or else cdf97
+    double tolerance = 0;
+    double spacing = defaults.spacing;
+    std::size_t planes = defaults.planes;
+    bool coefficients = false;  ///< whether the light field holds coefficients of `basis` instead of radiances
 };
 void add_hologram_options(CLI::App* command, HologramOptions& options);
+/// More of them, for methods that make the hologram of a scene without a light field.
+void add_scene_hologram_options(CLI::App* command, HologramOptions& options);
 
 /// What the user may name as the input of a command: a light field, a hologram, or a scene (a built-in one or a mesh
 /// file). Throws Error(usage) for an unknown scene and Error(bad_input) for a file that is missing or none of these.
@@ -58,6 +67,9 @@ InputKind input_kind(const std::string& name);
 /// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), lit.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
 
+/// A scene with its light.
+std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options);
+
 /// The light field of a scene, rendered where it is read.
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
                                                    const RenderOptions& options);
@@ -65,6 +77,11 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const
 /// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options);
+
+/// The same, but coefficients instead where a compressed light field has those of the basis fringes that are asked for,
+/// which the options then say.
+std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
+                                                    const RenderOptions& render, HologramOptions& hologram);
 
 /// The same for all faces, the front first.
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,

@@ -17,6 +17,10 @@ void require_writable(const fs::path& file) {
         throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
 }
 
+void write_text(const fs::path& file, const std::string& text) {
+    write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
 void add_resume_flag(CLI::App* command, bool& resume) {
     command->add_flag("--resume", resume,
                       "Keep what is done when interrupted, as FILE.part, and go on from there the next time");

@@ -9,6 +9,9 @@ namespace hogel::cli {
 /// Complains now, not after an hour of work, about an output whose folder is missing or not writable.
 void require_writable(const std::filesystem::path& file);
 
+/// Writes a whole file, which appears when it is complete.
+void write_text(const std::filesystem::path& file, const std::string& text);
+
 /// --resume, for outputs that take long.
 void add_resume_flag(CLI::App* command, bool& resume);
 /// What tells an input of work that is resumed from another: its name, and the size and date of a file.

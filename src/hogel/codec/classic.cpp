@@ -19,9 +19,16 @@ namespace {
 
 constexpr std::size_t samples_of_tile = std::size_t{1} << 24;
 
+// What is coded of a light field, and how its dimensions are transformed.
+enum class Content {
+    radiance,   // all four interleaved
+    amplitude,  // √L, hogels and directions apart
+};
+
 class ClassicCoder : public TileCoder {
   public:
-    explicit ClassicCoder(std::string_view name) : transform_(transform(name)) {}
+    explicit ClassicCoder(std::string_view name, Content content = Content::radiance)
+        : transform_(transform(name)), content_(content) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         HogelRange tile{0, 0, 1, 1};
@@ -35,6 +42,8 @@ class ClassicCoder : public TileCoder {
 
     Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes) const override {
         LightFieldTile work = tile;
+        if (content_ == Content::amplitude)
+            for (float& value : work.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
         separate_colours(work.radiance);
         const Pyramid pyramid = pyramid_of(tile);
         const std::size_t channels = tile.radiance.extent(0);
@@ -60,17 +69,18 @@ class ClassicCoder : public TileCoder {
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        ByteReader reader(bytes, "tile");
-        const Pyramid pyramid = pyramid_of(tile);
-        std::vector<std::span<const std::uint8_t>> codes;
-        for (std::size_t c = 0; c < tile.radiance.extent(0); ++c)
-            codes.push_back(reader.take(reader.take<std::uint32_t>()));
-        if (reader.left() > 0) reader.damaged("bytes are left over");
-        parallel_for(codes.size(), [&](std::size_t c) {
-            decode_channel(pyramid, codes[c], tile.radiance[c].elements());
-            transform_.inverse(pyramid, tile.radiance[c].elements());
-        });
-        join_colours(tile.radiance);
+        decode(bytes, pyramid_of(tile), tile);
+        if (content_ == Content::amplitude)
+            for (float& value : tile.radiance.elements()) value *= value;
+    }
+
+    bool directional() const override { return content_ == Content::amplitude; }
+
+    void decode_coefficients(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
+        if (!directional()) return TileCoder::decode_coefficients(bytes, tile);
+        // The hogels' own group alone; the directions stay as they are.
+        const Pyramid whole = pyramid_of(tile);
+        decode(bytes, Pyramid(whole.shape(), {whole.groups().front()}), tile);
     }
 
   protected:
@@ -80,9 +90,24 @@ class ClassicCoder : public TileCoder {
                                 std::span<float> values) const = 0;
 
   private:
-    static Pyramid pyramid_of(const LightFieldTile& tile) {
+    Pyramid pyramid_of(const LightFieldTile& tile) const {
         const Shape<5>& shape = tile.radiance.shape();
-        return Pyramid::interleaved({shape.begin() + 1, shape.end()});
+        const std::vector<std::size_t> axes(shape.begin() + 1, shape.end());
+        return content_ == Content::amplitude ? Pyramid::separate(axes, {{0, 1}, {2, 3}}) : Pyramid::interleaved(axes);
+    }
+    // Transforms back along the groups of `back`.
+    void decode(std::span<const std::uint8_t> bytes, const Pyramid& back, LightFieldTile& tile) const {
+        ByteReader reader(bytes, "tile");
+        const Pyramid pyramid = pyramid_of(tile);
+        std::vector<std::span<const std::uint8_t>> codes;
+        for (std::size_t c = 0; c < tile.radiance.extent(0); ++c)
+            codes.push_back(reader.take(reader.take<std::uint32_t>()));
+        if (reader.left() > 0) reader.damaged("bytes are left over");
+        parallel_for(codes.size(), [&](std::size_t c) {
+            decode_channel(pyramid, codes[c], tile.radiance[c].elements());
+            transform_.inverse(back, tile.radiance[c].elements());
+        });
+        join_colours(tile.radiance);
     }
     // Cuts embedded codes so that with their lengths they take `most` bytes, each by the same part.
     static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t most) {
@@ -100,6 +125,7 @@ class ClassicCoder : public TileCoder {
     }
 
     Transform transform_;
+    Content content_;
 };
 
 // Steps below what a coder can tell apart do not make anything finer.
@@ -164,7 +190,8 @@ std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method) {
                                                            : "a wavelet"));
     if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform);
     if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform);
-    return std::make_unique<ThreePassCoder>(method.transform);
+    const Content content = method.coder == "fringes" ? Content::amplitude : Content::radiance;
+    return std::make_unique<ThreePassCoder>(method.transform, content);
 }
 
 }  // namespace hogel

@@ -25,6 +25,7 @@ std::vector<CodingMethod> all_methods() {
             methods.push_back({"jpeg4d", "dct8"});
         else
             methods.push_back({name.size() % 2 == 0 ? "ezw" : "threepass", std::string(name)});
+    methods.push_back({"fringes", "cdf97"});
     return methods;
 }
 
@@ -43,6 +44,23 @@ ErrorCode code_of(const std::function<void()>& call) {
         return error.code();
     }
     return ErrorCode{0};
+}
+
+// Undoing the transform of the directions is all that is left to do.
+TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
+    const TestFolder folder;
+    const LightField field = textured_planes(9, 7, 24, 20, 3);
+    compress(field, folder / "a.hgl", with_sqnr({"fringes", "ai33"}, 30));
+    const auto source = open_coefficients(folder / "a.hgl");
+    LightField coefficients(source->grid());
+    copy(*source, coefficients);
+    const Pyramid pyramid = Pyramid::separate({3 * 9 * 7, 20, 24}, {{1, 2}});
+    transform("ai33").inverse(pyramid, coefficients.radiance.elements());
+    const LightField expected = decoded(folder / "a.hgl");
+    for (std::size_t i = 0; i < expected.radiance.size(); ++i)
+        ASSERT_NEAR(std::pow(coefficients.radiance.data()[i], 2), expected.radiance.data()[i], 1e-5) << i;
+    compress(field, folder / "b.hgl", with_sqnr({"threepass", "ai33"}, 30));
+    EXPECT_EQ(code_of([&] { open_coefficients(folder / "b.hgl"); }), ErrorCode::bad_input);
 }
 
 // The signal-to-noise ratio that was asked for is what whoever decodes the file measures, with every transform: in the

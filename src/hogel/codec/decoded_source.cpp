@@ -27,8 +27,16 @@ void copy_common(const LightFieldTile& from, LightFieldTile& to) {
 
 class DecodedSource final : public LightFieldSource {
   public:
-    DecodedSource(const std::filesystem::path& path, std::size_t memory)
-        : reader_(path), coder_(coder_of(reader_)), kept_(std::max<std::size_t>(1, memory / tile_bytes(reader_))) {}
+    DecodedSource(const std::filesystem::path& path, std::size_t memory, bool coefficients)
+        : reader_(path),
+          coder_(coder_of(reader_)),
+          coefficients_(coefficients),
+          kept_(std::max<std::size_t>(1, memory / tile_bytes(reader_))) {
+        if (coefficients && !coder_->directional())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
+                                    path.string(), reader_.info().method.coder));
+    }
 
     const LightFieldGrid& grid() const override { return reader_.info().grid; }
     HogelRange preferred_tile() const override { return reader_.info().tile; }
@@ -61,7 +69,7 @@ class DecodedSource final : public LightFieldSource {
     void decode(std::size_t index, LightFieldTile& tile) const {
         const std::vector<std::uint8_t> bytes = reader_.read(index);
         try {
-            coder_->decode(bytes, tile);
+            coefficients_ ? coder_->decode_coefficients(bytes, tile) : coder_->decode(bytes, tile);
         } catch (const Error& error) {
             if (error.code() != ErrorCode::bad_input) throw;
             reader_.damaged(fmt::format("tile {}: {}", index, error.what()));
@@ -104,6 +112,7 @@ class DecodedSource final : public LightFieldSource {
 
     StreamReader reader_;
     std::unique_ptr<TileCoder> coder_;
+    bool coefficients_;
     std::size_t kept_;
     mutable std::mutex mutex_;
     mutable std::list<Entry> cache_;  // the one used last first
@@ -112,7 +121,11 @@ class DecodedSource final : public LightFieldSource {
 }  // namespace
 
 std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, std::size_t memory) {
-    return std::make_unique<DecodedSource>(path, memory);
+    return std::make_unique<DecodedSource>(path, memory, false);
+}
+
+std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path, std::size_t memory) {
+    return std::make_unique<DecodedSource>(path, memory, true);
 }
 
 }  // namespace hogel

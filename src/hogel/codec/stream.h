@@ -31,4 +31,11 @@ StreamInfo read_stream_info(const std::filesystem::path& path);
 std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path,
                                               std::size_t memory = std::size_t{1} << 29);
 
+/// The same before the transform of the directions is undone, for holograms made of basis fringes: in place of
+/// radiances the coefficients of √L, an array [n_V][n_U] for each hogel and channel, of the transform that the header
+/// names (Pyramid::separate, its two axes one group). Throws Error(bad_input) for a stream whose coder is not
+/// `fringes`, too.
+std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path,
+                                                    std::size_t memory = std::size_t{1} << 29);
+
 }  // namespace hogel

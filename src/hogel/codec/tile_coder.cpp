@@ -11,7 +11,11 @@
 
 namespace hogel {
 
-std::vector<std::string_view> coder_names() { return {"hogel", "threepass", "ezw", "jpeg4d"}; }
+std::vector<std::string_view> coder_names() { return {"hogel", "threepass", "ezw", "jpeg4d", "fringes"}; }
+
+void TileCoder::decode_coefficients(std::span<const std::uint8_t>, LightFieldTile&) const {
+    throw Error(ErrorCode::usage, "this coder keeps no coefficients of directions; coder fringes does");
+}
 
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid) {
     if (!std::ranges::count(coder_names(), method.coder))

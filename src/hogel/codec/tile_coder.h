@@ -34,6 +34,11 @@ class TileCoder {
     virtual Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes = no_limit) const = 0;
     /// Fills the tile's radiance. Throws Error(bad_input) for bytes that no encode() gives, where that shows.
     virtual void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const = 0;
+    /// True where decode_coefficients() works: where hogels and directions are transformed apart.
+    virtual bool directional() const { return false; }
+    /// Fills the tile's radiance with coefficients instead: of √L, along the directions of each hogel, as they are
+    /// before the transform of the directions is undone. Throws Error(usage) unless directional().
+    virtual void decode_coefficients(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const;
 };
 
 /// How the samples of a tile become bytes.
@@ -43,7 +48,7 @@ struct CodingMethod {
     friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
 };
 
-/// hogel|threepass|ezw|jpeg4d.
+/// hogel|threepass|ezw|jpeg4d|fringes.
 std::vector<std::string_view> coder_names();
 
 /// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.

@@ -1,8 +1,8 @@
-#include "hogel/hologram/designed_phase.h"
-#include "hogel/hologram/frequency_grid.h"
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/hologram/direction_phases_internal.h"
 #include "hogel/hologram/hogel_synthesis_internal.h"
-#include "hogel/hologram/random_phase.h"
-#include "hogel/math/fft.h"
 
 namespace hogel {
 namespace {
@@ -13,29 +13,22 @@ class FourierSynthesis final : public HogelSynthesis {
   public:
     FourierSynthesis(const LightFieldGrid& light_field, std::size_t samples, const StereogramOptions& options)
         : options_(options), frequencies_(light_field, samples, options.wavelength), fft_(samples, samples) {
-        if (options.phases == Phases::random) return;
-        Array<float, 2> moduli({samples, samples});
-        const std::vector<float> uniform(light_field.directions(), 1.0f);
-        frequencies_.amplitudes(uniform, moduli.elements());
-        // Hogels that do not exist give the directions their own phases.
-        for (std::size_t look = 0; look < options.looks; ++look) {
-            Array<Complex, 2>& phases = directions_.emplace_back(Shape<2>{samples, samples});
-            const std::vector<float> ones(phases.size(), 1.0f);
-            spread_random_phases(phases_of({0xffffffff, 0xffffffff, look}), ones, phases.elements());
-            if (options.phases == Phases::designed) flatten_fringe(moduli, fft_, phases);
-        }
+        if (options.phases != Phases::random) directions_ = direction_phases(frequencies_, light_field, fft_, options);
     }
 
     std::size_t prepared_size() const override { return frequencies_.samples() * frequencies_.samples(); }
 
-    void prepare(std::span<const float> radiance, std::span<const float>, std::span<float> prepared) const override {
-        frequencies_.amplitudes(radiance, prepared);
+    void prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const override {
+        if (options_.average == Average::radiance) return frequencies_.amplitudes(radiances, prepared);
+        Array<float, 2> roots(radiances.shape());
+        for (std::size_t i = 0; i < roots.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
+        frequencies_.amplitudes_of_roots(roots, prepared);
     }
 
     // Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.
     void synthesise(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> hogel) const override {
         if (directions_.empty())
-            spread_random_phases(phases_of(place), moduli, hogel.elements());
+            spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, hogel.elements());
         else
             for (std::size_t i = 0; i < moduli.size(); ++i)
                 hogel.data()[i] = moduli[i] * directions_[place.look].data()[i];
@@ -43,16 +36,10 @@ class FourierSynthesis final : public HogelSynthesis {
     }
 
   private:
-    PhaseSeries phases_of(const HogelPlace& place) const {
-        return {{static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)},
-                {static_cast<std::uint32_t>(place.look * 4 + options_.channel), static_cast<std::uint32_t>(place.s),
-                 static_cast<std::uint32_t>(place.t)}};
-    }
-
     StereogramOptions options_;
     FrequencyGrid frequencies_;
     Fft2 fft_;
-    std::vector<Array<Complex, 2>> directions_;  // for each look; empty where every hogel has phases of its own
+    DirectionPhases directions_;  // empty where every hogel has phases of its own
 };
 
 }  // namespace

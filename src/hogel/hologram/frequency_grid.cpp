@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hogel/hologram/lobes.h"
+
 namespace hogel {
 namespace {
 
@@ -20,7 +22,7 @@ struct Average {
 
 // The weights with which the mean over [low, high] of the piecewise linear function through samples 0..count−1 is made
 // of these samples. The end samples hold to the ends of their cells; beyond them the function is zero.
-Average average(double low, double high, std::size_t count) {
+Average average_of_lines(double low, double high, std::size_t count) {
     const double begin = -0.5, end = static_cast<double>(count) - 0.5;
     const double inside_low = std::max(low, begin), inside_high = std::min(high, end);
     Average result;
@@ -44,12 +46,27 @@ Average average(double low, double high, std::size_t count) {
     return result;
 }
 
+// The same of the function that has each sample's value over its cell.
+Average average_of_pieces(double low, double high, std::size_t count) {
+    const double begin = std::max(low, -0.5), end = std::min(high, static_cast<double>(count) - 0.5);
+    Average result;
+    if (!(begin < end)) return result;
+    const double first = std::floor(begin + 0.5),
+                 final = std::min(std::floor(end + 0.5), static_cast<double>(count) - 1);
+    result.first = static_cast<std::size_t>(first);
+    for (double k = first; k <= final; ++k)
+        result.weights.push_back(
+            static_cast<float>((std::min(end, k + 0.5) - std::max(begin, k - 0.5)) / (high - low)));
+    return result;
+}
+
 }  // namespace
 
-FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength)
+FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength, Between between)
     : samples_(samples), row_length_(light_field.directions_u) {
     const double step = wavelength / light_field.pitch;  // between frequencies, as direction sines
     const auto n = static_cast<std::ptrdiff_t>(samples);
+    const auto mean = between == Between::linear ? average_of_lines : average_of_pieces;
     // The sine −n/2 of an even grid would be its own mirror image, so the grid ends one before it.
     const std::ptrdiff_t reach = (n - 1) / 2;
     for (std::ptrdiff_t jy = -reach; jy <= reach; ++jy)
@@ -61,8 +78,8 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samp
             const double U = -sx / cosine, V = -sy / cosine;
             // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
             const double wu = 0.5 * step * (1 + U * U) / cosine, wv = 0.5 * step * (1 + V * V) / cosine;
-            const Average u = average(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
-            const Average v = average(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
+            const Average u = mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
+            const Average v = mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
             if (u.weights.empty() || v.weights.empty()) continue;
             // Rows run down while y runs up, so a row of the DFT is −j_y.
             const std::size_t row = static_cast<std::size_t>((n - jy) % n),
@@ -77,19 +94,57 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samp
 }
 
 void FrequencyGrid::amplitudes(std::span<const float> radiance, std::span<float> moduli) const {
-    std::fill(moduli.begin(), moduli.end(), 0.0f);
-    for (const Lobe& lobe : lobes_) {
-        const float* u = &weights_[lobe.weights];
-        const float* v = u + lobe.nu;
-        float sum = 0;
-        for (std::uint32_t l = 0; l < lobe.nv; ++l) {
-            const float* row = &radiance[(lobe.v0 + l) * row_length_ + lobe.u0];
-            float line = 0;
-            for (std::uint32_t k = 0; k < lobe.nu; ++k) line += u[k] * row[k];
-            sum += v[l] * line;
+    amplitudes(View<const float, 2>(radiance.data(), {1, radiance.size()}),
+               View<float, 2>(moduli.data(), {1, moduli.size()}));
+}
+
+void FrequencyGrid::amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const {
+    average(radiances, false, moduli);
+}
+
+void FrequencyGrid::amplitudes_of_roots(View<const float, 2> roots, View<float, 2> moduli) const {
+    average(roots, true, moduli);
+}
+
+// Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
+void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {
+    const std::size_t rays = values.extent(1);
+    Array<float, 2> beside({rays, hogels_at_once}), averages({lobes_.size(), hogels_at_once});
+    std::fill(moduli.data(), moduli.data() + moduli.size(), 0.0f);
+    for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
+        const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
+        for (std::size_t h = 0; h < hogels; ++h) {
+            const float* from = &values(first + h, 0);
+            for (std::size_t i = 0; i < rays; ++i) beside.data()[i * hogels_at_once + h] = from[i];
         }
-        // A light field may hold small negative values where a codec has passed; they carry no light.
-        moduli[lobe.coefficient] = std::sqrt(std::max(sum, 0.0f) * lobe.scale);
+        average_lobes(lobes_, weights_.data(), beside.data(), row_length_, of_roots, averages.data());
+        for (std::size_t h = 0; h < hogels; ++h) {
+            float* to = &moduli(first + h, 0);
+            const float* from = averages.data() + h;
+            for (const Lobe& lobe : lobes_) {
+                to[lobe.coefficient] = *from;
+                from += hogels_at_once;
+            }
+        }
+    }
+}
+
+void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
+                         std::size_t row_length, bool of_roots, float* out) {
+    for (const FrequencyGrid::Lobe& lobe : lobes) {
+        const float* u = weights + lobe.weights;
+        const float* v = u + lobe.nu;
+        for (std::size_t hogel = 0; hogel < hogels_at_once; ++hogel) {
+            float sum = 0;
+            for (std::uint32_t l = 0; l < lobe.nv; ++l) {
+                const float* row = rays + ((lobe.v0 + l) * row_length + lobe.u0) * hogels_at_once + hogel;
+                float line = 0;
+                for (std::uint32_t k = 0; k < lobe.nu; ++k) line += u[k] * row[k * hogels_at_once];
+                sum += v[l] * line;
+            }
+            // A light field may hold small negative values where a codec has passed; they carry no light.
+            *out++ = of_roots ? sum * std::sqrt(lobe.scale) : std::sqrt(std::max(sum, 0.0f) * lobe.scale);
+        }
     }
 }
 

@@ -14,17 +14,19 @@ struct HogelPlace {
     std::size_t look = 0;
 };
 
-/// From the rays of one hogel to its square of n×n samples, in two steps: what all looks share, and the rest.
+/// From the rays of hogels to their squares of n×n samples, in two steps: what all looks share, and the rest.
 /// Phases are counted from the hogel's centre or from its first sample, as each synthesis says.
 class HogelSynthesis {
   public:
     virtual ~HogelSynthesis() = default;
     /// How many values `prepare` makes.
     virtual std::size_t prepared_size() const = 0;
-    /// @param radiance  [n_V][n_U] of this wavelength
-    /// @param depth     [n_V][n_U], or empty where needs_depth() says no
-    virtual void prepare(std::span<const float> radiance, std::span<const float> depth,
-                         std::span<float> prepared) const = 0;
+    /// For some hogels at once.
+    /// @param radiances  [hogel][n_V n_U] of this wavelength
+    /// @param depths     [hogel][n_V n_U], or empty where needs_depth() says no
+    /// @param prepared   [hogel][prepared_size()]
+    virtual void prepare(View<const float, 2> radiances, View<const float, 2> depths,
+                         View<float, 2> prepared) const = 0;
     virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
                             View<std::complex<float>, 2> hogel) const = 0;
 };
@@ -32,6 +34,17 @@ class HogelSynthesis {
 /// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2).
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                        const StereogramOptions& options);
+
+/// What a synthesis gets as the values of a light field's rays.
+enum class Values {
+    radiance,
+    coefficients,  ///< of a transform of each hogel's directions' √L
+};
+
+/// A sum of basis fringes weighted with coefficients: [K] (3.24).
+/// Throws Error(usage) for a transform that does not exist, and where the fringes would not fit into memory.
+std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                     const StereogramOptions& options, Values values);
 
 /// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "hogel/core/random.h"
 #include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/hologram/unit_roots.h"
 #include "hogel/math/fft.h"
 
 namespace hogel {
@@ -20,6 +22,8 @@ std::size_t window_side(const LightFieldGrid& light_field, const FieldGrid& grid
     if (hop % 2 == 1 && side % 2 == 0) ++side;
     return side * hop;
 }
+
+std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
 
 // A direction of the window's Fourier transform, with the ray of the light field nearest to it.
 struct Direction {
@@ -47,6 +51,8 @@ class OverlapAdd final : public FieldSource {
         for (std::size_t i = 0; i < side_; ++i)
             window_.push_back(static_cast<float>(
                 std::pow(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(side_)), 2)));
+        for (const float row : window_)
+            for (const float column : window_) square_.push_back(row * column);
         list_directions();
         list_brightness();
     }
@@ -63,13 +69,15 @@ class OverlapAdd final : public FieldSource {
         // Few rows of hogels at once, to bound memory; every sample adds its windows in the same order.
         const std::size_t rows = std::max<std::size_t>(1, band_rays / (ns * light_field_.grid().directions()));
         Array<Complex, 2> window({side_, side_});
+        std::optional<PointTurns> points;
+        if (options_.phases == Phases::random) points.emplace(*this, s0, t0, ns, nt, look);
         for (std::size_t t = t0; t < t0 + nt; t += rows) {
             LightFieldTile tile(light_field_.grid(), {s0, t, ns, std::min(rows, t0 + nt - t)}, true);
             light_field_.read(tile);
             for (std::size_t j = 0; j < tile.range.nt; ++j)
                 for (std::size_t i = 0; i < ns; ++i) {
                     fill(tile.radiance.view()[options_.channel][j][i].elements(), tile.depth[j][i].elements(),
-                         {s0 + i, t + j, look}, window);
+                         {s0 + i, t + j, look}, points ? &*points : nullptr, window);
                     fft_.backward(window);
                     add(window, s0 + i, t + j, region, out);
                 }
@@ -168,8 +176,40 @@ class OverlapAdd final : public FieldSource {
         return (1 - rest) * brightness_[below] + rest * brightness_[below + 1];
     }
 
+    // The phases of the surface's points around the hogels that a region needs: each is seen by many hogels.
+    class PointTurns {
+      public:
+        PointTurns(const OverlapAdd& hologram, std::size_t s0, std::size_t t0, std::size_t ns, std::size_t nt,
+                   std::size_t look)
+            : hologram_(hologram),
+              look_(look),
+              column0_(static_cast<std::int64_t>(s0) - margin),
+              row0_(static_cast<std::int64_t>(t0) - margin),
+              turns_({nt + 2 * margin, ns + 2 * margin}) {
+            for (std::size_t row = 0; row < turns_.extent(0); ++row)
+                for (std::size_t column = 0; column < turns_.extent(1); ++column)
+                    turns_(row, column) =
+                        draw(column0_ + static_cast<std::int64_t>(column), row0_ + static_cast<std::int64_t>(row));
+        }
+        double operator()(std::int64_t column, std::int64_t row) const {
+            const auto x = static_cast<std::size_t>(column - column0_), y = static_cast<std::size_t>(row - row0_);
+            return x < turns_.extent(1) && y < turns_.extent(0) ? turns_(y, x) : draw(column, row);
+        }
+
+      private:
+        static constexpr std::int64_t margin = 32;
+        double draw(std::int64_t column, std::int64_t row) const {
+            return hologram_.random_turns(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), 0,
+                                          look_);
+        }
+        const OverlapAdd& hologram_;
+        std::size_t look_;
+        std::int64_t column0_, row0_;
+        Array<double, 2> turns_;
+    };
+
     void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
-              View<Complex, 2> window) const {
+              const PointTurns* points, View<Complex, 2> window) const {
         std::fill(window.data(), window.data() + window.size(), Complex(0));
         for (const Direction& direction : directions_) {
             const float light = radiance[direction.ray] * direction.share;
@@ -178,8 +218,7 @@ class OverlapAdd final : public FieldSource {
             double turns = direction.first_turns;
             float amplitude = std::sqrt(light);
             if (std::isfinite(depth)) {
-                turns += options_.phases == Phases::random ? turns_of_point(direction, depth, place)
-                                                           : depth * direction.turns_per_depth;
+                turns += points ? turns_of_point(direction, depth, place, *points) : depth * direction.turns_per_depth;
                 amplitude *= brightness(depth);
             } else {
                 // Nothing is a surface far away, of which neighbouring windows see different points.
@@ -187,8 +226,7 @@ class OverlapAdd final : public FieldSource {
                                       direction.coefficient + 1, place.look);
                 amplitude *= brightness_.back();
             }
-            const auto angle = static_cast<float>(2 * std::numbers::pi * (turns - std::round(turns)));
-            window.data()[direction.coefficient] = {amplitude * std::cos(angle), amplitude * std::sin(angle)};
+            window.data()[direction.coefficient] = amplitude * roots_(turns);
         }
     }
 
@@ -199,15 +237,14 @@ class OverlapAdd final : public FieldSource {
     }
 
     // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
-    double turns_of_point(const Direction& direction, double depth, const HogelPlace& place) const {
-        const double pitch = light_field_.grid().pitch;
-        const double columns = std::round(direction.U * depth / pitch), rows = std::round(direction.V * depth / pitch);
-        const double x = columns * pitch, y = rows * pitch;
+    double turns_of_point(const Direction& direction, double depth, const HogelPlace& place,
+                          const PointTurns& points) const {
+        const double pitch = light_field_.grid().pitch, hogels = depth / pitch;
+        const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
+        const double x = static_cast<double>(columns) * pitch, y = static_cast<double>(rows) * pitch;
         const double distance = std::copysign(std::sqrt(depth * depth + x * x + y * y), depth);
-        const auto column = static_cast<std::int64_t>(place.s) + static_cast<std::int64_t>(columns);
-        const auto row = static_cast<std::int64_t>(place.t) - static_cast<std::int64_t>(rows);
         return distance / grid_.wavelength +
-               random_turns(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), 0, place.look);
+               points(static_cast<std::int64_t>(place.s) + columns, static_cast<std::int64_t>(place.t) - rows);
     }
 
     // First and number of the hogels whose windows touch samples first..first+count−1.
@@ -235,7 +272,8 @@ class OverlapAdd final : public FieldSource {
             const Complex* from = &window(q, 0);
             Complex* to = &out(static_cast<std::size_t>(top + static_cast<std::ptrdiff_t>(q)),
                                static_cast<std::size_t>(left + static_cast<std::ptrdiff_t>(p0)));
-            for (std::size_t p = p0; p < p1; ++p) *to++ += from[p] * (window_[p] * window_[q]);
+            const float* weights = &square_[q * side_];
+            for (std::size_t p = p0; p < p1; ++p) *to++ += from[p] * weights[p];
         }
     }
 
@@ -246,7 +284,8 @@ class OverlapAdd final : public FieldSource {
     FieldGrid grid_;
     std::size_t hop_, side_;  // samples of a hogel's and a window's side
     Fft2 fft_;
-    std::vector<float> window_;
+    UnitRoots roots_;
+    std::vector<float> window_, square_;  // along a line, and [q][p] as a product of two
     std::vector<Direction> directions_;
     std::vector<float> brightness_;  // by |ζ| in steps of depth_step_, the last for all beyond
     double depth_step_ = 0;

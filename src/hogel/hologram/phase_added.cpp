@@ -37,11 +37,13 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
 
     std::size_t prepared_size() const override { return 2 * light_field_.directions(); }
 
-    void prepare(std::span<const float> radiance, std::span<const float> depth,
-                 std::span<float> prepared) const override {
-        for (std::size_t i = 0; i < radiance.size(); ++i)
-            prepared[i] = std::sqrt(std::max(radiance[i], 0.0f) * shares_[i]);
-        std::copy(depth.begin(), depth.end(), prepared.begin() + static_cast<std::ptrdiff_t>(radiance.size()));
+    void prepare(View<const float, 2> radiances, View<const float, 2> depths, View<float, 2> prepared) const override {
+        const std::size_t rays = radiances.extent(1);
+        for (std::size_t hogel = 0; hogel < radiances.extent(0); ++hogel) {
+            for (std::size_t i = 0; i < rays; ++i)
+                prepared(hogel, i) = std::sqrt(std::max(radiances(hogel, i), 0.0f) * shares_[i]);
+            std::copy_n(&depths(hogel, 0), rays, &prepared(hogel, rays));
+        }
     }
 
     void synthesise(std::span<const float> prepared, const HogelPlace& place, View<Complex, 2> hogel) const override {

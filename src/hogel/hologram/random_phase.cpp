@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "hogel/core/random.h"
+#include "hogel/hologram/random_bytes.h"
 
 namespace hogel {
 namespace {
@@ -20,15 +21,26 @@ const std::array<std::complex<float>, 256>& roots_of_unity() {
 
 }  // namespace
 
+void random_bytes_plain(const PhaseSeries& series, std::uint32_t first_draw, std::span<std::uint8_t> bytes) {
+    for (std::size_t i = 0; i < bytes.size(); i += 16) {
+        const auto words = philox({first_draw + static_cast<std::uint32_t>(i / 16), series.position[0],
+                                   series.position[1], series.position[2]},
+                                  series.key);
+        for (std::size_t j = 0; j < std::min<std::size_t>(16, bytes.size() - i); ++j)
+            bytes[i + j] = static_cast<std::uint8_t>(words[j / 4] >> (8 * (j % 4)));
+    }
+}
+
 void spread_random_phases(const PhaseSeries& series, std::span<const float> moduli,
                           std::span<std::complex<float>> values) {
     const auto& roots = roots_of_unity();
-    for (std::size_t i = 0; i < values.size(); i += 16) {
-        const auto words =
-            philox({static_cast<std::uint32_t>(i / 16), series.position[0], series.position[1], series.position[2]},
-                   series.key);
-        for (std::size_t j = 0; j < std::min<std::size_t>(16, values.size() - i); ++j)
-            values[i + j] = moduli[i + j] * roots[words[j / 4] >> (8 * (j % 4)) & 0xff];
+    alignas(64) std::array<std::uint8_t, 1024> bytes;
+    for (std::size_t i = 0; i < values.size(); i += bytes.size()) {
+        const std::size_t n = std::min(bytes.size(), values.size() - i);
+        random_bytes(series, static_cast<std::uint32_t>(i / 16), std::span(bytes).first(n));
+        const float* modulus = &moduli[i];
+        std::complex<float>* value = &values[i];
+        for (std::size_t j = 0; j < n; ++j) value[j] = modulus[j] * roots[bytes[j]];
     }
 }
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "hogel/core/random.h"
+#include "hogel/hologram/random_bytes.h"
+#include "hogel/hologram/unit_roots.h"
 
 namespace hogel {
 namespace {
@@ -24,6 +26,25 @@ TEST(RandomPhase, keeps_moduli_and_takes_phases_from_the_bytes_of_the_draws) {
         const double byte = draw[i % 16 / 4] >> (8 * (i % 4)) & 0xff;
         const auto expected = std::polar(double(i), 2 * std::numbers::pi * byte / 256);
         EXPECT_LT(std::abs(std::complex<double>(values[i]) - expected), 1e-6 * double(i) + 1e-12) << i;
+    }
+}
+
+TEST(RandomBytes, are_the_same_many_draws_at_once) {
+    const PhaseSeries series{{0xdeadbeefu, 0x80000001u}, {5, 0xffffffffu, 13}};
+    for (const std::size_t size : {0, 1, 16, 130, 512, 1000}) {
+        std::vector<std::uint8_t> plain(size), fast(size);
+        random_bytes_plain(series, 3, plain);
+        random_bytes(series, 3, fast);
+        EXPECT_EQ(plain, fast) << size;
+    }
+}
+
+TEST(UnitRoots, are_right_to_half_a_step_for_phases_of_either_sign) {
+    const UnitRoots roots;
+    for (double turns = -20000; turns < 20000; turns += 123.456) {
+        const double angle = 2 * std::numbers::pi * (turns - std::round(turns));
+        EXPECT_LT(std::abs(std::complex<double>(roots(turns)) - std::polar(1.0, angle)), 1e-6 + std::numbers::pi / 4096)
+            << turns;
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "hogel/lightfield/light_field.h"
 #include "hogel/optics/field.h"
@@ -11,6 +12,7 @@ namespace hogel {
 /// How a light field becomes fringes; docs/holograms.md compares them.
 enum class Method {
     fourier,      ///< one FFT a hogel, hogels side by side: [K] (4.2)
+    basis,        ///< a sum of basis fringes a hogel, weighted with the coefficients of a transform: [K] (3.24)
     overlap_add,  ///< a window of at least two hogels' width around each hogel, all added up: Padmanaban et al. 2019
 };
 
@@ -24,6 +26,12 @@ enum class Phases {
     added_exactly,  ///< the same with each ray's own frequency: Kang et al. 2008
 };
 
+/// What is averaged over the directions that a lobe of a hogel lights.
+enum class Average {
+    radiance,   ///< L: the lobe carries all their light
+    amplitude,  ///< √L: linear in amplitudes as basis fringes are, and darker where L varies within a lobe
+};
+
 struct StereogramOptions {
     double wavelength = 633e-9;  ///< metres
     double pitch = 1e-6;         ///< Δ asked for, metres; rounded so that a hogel holds whole samples
@@ -32,12 +40,17 @@ struct StereogramOptions {
     std::uint64_t seed = 1;
     Method method = Method::fourier;
     Phases phases = Phases::random;
+    Average average = Average::radiance;  ///< method fourier; basis averages amplitudes
+    /// Method basis: a name that hogel::transform() knows, or "pieces", Lucente's piecewise constant basis.
+    std::string transform = "cdf97";
+    /// Method basis: the smallest coefficients are left out, as many as carry about this share of a hogel's amplitude.
+    double tolerance = 0;
 };
 
 /// The grid of samples that a stereogram of this light field has: n_Δ = round(d/Δ) samples a hogel in each direction.
 /// Throws Error(usage) when the light field's field of view exceeds the diffraction half-angle asin(λ/2Δ), naming the
 /// pitch that would do; for added phases when the light field has fewer directions than a hogel shows, naming how many
-/// would do; and for a method that does not have these phases.
+/// would do; and for a method that does not have these phases (basis: only those that all hogels share).
 FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOptions& options);
 
 /// Whether this needs the depth of every ray: added phases and overlapping windows do.
@@ -47,5 +60,11 @@ bool needs_depth(const StereogramOptions& options);
 /// The light field must outlive the result. Throws Error(usage) where stereogram_grid does, and where depth is needed
 /// that the light field does not have.
 std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field, const StereogramOptions& options);
+
+/// The stereogram of a light field that is known by coefficients, by method basis. Only those that are not zero cost
+/// anything. The values of the source are not radiances but for each hogel and channel the coefficients of √L, an array
+/// [n_V][n_U] transformed by options.transform in Pyramid::separate with its two axes as one group.
+std::unique_ptr<FieldSource> make_stereogram_of_coefficients(const LightFieldSource& coefficients,
+                                                             const StereogramOptions& options);
 
 }  // namespace hogel

@@ -8,6 +8,7 @@
 #include "hogel/core/error.h"
 #include "hogel/core/units.h"
 #include "hogel/hologram/frequency_grid.h"
+#include "hogel/hologram/lobes.h"
 #include "hogel/optics/photograph.h"
 
 namespace hogel {
@@ -176,6 +177,28 @@ TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
             const double modulus = moduli[std::size_t((32 - j) % 32) * 32 + std::size_t((32 + i) % 32)];
             EXPECT_NEAR(modulus * modulus / (step * step / cosine), 1 + 3 * U - 2 * V, 1e-5) << i << " " << j;
         }
+}
+
+TEST(FrequencyGrid, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) {
+    const LightFieldGrid grid{1, 1, 64_um, 19, 23, 0.14, 0.12, 1};
+    const FrequencyGrid frequencies(grid, 32, 532_nm);
+    const std::size_t hogels = 21;
+    Array<float, 2> radiances({hogels, grid.directions()}), moduli({hogels, 1024}), one({1, 1024});
+    for (std::size_t i = 0; i < radiances.size(); ++i) radiances.data()[i] = float(i * 7919 % 1009) / 1009 - 0.1f;
+    frequencies.amplitudes(radiances, moduli);
+    for (std::size_t h = 0; h < hogels; ++h) {
+        frequencies.amplitudes(radiances[h].elements(), one.elements());
+        for (std::size_t i = 0; i < 1024; ++i) ASSERT_EQ(one.data()[i], moduli(h, i));
+    }
+    Array<float, 2> rays({grid.directions(), hogels_at_once}), plain({3, hogels_at_once}), fast({3, hogels_at_once});
+    for (std::size_t i = 0; i < rays.size(); ++i) rays.data()[i] = float(i * 7919 % 1009) / 1009 - 0.1f;
+    const float weights[] = {0.1f, 0.5f, 0.4f, 0.2f, 0.8f, 1.0f, 1.0f, 0.3f, 0.3f, 0.4f};
+    const FrequencyGrid::Lobe lobes[] = {{5, 3, 2, 3, 2, 0, 1.5f}, {0, 18, 22, 1, 1, 5, 1}, {7, 0, 0, 1, 3, 6, 0.1f}};
+    for (const bool of_roots : {false, true}) {
+        average_lobes_plain(lobes, weights, rays.data(), 19, of_roots, plain.data());
+        average_lobes(lobes, weights, rays.data(), 19, of_roots, fast.data());
+        for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(plain.data()[i], fast.data()[i], 1e-6f) << i;
+    }
 }
 
 }  // namespace

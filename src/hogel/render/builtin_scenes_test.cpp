@@ -25,7 +25,11 @@ LightField render(std::string_view algorithm, std::string_view name, const Light
     const double back = behind ? bounds(scene).high.z + 1_mm : 0;
     for (Mesh& mesh : scene.meshes)
         for (Vec3& position : mesh.positions) position.z -= back;
-    for (Light& light : scene.lights) light.position.z -= back;
+    // Without shadows, which take longer than all the rest, and are the same for all renderers.
+    for (Light& light : scene.lights) {
+        light.position.z -= back;
+        light.casts_shadows = false;
+    }
     const auto shaded = std::make_shared<const ShadedScene>(shade_vertices(scene));
     copy(*make_renderer(algorithm, shaded, grid), light_field);
     return light_field;
@@ -96,7 +100,7 @@ bool near_silhouette(const LightField& light_field, std::size_t t, std::size_t s
 std::vector<Case> showpieces() {
     std::vector<Case> list;
     for (const RendererInfo& renderer : renderers())
-        for (const char* scene : {"pumpkin", "tower"})
+        for (const char* scene : {"pumpkin", "tower", "church", "chandelier", "billiards"})
             if (renderer.name != "raytrace") list.push_back({std::string(renderer.name), scene});
     return list;
 }
@@ -111,10 +115,11 @@ INSTANTIATE_TEST_SUITE_P(Showpieces, TwoWitnesses, ::testing::ValuesIn(showpiece
 // What rays see any other renderer must see.
 TEST_P(TwoWitnesses, agree_away_from_silhouettes) {
     const auto& [algorithm, scene] = GetParam();
-    // The plain algorithms for whole tiles take their time over few hogels.
-    const LightFieldGrid grid = algorithm.starts_with("simplex")
-                                    ? LightFieldGrid{3, 3, size / 30, 32, 32, 0.12, 0.12, 3}
-                                    : LightFieldGrid{6, 6, size / 6, 96, 96, 0.15, 0.15, 3};
+    // Some take their time over few rays.
+    LightFieldGrid grid{5, 5, size / 5, 64, 64, 0.1, 0.1, 3};
+    if (algorithm == "oblique") grid = {5, 5, size / 5, 24, 24, 0.0375, 0.0375, 3};
+    if (algorithm == "simplex3d") grid = {3, 3, size / 30, 24, 24, 0.09, 0.09, 3};
+    if (algorithm == "simplex") grid = {2, 2, size / 20, 8, 8, 0.03, 0.03, 3};
     const bool behind = !straddles(algorithm);
     const LightField rays = render("raytrace", scene, grid, behind), other = render(algorithm, scene, grid, behind);
     std::size_t compared = 0, hits = 0, different = 0;
@@ -135,7 +140,7 @@ TEST_P(TwoWitnesses, agree_away_from_silhouettes) {
                 }
     EXPECT_EQ(different, 0u) << "of " << compared << ", the worst by " << worst;
     EXPECT_GT(hits, compared / 10);
-    EXPECT_GT(compared, grid.hogels() * grid.directions() / 2);
+    EXPECT_GT(compared, grid.hogels() * grid.directions() / 4);
 }
 
 }  // namespace

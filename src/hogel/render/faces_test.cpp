@@ -51,8 +51,13 @@ std::vector<std::string> names() {
     for (const RendererInfo& info : renderers()) list.emplace_back(info.name);
     return list;
 }
+// Names of tests have no hyphens.
+std::string test_name(std::string name) {
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
 INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(names()),
-                         [](const auto& parameter) { return parameter.param; });
+                         [](const auto& parameter) { return test_name(parameter.param); });
 
 const RendererInfo& info(std::string_view name) { return *std::ranges::find(renderers(), name, &RendererInfo::name); }
 

@@ -12,9 +12,9 @@ namespace hogel {
 
 /// A triangle slid along one direction (U, V) into the hologram plane, where the rays of that direction are points.
 ///
-/// The renderers that find samples by other ways than testing each one (`simplex`, `simplex3d`, `oblique`, `mvr`) all
-/// decide here whether a ray meets a triangle and where. The answer depends on the ray and the triangle alone, so it
-/// does not matter which way a sample was found, nor how often, nor in which region.
+/// The renderers that find samples by other ways than testing each one (`simplex`, `simplex-strip`, `simplex3d`,
+/// `oblique`, `mvr`) all decide here whether a ray meets a triangle and where. The answer depends on the ray and the
+/// triangle alone, so it does not matter which way a sample was found, nor how often, nor in which region.
 ///
 /// The edge functions of docs/notation.md section 2 are those of the ray's own frame: E = p_A × p_B with p = (x − Uζ −
 /// s, y − Vζ − t). A rounded difference of two rounded products may vanish but never has the wrong sign, so triangles

@@ -12,6 +12,7 @@
 #include "hogel/render/raytrace_internal.h"
 #include "hogel/render/simplex3d_internal.h"
 #include "hogel/render/simplex_internal.h"
+#include "hogel/render/simplex_strip_internal.h"
 #include "hogel/render/zbuffer_internal.h"
 
 namespace hogel {
@@ -21,7 +22,8 @@ constexpr std::array infos{
     RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)"},
     RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
     RendererInfo{"simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false},
-    RendererInfo{"simplex3d", "the same in three dimensions, for one row of hogels after the other", false},
+    RendererInfo{"simplex-strip", "the same in slices of whole simploids, one row of directions after the other"},
+    RendererInfo{"simplex3d", "the same as simplex in three dimensions, for one row of hogels after the other", false},
     RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
     RendererInfo{"mvr", "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions"},
     RendererInfo{"epi", "epipolar planes: each triangle is set up once for a whole row of hogels"},
@@ -37,6 +39,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
     if (name == "raytrace") return make_raytrace_renderer(std::move(scene), grid);
     if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
     if (name == "simplex") return make_simplex_renderer(std::move(scene), grid);
+    if (name == "simplex-strip") return make_simplex_strip_renderer(std::move(scene), grid);
     if (name == "simplex3d") return make_simplex3d_renderer(std::move(scene), grid);
     if (name == "oblique") return make_oblique_renderer(std::move(scene), grid);
     if (name == "mvr") return make_mvr_renderer(std::move(scene), grid);

@@ -1,0 +1,90 @@
+#include "bench_render.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/render/renderer.h"
+
+namespace hogel::cli {
+namespace {
+
+// A tile is rendered by the thread that asks for it.
+double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double time_of_reading(const LightFieldSource& source, LightFieldTile& tile) {
+    const double began = processor_seconds();
+    source.read(tile);
+    return processor_seconds() - began;
+}
+
+// Seconds a hogel, of hogels spread evenly over the hologram.
+double time_of_hogels(const LightFieldSource& source, double budget) {
+    const LightFieldGrid& grid = source.grid();
+    constexpr std::size_t least = 3, most = 64;
+    double seconds = 0;
+    std::size_t hogels = 0;
+    while (hogels < least || (seconds < budget && hogels < most)) {
+        // The multiples of the inverse powers of the plastic number fill a square evenly.
+        constexpr double plastic = 1.32471795724474602596;
+        const auto place = [&](double step, std::size_t n) {
+            const double part = 0.5 + static_cast<double>(hogels) * step;
+            return std::min(n - 1, static_cast<std::size_t>((part - std::floor(part)) * static_cast<double>(n)));
+        };
+        const HogelRange hogel{place(1 / plastic, grid.hogels_s), place(1 / (plastic * plastic), grid.hogels_t), 1, 1};
+        LightFieldTile tile(grid, hogel, false);
+        seconds += time_of_reading(source, tile);
+        ++hogels;
+    }
+    return seconds / static_cast<double>(hogels);
+}
+
+// What a single hogel will take, guessed from a part of the triangles.
+double expected_seconds(const std::string& algorithm, const ShadedScene& scene, const LightFieldGrid& grid) {
+    constexpr std::size_t part = 64;
+    auto thinned = std::make_shared<ShadedScene>(scene);
+    thinned->triangles.clear();
+    for (std::size_t i = 0; i < scene.triangles.size(); i += part) thinned->triangles.push_back(scene.triangles[i]);
+    const auto source = make_renderer(algorithm, thinned, grid);
+    LightFieldTile tile(grid, {grid.hogels_s / 2, grid.hogels_t / 2, 1, 1}, false);
+    return part * time_of_reading(*source, tile);
+}
+
+}  // namespace
+
+Curve time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
+                   const LightFieldGrid& grid, const RegionLimits& limits) {
+    const auto source = make_renderer(algorithm, scene, grid);
+    const bool hogel_by_hogel = algorithm == "raytrace" || algorithm == "zbuffer";
+    const bool row_by_row = algorithm == "simplex3d" || algorithm == "mvr";
+    const std::size_t largest = std::min({limits.side, grid.hogels_s, grid.hogels_t});
+    Curve curve{algorithm, {}};
+    if (hogel_by_hogel) {
+        const double milliseconds = 1e3 * time_of_hogels(*source, 0.2 * limits.seconds);
+        for (std::size_t side = 1; side <= largest; side *= 2)
+            curve.points.emplace_back(static_cast<double>(side), milliseconds);
+        return curve;
+    }
+    constexpr double patience = 4;
+    if (expected_seconds(algorithm, *scene, grid) > patience * limits.seconds) return curve;
+    double last = 0;
+    for (std::size_t side = 1; side <= largest; side *= 2) {
+        const std::size_t rows = row_by_row ? 1 : side, hogels = side * rows;
+        constexpr double bytes_per_ray = 20, least_growth = 1.5;
+        const double bytes = static_cast<double>(hogels * grid.directions()) * bytes_per_ray;
+        if (bytes > limits.bytes || last * least_growth > limits.seconds) break;
+        LightFieldTile tile(grid, {(grid.hogels_s - side) / 2, (grid.hogels_t - rows) / 2, side, rows}, false);
+        last = time_of_reading(*source, tile);
+        // Short times are uncertain, and the first includes memory that is touched for the first time.
+        if (last < 0.02 * limits.seconds) last = std::min(last, time_of_reading(*source, tile));
+        curve.points.emplace_back(static_cast<double>(side), 1e3 * last / static_cast<double>(hogels));
+    }
+    return curve;
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,209 @@
+// Methods from scenes to fields against each other, and photographs of their holograms against geometry.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+#include "hogel/direct/line_source.h"
+#include "hogel/direct/scene_points_internal.h"
+#include "hogel/optics/photograph.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+using Complex = std::complex<double>;
+
+// A parallelogram of one radiance, two triangles.
+void add_card(ShadedScene& scene, Vec3 corner, Vec3 across, Vec3 up, float radiance) {
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (const Vec3& p : {corner, corner + across, corner + across + up, corner + up}) {
+        scene.positions.push_back(p);
+        scene.radiance.push_back({radiance, radiance, radiance});
+    }
+    scene.texture_coordinates.resize(scene.positions.size());
+    const std::uint32_t mesh = first / 4;
+    scene.triangles.push_back({{first, first + 1, first + 2}, ShadedScene::no_texture, mesh});
+    scene.triangles.push_back({{first, first + 2, first + 3}, ShadedScene::no_texture, mesh});
+}
+
+ShadedScene card_at(double depth, double half, float radiance = 1, double slope = 0) {
+    ShadedScene scene;
+    add_card(scene, {-half, -half, -depth + slope * half}, {2 * half, 0, -2 * half * slope}, {0, 2 * half, 0},
+             radiance);
+    return scene;
+}
+
+double difference(const Field& a, const Field& b) {
+    double error = 0, energy = 0;
+    for (std::size_t i = 0; i < a.samples.size(); ++i) {
+        error += std::norm(a.samples.data()[i] - b.samples.data()[i]);
+        energy += std::norm(a.samples.data()[i]);
+    }
+    return std::sqrt(error / energy);
+}
+
+const FieldGrid small{{96, 80, 2_um, 2_um, 0, 0}, 633_nm};
+
+Field make(std::string_view method, const ShadedScene& scene, const FieldGrid& grid,
+           const SceneHologramOptions& options = {}) {
+    return find_scene_method(method)->make(scene, grid, options, {});
+}
+
+TEST(TiledPoints, are_the_exact_sum_wherever_the_expansion_holds_and_elsewhere) {
+    SceneHologramOptions options;
+    options.spacing = 20_um;
+    for (const double depth : {2_mm, -0.8_mm, 120_um}) {
+        const ShadedScene scene = card_at(depth, 0.07_mm, 1, 0.15);
+        const Field exact = make("points-visible", scene, small, options);
+        EXPECT_LT(difference(exact, make("points-tiled", scene, small, options)), 0.02) << depth;
+        // A card hides nothing of itself.
+        EXPECT_LT(difference(exact, make("points", scene, small, options)), 1e-6);
+    }
+}
+
+TEST(LineSource, is_the_sum_of_its_points) {
+    for (const double side : {1.0, -1.0}) {
+        LineSource line{{-0.1_mm, 0.05_mm, -side * 2_mm}, {0.12_mm, -0.04_mm, -side * 2.03_mm}, 0.7, -0.12, 0.3};
+        const double size = length(line.b - line.a);
+        double error = 0, energy = 0;
+        for (double x = -0.2_mm; x < 0.2_mm; x += 7_um)
+            for (double y = -0.15_mm; y < 0.15_mm; y += 11_um) {
+                constexpr int steps = 4000;
+                Complex sum = 0;
+                for (int i = 0; i < steps; ++i) {
+                    const double l = (i + 0.5) / steps * size;
+                    const double r = length(Vec3{x, y, 0} - line.a - l / size * (line.b - line.a));
+                    sum += std::polar(0.7 / r * size / steps,
+                                      side * 2 * std::numbers::pi * ((r + line.slope * l) / 633e-9 + side * 0.3));
+                }
+                error += std::norm(sum - line_wave(line, {x, y, 0}, 633_nm));
+                energy += std::norm(sum);
+            }
+        EXPECT_LT(std::sqrt(error / energy), 0.05) << side;
+    }
+}
+
+// Photographs with a wide lens, so that what is out of focus is blurred and what is hidden is found out.
+Image photo(const Field& field, double focus, const Grid& picture) {
+    Camera camera;
+    camera.eye = {0, 0, 40_mm};
+    camera.pupil = 3_mm;
+    camera.focus_depth = focus;
+    camera.picture = picture;
+    return photograph(field, std::span(&camera, 1))[0];
+}
+
+double mean(const Image& image) {
+    double sum = 0;
+    for (const float value : image.pixels.elements()) sum += value;
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+class SurfaceMethod : public testing::TestWithParam<const char*> {};
+
+// A diffuse card is as bright as its radiance says, behind the hologram and in front of it, straight and tilted.
+TEST_P(SurfaceMethod, shows_a_card_as_bright_as_it_is) {
+    const std::string method = GetParam();
+    const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};
+    SceneHologramOptions options;
+    options.planes = 4;
+    // Lines of the hologram light the whole lens if they are low enough.
+    options.spacing = method == "points-hpo" ? 5_um : 24_um;
+    for (const double depth : {1.2_mm, -1.2_mm})
+        for (const double slope : {0.0, 0.15}) {
+            const Field field = make(method, card_at(depth, 0.14_mm, 2, slope), grid, options);
+            const Grid inside{4, 4, 40_um, 40_um, 0, 0};
+            EXPECT_NEAR(mean(photo(field, depth, inside)), 2, 0.35) << depth << " " << slope;
+            // Beside the card there is nothing.
+            EXPECT_LT(mean(photo(field, depth, {1, 4, 20_um, 40_um, 0.185_mm, 0})), 0.2) << depth << " " << slope;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, SurfaceMethod,
+                         testing::Values("points-visible", "points-tiled", "points-hpo", "fresnel", "planes",
+                                         "polygons", "polygons-visible"));
+
+class HidingMethod : public testing::TestWithParam<const char*> {};
+
+// A dark card hides the left half of a bright one; without occlusion the bright one shines through.
+TEST_P(HidingMethod, hides_what_lies_behind) {
+    const std::string method = GetParam();
+    const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};
+    ShadedScene scene = card_at(1.6_mm, 0.16_mm, 1);
+    add_card(scene, {-0.16_mm, -0.16_mm, -0.8_mm}, {0.16_mm, 0, 0}, {0, 0.32_mm, 0}, 0.0f);
+    SceneHologramOptions options;
+    options.planes = 3;
+    options.spacing = method == "points-hpo" ? 5_um : 30_um;
+    const Field field = make(method, scene, grid, options);
+    const double left = mean(photo(field, 0.8_mm, {1, 3, 40_um, 60_um, -70_um, 0}));
+    const double right = mean(photo(field, 1.6_mm, {1, 3, 40_um, 60_um, 80_um, 0}));
+    EXPECT_NEAR(right, 1, 0.3);
+    const bool hides = method != "points" && method != "polygons";
+    EXPECT_TRUE(hides ? left < 0.15 : left > 0.5) << left;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, HidingMethod,
+                         testing::Values("points", "points-visible", "points-tiled", "points-hpo", "planes", "polygons",
+                                         "polygons-visible"));
+
+class EdgeMethod : public testing::TestWithParam<const char*> {};
+
+TEST_P(EdgeMethod, shows_a_card_by_its_outline) {
+    const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};
+    SceneHologramOptions options;
+    options.spacing = 5_um;
+    const Field field = make(GetParam(), card_at(1.5_mm, 0.1_mm), grid, options);
+    const double edge = mean(photo(field, 1.5_mm, {1, 4, 16_um, 30_um, 0.1_mm, 0}));
+    EXPECT_GT(edge, 5 * mean(photo(field, 1.5_mm, {4, 4, 25_um, 25_um, 0, 0})));
+    EXPECT_GT(edge, 5 * mean(photo(field, 1.5_mm, {1, 4, 16_um, 30_um, 0.16_mm, 0})));
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EdgeMethod, testing::Values("edges", "lines"));
+
+TEST(Fresnel, of_a_small_patch_is_the_sum_of_its_points_and_so_is_fraunhofer) {
+    // One sample of the plane's own grid, 633 nm · 4 mm / (128 · 2 µm) wide, in the middle of its cell.
+    const FieldGrid grid{{128, 128, 2_um, 2_um, 0, 0}, 633_nm};
+    const double pitch = 633e-9 * 4e-3 / (128 * 2e-6);
+    ShadedScene scene;
+    add_card(scene, {0.1 * pitch, 0.1 * pitch, -4_mm}, {0.8 * pitch, 0, 0}, {0, 0.8 * pitch, 0}, 1);
+    const Vec3 at{0.5 * pitch, 0.5 * pitch, -4_mm};
+    for (const char* method : {"fresnel", "fraunhofer"}) {
+        const Field field = make(method, scene, grid);
+        Complex product = 0;
+        double energy = 0, other = 0;
+        for (std::size_t row = 0; row < 128; ++row)
+            for (std::size_t column = 0; column < 128; ++column) {
+                const double r = length(Vec3{grid.plane.x(double(column)), grid.plane.y(double(row)), 0} - at);
+                const Complex value = field.samples(row, column);
+                product += value * std::polar(1.0 / r, -2 * std::numbers::pi * r / 633e-9);
+                energy += std::norm(value);
+                other += 1 / (r * r);
+            }
+        EXPECT_NEAR(std::norm(product) / (energy * other), 1, 0.01) << method;
+        // √L λ/δ · δ²/(λ r): the sample's whole cell shines.
+        EXPECT_NEAR(std::sqrt(energy / other), pitch, 0.01 * pitch);
+    }
+}
+
+TEST(SceneMethods, refuse_what_they_cannot_do) {
+    const auto message = [](const char* method, const ShadedScene& scene) -> std::string {
+        try {
+            make(method, scene, small);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(message("fresnel", card_at(0.5_mm, 0.1_mm)).find("expected a depth of"), std::string::npos);
+    EXPECT_NE(message("fresnel", card_at(0, 0.1_mm)).find("lies on the hologram"), std::string::npos);
+    EXPECT_NE(message("fraunhofer", card_at(5_mm, 0.1_mm)).find("is in the far field from"), std::string::npos);
+    EXPECT_EQ(find_scene_method("wavy"), nullptr);
+}
+
+}  // namespace
+}  // namespace hogel

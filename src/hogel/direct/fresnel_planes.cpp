@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/error.h"
+#include "hogel/core/units.h"
+#include "hogel/direct/depth_planes_internal.h"
+#include "hogel/math/fft.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+Complex unit(double turns) { return Complex(std::polar(1.0, 2 * std::numbers::pi * (turns - std::round(turns)))); }
+
+// [K] (3.13): the field of a plane at depth R on the hologram by one transform, which fixes the plane's pitch
+// δ = λ|R|/(nΔ). With `far` [K] (3.10), which leaves out the curvature of the object's own points.
+class PlaneTransform {
+  public:
+    PlaneTransform(const FieldGrid& hologram, double depth, bool far)
+        : hologram_(hologram), depth_(depth), far_(far), fft_(hologram.plane.height, hologram.plane.width) {
+        const Grid& plane = hologram.plane;
+        const double reach = hologram.wavelength * std::abs(depth);
+        object_ = {plane.width,
+                   plane.height,
+                   reach / (static_cast<double>(plane.width) * plane.pitch_x),
+                   reach / (static_cast<double>(plane.height) * plane.pitch_y),
+                   plane.center_x,
+                   plane.center_y};
+    }
+    const Grid& object() const { return object_; }
+
+    void add(View<Complex, 2> light, View<Complex, 2> field) const {
+        const Grid& plane = hologram_.plane;
+        const double sign = depth_ > 0 ? 1 : -1, k = 1 / hologram_.wavelength;
+        // x_s x_h/λ|R| = (m − c)(n − c)/N with c = (N−1)/2, so the transform's own m n/N needs these besides.
+        const auto shift = [](double index, std::size_t count) {
+            const double n = static_cast<double>(count), c = 0.5 * (n - 1);
+            return (c * index - 0.5 * c * c) / n;
+        };
+        const auto curved = [&](double x, double y) { return 0.5 * k * (x * x + y * y) / depth_; };
+        for (std::size_t row = 0; row < light.extent(0); ++row)
+            for (std::size_t column = 0; column < light.extent(1); ++column) {
+                const double i = static_cast<double>(column), j = static_cast<double>(row);
+                double turns = sign * (shift(i, plane.width) + shift(j, plane.height));
+                if (!far_) turns += curved(object_.x(i) - object_.center_x, object_.y(j) - object_.center_y);
+                light(row, column) *= unit(turns);
+            }
+        depth_ > 0 ? fft_.forward(light) : fft_.backward(light);
+        const double scale = object_.pitch_x * object_.pitch_y / (hologram_.wavelength * std::abs(depth_));
+        for (std::size_t row = 0; row < field.extent(0); ++row)
+            for (std::size_t column = 0; column < field.extent(1); ++column) {
+                const double i = static_cast<double>(column), j = static_cast<double>(row);
+                // e^{ikR}/(iλR)
+                const double turns = k * depth_ - 0.25 * sign +
+                                     sign * (shift(i, plane.width) + shift(j, plane.height)) +
+                                     curved(plane.x(i) - plane.center_x, plane.y(j) - plane.center_y);
+                field(row, column) += static_cast<float>(scale) * light(row, column) * unit(turns);
+            }
+    }
+
+  private:
+    FieldGrid hologram_;
+    double depth_;
+    bool far_;
+    Grid object_;
+    Fft2 fft_;
+};
+
+// Half the width of a scene around the hologram's middle, and its reach from there.
+struct Reach {
+    double x = 0, y = 0, corner = 0;
+};
+Reach reach_of(const ShadedScene& scene, const Grid& plane, const Slice& slice) {
+    Reach reach;
+    for (const ShadedScene::Triangle& triangle : scene.triangles)
+        for (const std::uint32_t vertex : triangle.vertices) {
+            const Vec3& p = scene.positions[vertex];
+            if (-p.z < slice.near || -p.z > slice.far) continue;
+            const double x = std::abs(p.x - plane.center_x), y = std::abs(p.y - plane.center_y);
+            reach = {std::max(reach.x, x), std::max(reach.y, y), std::max(reach.corner, std::hypot(x, y))};
+        }
+    return reach;
+}
+
+// A plane's pictures repeat at a distance of λR/Δ, where a wider scene would overlap itself.
+void require_room(const Reach& reach, const Grid& object, double depth) {
+    const double wider = std::max(2 * reach.x / object.size_x(), 2 * reach.y / object.size_y());
+    if (wider <= 1) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("a plane at a depth of {} has room for {}x{}, and the scene is {}x{} there; expected a "
+                            "depth of {} or more, or a pitch {:.2g} times finer",
+                            format_length(std::abs(depth)), format_length(object.size_x()),
+                            format_length(object.size_y()), format_length(2 * reach.x), format_length(2 * reach.y),
+                            format_length(std::abs(depth) * wider), wider));
+}
+
+Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vector<Slice>& slices, bool far,
+                 const SceneHologramOptions& options, const Progress& progress) {
+    validate(grid, ErrorCode::usage, "hologram");
+    Field field(grid);
+    const SliceDrawing drawing(scene);
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+        report(progress, static_cast<double>(i) / static_cast<double>(slices.size()));
+        // The plane itself has no distance to go.
+        const double depth = slices[i].depth();
+        if (std::abs(depth) < nearest_depth(grid))
+            throw Error(ErrorCode::usage,
+                        fmt::format("a plane of the scene lies on the hologram; expected at least {} between them",
+                                    format_length(nearest_depth(grid))));
+        const PlaneTransform transform(grid, depth, far);
+        require_room(reach_of(scene, grid.plane, slices[i]), transform.object(), depth);
+        SliceDrawing::Drawn drawn = drawing.draw(slices[i], transform.object(), grid.wavelength, options);
+        if (!drawn.empty) transform.add(drawn.light, field.samples);
+    }
+    report(progress, 1);
+    return field;
+}
+
+}  // namespace
+
+// Depth planes, added up without occlusion ([K] fig. 3.7).
+Field fresnel_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
+                     const Progress& progress) {
+    return add_planes(scene, grid, slices_of(scene, options.planes), false, options, progress);
+}
+
+// One plane, so far away or so small that it is flat to the hologram, [K] (3.7): here, to an eighth of a wavelength.
+Field fraunhofer_plane(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
+                       const Progress& progress) {
+    const std::vector<Slice> slices = slices_of(scene, 1);
+    const double corner = reach_of(scene, grid.plane, slices[0]).corner;
+    const double needed = 4 * corner * corner / grid.wavelength;
+    if (std::abs(slices[0].depth()) < needed)
+        throw Error(ErrorCode::usage,
+                    fmt::format("an object that reaches {} from the axis is in the far field from {} on, not at {}",
+                                format_length(corner), format_length(needed), format_length(slices[0].depth())));
+    return add_planes(scene, grid, slices, true, options, progress);
+}
+
+}  // namespace hogel

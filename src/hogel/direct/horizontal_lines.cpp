@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/direct/scene_points_internal.h"
+
+namespace hogel {
+
+// Horizontal parallax only, [K] 3.5: the hologram is cut into lines as high as the points' spacing, and each gets the
+// light of the slice of the scene at its own height alone, as if the world were flat. A line is the same along its
+// height Ξ, so its light fans out vertically over about λ/Ξ, as sinc². In the middle a point of the radiance L shows L
+// if its wave in the line has a² = L λ w/Ξ at unit distance and falls off as 1/√r, w its width.
+Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
+                       const Progress& progress) {
+    validate(grid, ErrorCode::usage, "hologram");
+    const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(options.spacing / grid.plane.pitch_y)));
+    const double height = static_cast<double>(rows) * grid.plane.pitch_y;
+    const std::size_t lines = (grid.plane.height + rows - 1) / rows;
+    std::vector<std::vector<ScenePoint>> slices(lines);
+    for (const ScenePoint& point : surface_points(scene, grid, options)) {
+        const double line = std::floor((grid.plane.row(point.position.y) + 0.5) / static_cast<double>(rows));
+        if (line >= 0 && line < static_cast<double>(lines)) slices[static_cast<std::size_t>(line)].push_back(point);
+    }
+    const Visibility visibility(scene);
+    Field field(grid);
+    report(progress, 0);
+    parallel_for(lines, [&](std::size_t line) {
+        std::vector<std::complex<float>> values(grid.plane.width);
+        for (std::size_t column = 0; column < values.size(); ++column) {
+            std::complex<double> sum = 0;
+            for (const ScenePoint& point : slices[line]) {
+                const Vec3 place{grid.plane.x(static_cast<double>(column)), point.position.y, 0};
+                const auto ray = passage(point.position, place, grid);
+                if (!ray || !visibility.sees(point.surface, ray->way)) continue;
+                const double turns = ray->path / grid.wavelength + point.turns;
+                sum += std::polar(modulus(point, *ray) * std::sqrt(grid.wavelength * std::abs(ray->path)) / height,
+                                  2 * std::numbers::pi * (turns - std::round(turns)));
+            }
+            values[column] = std::complex<float>(sum);
+        }
+        for (std::size_t row = line * rows; row < std::min((line + 1) * rows, grid.plane.height); ++row)
+            std::ranges::copy(values, &field.samples(row, 0));
+    });
+    report(progress, 1);
+    return field;
+}
+
+}  // namespace hogel

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <complex>
+
+#include "hogel/math/vec.h"
+
+namespace hogel {
+
+/// A line that shines as one, with a phase that runs along it.
+struct LineSource {
+    Vec3 a, b;             ///< both behind the hologram or both in front of it, metres
+    double amplitude = 1;  ///< of the spherical waves a metre of it sends out, at unit distance
+    double slope = 0;  ///< of the phase: its light leaves, or in front of the hologram meets, at the angle acos to the
+                       ///< line, −1 < slope < 1
+    double turns = 0;  ///< phase at a
+};
+
+/// The wave of a line at a place on the hologram, ∫ amplitude · e^{±ik(r + slope·l)}/r dl, in closed form: the path to
+/// second order around where it is stationary, which leaves a Fresnel integral. Source: Frère, Leseberg and Bryngdahl,
+/// "Computer-generated holograms of three-dimensional objects composed of line segments", JOSA A 3, 1986.
+std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavelength);
+
+}  // namespace hogel

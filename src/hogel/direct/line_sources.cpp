@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "hogel/direct/line_source.h"
+#include "hogel/direct/scene_points_internal.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<double>;
+
+// ∫₀^w e^{iπt²/2} dt: power series for small w, a continued fraction for the rest. Sources: Abramowitz and Stegun 7.3;
+// the fraction is that of erfc.
+Complex fresnel_integral(double w) {
+    const double x = std::abs(w);
+    Complex value;
+    if (x < 1.6) {
+        // Σ (iπ/2)^n w^{2n+1} / (n! (2n+1))
+        Complex term = x;
+        const Complex factor(0, 0.5 * std::numbers::pi * x * x);
+        for (int n = 0; n < 60; ++n) {
+            value += term / double(2 * n + 1);
+            term *= factor / double(n + 1);
+        }
+    } else {
+        // (1+i)/2 · erf z, z = (1−i)√π x/2; erfc z = e^{−z²}/√π · 1/(z + (1/2)/(z + 1/(z + (3/2)/(z + …))))
+        const Complex z = 0.5 * std::sqrt(std::numbers::pi) * x * Complex(1, -1);
+        Complex fraction = z;
+        for (int n = 60; n > 0; --n) fraction = z + 0.5 * n / fraction;
+        const Complex erfc = std::polar(1.0, 0.5 * std::numbers::pi * x * x) / (std::sqrt(std::numbers::pi) * fraction);
+        value = Complex(0.5, 0.5) * (1.0 - erfc);
+    }
+    return w < 0 ? -value : value;
+}
+
+}  // namespace
+
+std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavelength) {
+    const Vec3 along = line.b - line.a;
+    const double size = length(along);
+    const Vec3 t = along / size;
+    // Where the light is that reaches the place: at a fixed angle to the line, whose cosine is the phase's slope.
+    const double foot = dot(place - line.a, t), distance = length(place - line.a - foot * t);
+    const double slope = line.slope, sine = std::sqrt(1 - slope * slope);
+    const bool behind = line.a.z < 0;
+    const double at = foot - slope * distance / sine, path = distance / sine;
+    const double scale = sine * std::sqrt(2 / (wavelength * path));
+    const Complex part = fresnel_integral((size - at) * scale) - fresnel_integral(-at * scale);
+    const double turns = (path + slope * at) / wavelength;
+    const Complex wave = std::polar(line.amplitude * std::sqrt(0.5 * wavelength / path) / sine,
+                                    2 * std::numbers::pi * (turns - std::round(turns))) *
+                         part;
+    // In front of the hologram light still runs towards the line.
+    return std::polar(1.0, 2 * std::numbers::pi * line.turns) * (behind ? wave : std::conj(wave));
+}
+
+// Edges as lines that shine as a whole, each in the phase that sends its light straight ahead. A line of length l and
+// radiance L, as wide as the points' spacing w, has the energy at the hologram of as many independent points.
+Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
+                   const Progress& progress) {
+    std::vector<LineSource> lines;
+    std::uint32_t number = 0;
+    for (const SceneEdge& edge : scene_edges(scene, options)) {
+        const double nearest = nearest_depth(grid);
+        // The parts behind and before the plane.
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 a = edge.a, b = edge.b;
+            if (side * a.z > side * b.z) std::swap(a, b);
+            if (side * b.z <= nearest) continue;
+            if (side * a.z < nearest) a = b + (side * nearest - b.z) / (a.z - b.z) * (a - b);
+            const double size = length(b - a), cosine = std::abs(b.z - a.z) / size;
+            const double middle = 0.5 * std::abs(a.z + b.z);
+            // Seen from its end a line is a point.
+            if (!(size > 0) || cosine > 0.95) continue;
+            LineSource line{a, b};
+            line.slope = -side * (b.z - a.z) / size;
+            line.amplitude = std::sqrt(edge.radiance * options.spacing * size / (grid.wavelength * middle));
+            line.turns = random_turns(options, number++, 0, 0xfffffffe);
+            lines.push_back(line);
+        }
+    }
+    return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
+        for (std::size_t row = 0; row < region.height; ++row)
+            for (std::size_t column = 0; column < region.width; ++column) {
+                const Vec3 place{grid.plane.x(static_cast<double>(region.x0 + column)),
+                                 grid.plane.y(static_cast<double>(region.y0 + row)), 0};
+                std::complex<double> sum = 0;
+                for (const LineSource& line : lines) {
+                    const Vec3 nearest = line.a + std::clamp(dot(place - line.a, line.b - line.a) /
+                                                                 dot(line.b - line.a, line.b - line.a),
+                                                             0.0, 1.0) *
+                                                      (line.b - line.a);
+                    if (passage(nearest, place, grid)) sum += line_wave(line, place, grid.wavelength);
+                }
+                values(row, column) = std::complex<float>(sum);
+            }
+    });
+}
+
+}  // namespace hogel

@@ -1,0 +1,35 @@
+#include <cmath>
+
+#include "hogel/direct/depth_planes_internal.h"
+#include "hogel/optics/spectrum.h"
+
+namespace hogel {
+
+// Depth planes from the farthest to the nearest: the light of those behind comes to each plane by the angular spectrum,
+// is stopped where there is something, and what shines there is added. Source: Ichioka, Izumi and Suzuki, "Scanning
+// halftone plotter and computer-generated continuous-tone hologram", Applied Optics 10, 1971, as [K] 3.4.2 tells it;
+// with the angular spectrum in place of (3.13) it holds at any distance, in front of the hologram too.
+Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
+                       const Progress& progress) {
+    validate(grid, ErrorCode::usage, "hologram");
+    const SliceDrawing drawing(scene);
+    const std::vector<Slice> slices = slices_of(scene, options.planes);
+    Field field(grid);
+    double depth = 0;
+    bool dark = true;
+    for (std::size_t i = slices.size(); i-- > 0;) {
+        report(progress, 1 - static_cast<double>(i + 1) / static_cast<double>(slices.size()));
+        const SliceDrawing::Drawn drawn = drawing.draw(slices[i], grid.plane, grid.wavelength, options);
+        if (drawn.empty) continue;
+        if (!dark) field = propagate(field, depth - slices[i].depth());
+        depth = slices[i].depth();
+        dark = false;
+        for (std::size_t j = 0; j < field.samples.size(); ++j)
+            field.samples.data()[j] = drawn.solid.data()[j] > 0 ? drawn.light.data()[j] : field.samples.data()[j];
+    }
+    if (!dark) field = propagate(field, depth);
+    report(progress, 1);
+    return field;
+}
+
+}  // namespace hogel

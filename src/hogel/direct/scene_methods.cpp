@@ -1,0 +1,30 @@
+#include <algorithm>
+#include <array>
+
+#include "hogel/direct/scene_points_internal.h"
+
+namespace hogel {
+
+std::span<const SceneMethod> scene_methods() {
+    static constexpr std::array<SceneMethod, 11> methods{{
+        {"points", "spherical waves of points on all surfaces, exact, without occlusion", exact_points},
+        {"points-visible", "the same with a ray for each point and sample", exact_visible_points},
+        {"points-tiled", "points with occlusion, by tiles and a table", tiled_points},
+        {"points-hpo", "horizontal parallax only: lines of the hologram, each of its own height", horizontal_lines},
+        {"edges", "points along edges, without occlusion", points_along_edges},
+        {"lines", "edges as line sources, in closed form, without occlusion", line_sources},
+        {"fraunhofer", "one far plane, one transform", fraunhofer_plane},
+        {"fresnel", "depth planes, one transform each, without occlusion", fresnel_planes},
+        {"planes", "depth planes from back to front, each hiding those behind it", occluding_planes},
+        {"polygons", "tilted polygons, turned in frequency space, without occlusion", tilted_polygons},
+        {"polygons-visible", "the same from back to front, each hiding those behind it", occluding_polygons},
+    }};
+    return methods;
+}
+
+const SceneMethod* find_scene_method(std::string_view name) {
+    const auto found = std::ranges::find(scene_methods(), name, &SceneMethod::name);
+    return found == scene_methods().end() ? nullptr : &*found;
+}
+
+}  // namespace hogel

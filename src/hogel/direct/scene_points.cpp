@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <utility>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/random.h"
+#include "hogel/direct/scene_points_internal.h"
+
+namespace hogel {
+namespace {
+
+float channel_of(Rgb colour, std::size_t channel) {
+    return channel == 0 ? colour.r : channel == 1 ? colour.g : colour.b;
+}
+
+Vec3 away_from_plane(Vec3 point, double depth) {
+    if (std::abs(point.z) < depth) point.z = std::copysign(depth, point.z);
+    return point;
+}
+
+std::array<Vec3, 3> corners(const ShadedScene& scene, const ShadedScene::Triangle& triangle) {
+    return {scene.positions[triangle.vertices[0]], scene.positions[triangle.vertices[1]],
+            scene.positions[triangle.vertices[2]]};
+}
+
+constexpr double crease_cosine = 0.8660254037844387;
+
+}  // namespace
+
+double nearest_depth(const FieldGrid& grid) { return 8 * grid.plane.pitch_x * grid.plane.pitch_y / grid.wavelength; }
+
+double random_turns(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return philox({a, b, c, static_cast<std::uint32_t>(options.channel)},
+                  {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)})[0] /
+           4294967296.0;
+}
+
+std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid& grid,
+                                       const SceneHologramOptions& options) {
+    std::vector<ScenePoint> points;
+    const Sight sight{{0, 0, 1}, options.spacing};
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const auto [a, b, c] = corners(scene, scene.triangles[i]);
+        const Vec3 across = cross(b - a, c - a);
+        const double area = 0.5 * length(across);
+        if (!(area > 0)) continue;
+        // Cut in n² triangles of the same shape, each a point in its middle.
+        const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+        const auto n = static_cast<std::uint32_t>(std::max(1.0, std::ceil(longest / options.spacing)));
+        const double cut = n;
+        for (std::uint32_t row = 0; row < n; ++row)
+            for (std::uint32_t column = 0; column < 2 * (n - row) - 1; ++column) {
+                // Even columns stand upright, odd ones on their heads.
+                const double third = column % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+                const double u = (column / 2 + third) / cut, v = (row + third) / cut;
+                const float radiance = channel_of(radiance_at(scene, i, static_cast<float>(1 - u - v),
+                                                              static_cast<float>(u), static_cast<float>(v), sight),
+                                                  options.channel);
+                if (!(radiance > 0)) continue;
+                const Vec3 at = a + u * (b - a) + v * (c - a);
+                points.push_back({away_from_plane(at, nearest_depth(grid)), at, across / (2 * area),
+                                  static_cast<float>(std::sqrt(radiance * area)) / float(n),
+                                  random_turns(options, static_cast<std::uint32_t>(i), row, column)});
+            }
+    }
+    return points;
+}
+
+std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologramOptions& options) {
+    // Vertices of different triangles may lie in one place.
+    std::map<std::tuple<double, double, double>, std::uint32_t> places;
+    const auto place = [&](Vec3 p) {
+        return places.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size())).first->second;
+    };
+    struct Side {
+        std::size_t triangle;
+        int edge;
+        Vec3 normal;
+        bool plain;
+    };
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Side> sides;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const std::array<Vec3, 3> p = corners(scene, scene.triangles[i]);
+        const Vec3 across = cross(p[1] - p[0], p[2] - p[0]);
+        if (!(length(across) > 0)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t from = place(p[k]), to = place(p[(k + 1) % 3]);
+            const auto [at, first] = sides.try_emplace(std::minmax(from, to), Side{i, k, normalize(across), false});
+            if (first) continue;
+            at->second.plain = std::abs(dot(at->second.normal, normalize(across))) > crease_cosine &&
+                               scene.triangles[at->second.triangle].mesh == scene.triangles[i].mesh;
+        }
+    }
+    std::vector<SceneEdge> edges;
+    for (const auto& [key, side] : sides) {
+        if (side.plain) continue;
+        const std::array<Vec3, 3> p = corners(scene, scene.triangles[side.triangle]);
+        std::array<float, 3> weights{0.5f, 0.5f, 0.5f};
+        weights[static_cast<std::size_t>(side.edge + 2) % 3] = 0;
+        const Rgb colour = radiance_at(scene, side.triangle, weights[0], weights[1], weights[2]);
+        edges.push_back({p[side.edge], p[(side.edge + 1) % 3], channel_of(colour, options.channel)});
+    }
+    return edges;
+}
+
+std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& grid,
+                                    const SceneHologramOptions& options) {
+    std::vector<ScenePoint> points;
+    std::uint32_t number = 0;
+    for (const SceneEdge& edge : scene_edges(scene, options)) {
+        const double along = length(edge.b - edge.a), steps = std::max(1.0, std::round(along / options.spacing));
+        for (double i = 0; i < steps; ++i) {
+            const Vec3 at = edge.a + (i + 0.5) / steps * (edge.b - edge.a);
+            const double area = along / steps * options.spacing;
+            points.push_back({away_from_plane(at, nearest_depth(grid)),
+                              at,
+                              {},
+                              static_cast<float>(std::sqrt(edge.radiance * area)),
+                              random_turns(options, number++, 0, 0xffffffff)});
+        }
+    }
+    return points;
+}
+
+Passage unlimited_passage(Vec3 point, Vec3 place) {
+    const Vec3 way = point.z < 0 ? place - point : point - place;
+    const double distance = length(way);
+    return {point.z < 0 ? distance : -distance, way / distance};
+}
+
+bool too_steep(const Passage& passage, const FieldGrid& grid) {
+    return std::abs(passage.way.x) * 2 * grid.plane.pitch_x > grid.wavelength ||
+           std::abs(passage.way.y) * 2 * grid.plane.pitch_y > grid.wavelength;
+}
+
+std::optional<Passage> passage(Vec3 point, Vec3 place, const FieldGrid& grid) {
+    const Passage passage = unlimited_passage(point, place);
+    if (too_steep(passage, grid)) return {};
+    return passage;
+}
+
+double modulus(const ScenePoint& point, const Passage& passage) {
+    const double cosine = point.normal == Vec3{} ? 1 : std::abs(dot(point.normal, passage.way));
+    return point.amplitude * std::sqrt(cosine) / std::abs(passage.path);
+}
+
+Visibility::Visibility(const ShadedScene& scene)
+    : caster_(scene.positions, [&] {
+          std::vector<std::array<std::uint32_t, 3>> triangles;
+          for (const ShadedScene::Triangle& triangle : scene.triangles) triangles.push_back(triangle.vertices);
+          return triangles;
+      }()) {
+    Vec3 low, high;
+    for (const Vec3& p : scene.positions) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const double size = length(high - low);
+    margin_ = 1e-4 * size;
+    far_ = 1e3 * size;
+}
+
+Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
+                     const std::function<void(const Region&, View<std::complex<float>, 2>)>& add) {
+    constexpr std::size_t side = 32;
+    validate(grid, ErrorCode::usage, "hologram");
+    Field field(grid);
+    const std::size_t across = (grid.plane.width + side - 1) / side, down = (grid.plane.height + side - 1) / side;
+    std::mutex reporting;
+    std::size_t done = 0;
+    report(progress, 0);
+    parallel_for(across * down, [&](std::size_t i) {
+        Region region{i % across * side, i / across * side, side, side};
+        region.width = std::min(side, grid.plane.width - region.x0);
+        region.height = std::min(side, grid.plane.height - region.y0);
+        Array<std::complex<float>, 2> values({region.height, region.width});
+        add(region, values);
+        field.write(region, values);
+        const std::lock_guard lock(reporting);
+        report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
+    });
+    return field;
+}
+
+}  // namespace hogel

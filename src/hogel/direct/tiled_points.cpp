@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/direct/scene_points_internal.h"
+#include "hogel/hologram/unit_roots.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t side = 32;           // of a tile
+constexpr double most_turns_wrong = 0.01;  // a quarter of a degree in the mean
+
+// How much of a tile a point's light reaches.
+enum class Zone { dark, edge, lit };
+
+// e^{2πi (a t + b t²)} at t = −(n−1)/2 … (n−1)/2 pitches, as real and imaginary parts.
+struct Chirp {
+    std::array<float, side> real{}, imaginary{};
+
+    Chirp(const UnitRoots& roots, double first_order, double second_order, std::size_t n, double pitch) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const double t = (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * pitch;
+            const std::complex<float> root = roots(t * (first_order + second_order * t));
+            real[i] = root.real();
+            imaginary[i] = root.imag();
+        }
+    }
+};
+
+// A point's wave over one tile, by the expansion of its path around the tile's middle to second order without the mixed
+// term: a product of a function of the column and one of the row, both from a table of unit roots.
+class Tile {
+  public:
+    Tile(const UnitRoots& roots, const FieldGrid& grid, const Region& region)
+        : roots_(roots), grid_(grid), region_(region) {
+        const Grid cut = part(grid.plane, region);
+        middle_ = {cut.center_x, cut.center_y, 0};
+        reach_x_ = 0.5 * cut.size_x();
+        reach_y_ = 0.5 * cut.size_y();
+    }
+    Vec3 middle() const { return middle_; }
+
+    // By the tile's corners, and its place that is nearest to the point.
+    Zone zone(Vec3 point) const {
+        const Vec3 nearest{std::clamp(point.x, middle_.x - reach_x_, middle_.x + reach_x_),
+                           std::clamp(point.y, middle_.y - reach_y_, middle_.y + reach_y_), 0};
+        if (!passage(point, nearest, grid_)) return Zone::dark;
+        for (const double x : {-reach_x_, reach_x_})
+            for (const double y : {-reach_y_, reach_y_})
+                if (!passage(point, middle_ + Vec3{x, y, 0}, grid_)) return Zone::edge;
+        return Zone::lit;
+    }
+
+    void add(const ScenePoint& point, const Passage& ray) {
+        const double path = ray.path, gx = ray.way.x, gy = ray.way.y;
+        const double curve_x = (1 - gx * gx) / (2 * path), curve_y = (1 - gy * gy) / (2 * path);
+        const double k = 1 / grid_.wavelength;
+        const double mixed = std::abs(gx * gy / path) * reach_x_ * reach_y_;
+        const double third = (std::abs(gx) * std::abs(curve_x) * std::pow(reach_x_, 3) +
+                              std::abs(gy) * std::abs(curve_y) * std::pow(reach_y_, 3)) /
+                             std::abs(path);
+        const double fourth =
+            std::pow(reach_x_ * reach_x_ + reach_y_ * reach_y_, 2) / (8 * std::pow(std::abs(path), 3));
+        if (k * (mixed + third + fourth) > most_turns_wrong) return add_exactly(point);
+        const Chirp x(roots_, k * gx, k * curve_x, region_.width, grid_.plane.pitch_x);
+        // Rows run down.
+        const Chirp y(roots_, -k * gy, k * curve_y, region_.height, grid_.plane.pitch_y);
+        const std::complex<float> whole = static_cast<float>(modulus(point, ray)) * roots_(k * path + point.turns);
+        for (std::size_t row = 0; row < region_.height; ++row) {
+            const std::complex<float> start = whole * std::complex<float>(y.real[row], y.imaginary[row]);
+            const float real = start.real(), imaginary = start.imag();
+            for (std::size_t column = 0; column < side; ++column) {
+                real_[row][column] += real * x.real[column] - imaginary * x.imaginary[column];
+                imaginary_[row][column] += real * x.imaginary[column] + imaginary * x.real[column];
+            }
+        }
+    }
+
+    void write(View<std::complex<float>, 2> values) const {
+        for (std::size_t row = 0; row < region_.height; ++row)
+            for (std::size_t column = 0; column < region_.width; ++column)
+                values(row, column) = {real_[row][column], imaginary_[row][column]};
+    }
+
+    // Sample by sample: a point too near for the expansion, or one that lights a part of the tile.
+    void add_exactly(const ScenePoint& point) {
+        for (std::size_t row = 0; row < region_.height; ++row)
+            for (std::size_t column = 0; column < region_.width; ++column) {
+                const Vec3 place{grid_.plane.x(static_cast<double>(region_.x0 + column)),
+                                 grid_.plane.y(static_cast<double>(region_.y0 + row)), 0};
+                const auto ray = passage(point.position, place, grid_);
+                if (!ray) continue;
+                const std::complex<float> wave =
+                    static_cast<float>(modulus(point, *ray)) * roots_(ray->path / grid_.wavelength + point.turns);
+                real_[row][column] += wave.real();
+                imaginary_[row][column] += wave.imag();
+            }
+    }
+
+  private:
+    const UnitRoots& roots_;
+    const FieldGrid& grid_;
+    Region region_;
+    Vec3 middle_;
+    double reach_x_, reach_y_;
+    std::array<std::array<float, side>, side> real_{}, imaginary_{};
+};
+
+}  // namespace
+
+// Points with visibility, one ray for each point and tile of 32×32 samples.
+Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
+                   const Progress& progress) {
+    const Visibility visibility(scene);
+    const std::vector<ScenePoint> points = surface_points(scene, grid, options);
+    const UnitRoots roots;
+    return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
+        Tile tile(roots, grid, region);
+        for (const ScenePoint& point : points) {
+            const Zone zone = tile.zone(point.position);
+            if (zone == Zone::dark) continue;
+            const Passage ray = unlimited_passage(point.position, tile.middle());
+            if (!visibility.sees(point.surface, ray.way)) continue;
+            zone == Zone::lit ? tile.add(point, ray) : tile.add_exactly(point);
+        }
+        tile.write(values);
+    });
+}
+
+}  // namespace hogel

@@ -1,0 +1,28 @@
+#include "hogel/hologram/designed_phase.h"
+#include "hogel/hologram/direction_phases_internal.h"
+
+namespace hogel {
+
+PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::size_t t, std::size_t look) {
+    return {{static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)},
+            {static_cast<std::uint32_t>(look * 4 + options.channel), static_cast<std::uint32_t>(s),
+             static_cast<std::uint32_t>(t)}};
+}
+
+DirectionPhases direction_phases(const FrequencyGrid& frequencies, const LightFieldGrid& light_field, const Fft2& fft,
+                                 const StereogramOptions& options) {
+    const Shape<2> shape{frequencies.samples(), frequencies.samples()};
+    Array<float, 2> moduli(shape);
+    const std::vector<float> uniform(light_field.directions(), 1.0f), ones(moduli.size(), 1.0f);
+    frequencies.amplitudes(uniform, moduli.elements());
+    DirectionPhases all;
+    for (std::size_t look = 0; look < options.looks; ++look) {
+        Array<std::complex<float>, 2>& phases = all.emplace_back(shape);
+        // Hogels that do not exist give the directions their own phases.
+        spread_random_phases(phase_series(options, 0xffffffff, 0xffffffff, look), ones, phases.elements());
+        if (options.phases == Phases::designed) flatten_fringe(moduli, fft, phases);
+    }
+    return all;
+}
+
+}  // namespace hogel

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+
+#include "hogel/hologram/frequency_grid.h"
+
+namespace hogel {
+
+/// How many hogels lie side by side in the arrays of average_lobes().
+inline constexpr std::size_t hogels_at_once = 16;
+
+/// out[i][hogel] = √(scale · weighted mean of rays[v u][hogel]) for lobe i of a frequency grid, or where the rays are
+/// roots already √scale · mean; plain, and as fast as this processor allows. The twins agree to rounding.
+void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
+                         std::size_t row_length, bool of_roots, float* out);
+void average_lobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
+                   std::size_t row_length, bool of_roots, float* out);
+
+}  // namespace hogel

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <numbers>
+
+namespace hogel {
+
+/// e^{2πi t} from a table of 4096 steps, where many phases are needed and 67 dB are enough.
+class UnitRoots {
+  public:
+    UnitRoots() {
+        for (std::size_t i = 0; i < steps; ++i)
+            roots_[i] = std::complex<float>(
+                std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(steps)));
+    }
+    /// @param turns  of a magnitude below 2³⁰
+    std::complex<float> operator()(double turns) const {
+        const auto step = static_cast<std::int64_t>((turns + whole_turns) * steps + 0.5);
+        return roots_[static_cast<std::size_t>(step) % steps];
+    }
+
+  private:
+    static constexpr std::size_t steps = 4096;
+    static constexpr double whole_turns = 0x1p30;  // makes numbers positive, whose fraction is then what is cut off
+    alignas(64) std::array<std::complex<float>, steps> roots_;
+};
+
+}  // namespace hogel
