@@ -21,7 +21,8 @@ void multiply_everywhere(Wave& wave, const Factor& factor) {
         std::complex<float>* samples = &wave.samples.view()(row, 0);
         for (std::size_t column = 0; column < plane.width; ++column) {
             const std::complex<double> value(samples[column]);
-            samples[column] = std::complex<float>(times(value, factor(plane.x(static_cast<double>(column)), y)));
+            samples[column] = std::complex<float>(
+                times(value, std::complex<double>(factor(plane.x(static_cast<double>(column)), y))));
         }
     });
 }

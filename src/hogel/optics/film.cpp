@@ -6,6 +6,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/optics/film_interpolation_internal.h"
 #include "hogel/optics/film_lens_internal.h"
+#include "hogel/optics/lines_internal.h"
 
 namespace hogel {
 namespace {
@@ -15,19 +16,6 @@ using Complex = std::complex<float>;
 const InterpolationTable& interpolation() {
     static const InterpolationTable table;
     return table;
-}
-
-// Lines that one thread takes together, so that columns are read a whole cache line at a time.
-constexpr std::size_t together = 16;
-
-std::size_t blocks_of(std::size_t lines) { return (lines + together - 1) / together; }
-
-// Room between lines of so many samples, so that they do not all begin in the same places of the caches.
-std::size_t stride_of(std::size_t samples) { return (samples + 15) / 8 * 8; }
-
-// Where frequency k of n stands in a transform.
-std::size_t wrapped(std::ptrdiff_t k, std::size_t n) {
-    return static_cast<std::size_t>(k < 0 ? k + static_cast<std::ptrdiff_t>(n) : k);
 }
 
 std::size_t across(std::ptrdiff_t reach) { return static_cast<std::size_t>(2 * reach + 1); }
@@ -71,7 +59,8 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
     }
     const double middle_x = plane.column(eye.x), middle_y = plane.row(eye.y);
     parallel_for(blocks_of(plane.height), [&](std::size_t block) {
-        for (std::size_t row = block * together; row < std::min((block + 1) * together, plane.height); ++row) {
+        for (std::size_t row = block * lines_together; row < std::min((block + 1) * lines_together, plane.height);
+             ++row) {
             const double reach = std::hypot(plane.y(static_cast<double>(row)) - eye.y, eye.z) / plane.pitch_x;
             for (std::size_t i = 0; i < size_.sines.size_x; ++i)
                 columns(i, row) = table.at(&band(row, 0), plane.width, middle_x + slopes[i] * reach);
@@ -81,7 +70,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
     Array<Complex, 2> half({across(size_.reach_y), size_.sines.size_x});
     const double reach = eye.z / plane.pitch_y;
     parallel_for(blocks_of(size_.sines.size_x), [&](std::size_t block) {
-        const std::size_t first = block * together, count = std::min(together, size_.sines.size_x - first);
+        const std::size_t first = block * lines_together, count = std::min(lines_together, size_.sines.size_x - first);
         Array<Complex, 2> lines({count, stride_of(size_.sines.size_y)});
         for (std::size_t c = 0; c < count; ++c) {
             const std::size_t i = first + c;
@@ -135,7 +124,7 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
             });
             // The few columns of the opening first; then each row, whose light is added at once.
             parallel_for(blocks_of(width), [&](std::size_t block) {
-                const std::size_t first = block * together, count = std::min(together, width - first);
+                const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
                 Array<Complex, 2> lines({count, stride_of(size_.sines.size_y)});
                 for (std::size_t y = 0; y < opening.extent(0); ++y) {
                     const std::size_t at = wrapped(static_cast<std::ptrdiff_t>(y) - reach_y, size_.sines.size_y);
@@ -149,7 +138,8 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
                 share[i] = weight(i, size_.sines.size_x, a, lens.nodes_x);
             parallel_for(blocks_of(size_.sines.size_y), [&](std::size_t block) {
                 Array<Complex, 1> line({size_.sines.size_x});
-                for (std::size_t j = block * together; j < std::min((block + 1) * together, size_.sines.size_y); ++j) {
+                for (std::size_t j = block * lines_together;
+                     j < std::min((block + 1) * lines_together, size_.sines.size_y); ++j) {
                     const float down = weight(j, size_.sines.size_y, b, lens.nodes_y);
                     if (down == 0) continue;
                     std::ranges::fill(line.elements(), Complex(0));

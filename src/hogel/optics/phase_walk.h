@@ -14,7 +14,8 @@ inline std::complex<double> unit_phasor(double turns) {
 }
 
 /// The product without std::complex's look at infinities.
-inline std::complex<double> times(std::complex<double> a, std::complex<double> b) {
+template <class T>
+std::complex<T> times(std::complex<T> a, std::complex<T> b) {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 

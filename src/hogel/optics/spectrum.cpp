@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 
 #include "hogel/core/parallel.h"
 #include "hogel/core/units.h"
 #include "hogel/math/fft.h"
+#include "hogel/optics/lines_internal.h"
+#include "hogel/optics/narrow_band_kernels.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum_steps_internal.h"
 
@@ -17,20 +18,6 @@ namespace hogel {
 namespace {
 
 using Complex = std::complex<float>;
-
-// Lines that one thread takes together, so that columns are read a whole cache line at a time.
-constexpr std::size_t lines_together = 16;
-
-// Room between lines of so many samples, so that they do not all begin in the same places of the caches.
-std::size_t stride_of(std::size_t samples) { return (samples + 15) / 8 * 8; }
-
-std::size_t blocks_of(std::size_t lines, std::size_t size = lines_together) { return (lines + size - 1) / size; }
-
-// Where frequency j of n stands in a transform.
-std::size_t wrapped(std::ptrdiff_t j, std::size_t n) {
-    const auto size = static_cast<std::ptrdiff_t>(n);
-    return static_cast<std::size_t>(((j % size) + size) % size);
-}
 
 // e^{−2πi j (½ − N/2)/N} for j = first … first + count − 1: transforms count from the first sample, frequencies from
 // the window's middle. `samples` is N, `sign` −1 for the way into the spectrum.
@@ -56,20 +43,6 @@ std::pair<std::ptrdiff_t, std::ptrdiff_t> steps(double low, double high, double 
             fmt::format("no wave between {:.4g} and {:.4g} cycles per mm can be told from others at a pitch of {}",
                         low * 1e-3, high * 1e-3, format_length(size / static_cast<double>(n))));
     return {static_cast<std::ptrdiff_t>(first), static_cast<std::ptrdiff_t>(last)};
-}
-
-// 1 within reach, 0 beyond reach and fade, and a smooth way between.
-double passes(double distance, double reach, double fade) {
-    if (distance <= reach) return 1;
-    if (distance >= reach + fade) return 0;
-    const double c = std::cos(0.5 * std::numbers::pi * (distance - reach) / fade);
-    return c * c;
-}
-
-void multiply_into(Complex* out, const Complex* a, const Complex* b, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i)
-        out[i] = {a[i].real() * b[i].real() - a[i].imag() * b[i].imag(),
-                  a[i].real() * b[i].imag() + a[i].imag() * b[i].real()};
 }
 
 }  // namespace
@@ -159,9 +132,8 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             std::copy_n(&lines(y, 0), plane.width, &line(left));
             along.forward(line.data());
             Complex* kept = &half.view()(y0 + y, 0);
-            for (std::size_t i = 0; i < columns; ++i)
-                kept[i] = line(wrapped(first_column + static_cast<std::ptrdiff_t>(i), window.width));
-            multiply_into(kept, kept, centre_x.data(), columns);
+            take_frequencies(line.data(), window.width, first_column, columns, kept);
+            multiply(kept, centre_x.data(), std::span(kept, columns));
         }
         tell();
     });
@@ -176,7 +148,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
         for (std::size_t i = 0; i < width; ++i) down.forward(&lines(i, 0));
         for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t at = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
-            for (std::size_t i = 0; i < width; ++i) result.samples.view()(r, x0 + i) = lines(i, at) * centre_y[r];
+            for (std::size_t i = 0; i < width; ++i) result.samples.view()(r, x0 + i) = times(lines(i, at), centre_y[r]);
         }
         tell();
     });
@@ -218,7 +190,7 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
         for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t at = wrapped(spectrum.first_row + static_cast<std::ptrdiff_t>(r), height);
             for (std::size_t i = 0; i < count; ++i)
-                lines(i, at) = spectrum.samples.view()(r, x0 + i) * (centre_y[r] * centre_x[x0 + i]);
+                lines(i, at) = times(spectrum.samples.view()(r, x0 + i), times(centre_y[r], centre_x[x0 + i]));
         }
         for (std::size_t i = 0; i < count; ++i) down.backward(&lines(i, 0));
         for (std::size_t y = 0; y < height; ++y)
@@ -229,96 +201,12 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
         for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, height); ++y) {
             std::ranges::fill(line.elements(), Complex(0));
             Complex* row = &wave.samples.view()(y, 0);
-            for (std::size_t i = 0; i < columns; ++i)
-                line(wrapped(spectrum.first_column + static_cast<std::ptrdiff_t>(i), width)) = row[i];
+            put_frequencies(row, columns, line.data(), width, spectrum.first_column);
             along.backward(line.data());
             std::copy_n(line.data(), width, row);
         }
     });
     return wave;
-}
-
-void propagate(Spectrum& spectrum, const Way& way) {
-    const double frequency = 1 / spectrum.wavelength, z = way.distance;
-    const double reach_x = way.reach_x > 0 ? way.reach_x : 0.5 * spectrum.window.size_x();
-    const double reach_y = way.reach_y > 0 ? way.reach_y : 0.5 * spectrum.window.size_y();
-    parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
-        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height());
-             ++r) {
-            const double fy = spectrum.frequency_y(static_cast<double>(r));
-            Complex* row = &spectrum.samples.view()(r, 0);
-            const auto along_z = [&](double column) {
-                const double fx = spectrum.frequency_x(column);
-                return std::sqrt(std::max(frequency * frequency - fx * fx - fy * fy, 0.0));
-            };
-            const auto turns = [&](double column) {
-                return along_z(column) * z + spectrum.frequency_x(column) * way.shift_x + fy * way.shift_y;
-            };
-            // How much of a direction stays.
-            const auto stays = [&](double column) {
-                const double fz = along_z(column);
-                if (fz <= 0) return 0.0;
-                return passes(std::abs(z * spectrum.frequency_x(column) / fz - way.shift_x), reach_x, way.fade_x) *
-                       passes(std::abs(z * fy / fz - way.shift_y), reach_y, way.fade_y);
-            };
-            constexpr std::size_t stretch = 32;
-            for (std::size_t begin = 0; begin < spectrum.width(); begin += stretch) {
-                const std::size_t count = std::min(stretch, spectrum.width() - begin);
-                const double at = static_cast<double>(begin);
-                // How far the phase is from a parabola between three points half a stretch apart: the third derivative,
-                // 3 z f_x f_z⁻⁵/λ² at most, times the cube of half a stretch and 0.065.
-                const double fz = std::min(along_z(at), along_z(at + stretch));
-                const double fx =
-                    std::max(std::abs(spectrum.frequency_x(at)), std::abs(spectrum.frequency_x(at + stretch)));
-                const double half = 0.5 * stretch / spectrum.window.size_x();
-                const double error =
-                    0.2 * std::abs(z) * fx * frequency * frequency / std::pow(fz, 5) * half * half * half;
-                const auto times_phase = [&](std::size_t i, std::complex<double> phase) {
-                    Complex& value = row[begin + i];
-                    const double part = stays(at + static_cast<double>(i));
-                    value = part > 0 ? Complex(part * times(std::complex<double>(value), phase)) : 0;
-                };
-                if (error < 1e-4) {
-                    walk_phase(
-                        count, [&](double step) { return turns(at + step); }, times_phase);
-                } else {
-                    for (std::size_t i = 0; i < count; ++i)
-                        times_phase(i, unit_phasor(turns(at + static_cast<double>(i))));
-                }
-            }
-        }
-    });
-    spectrum.window.center_x += way.shift_x;
-    spectrum.window.center_y += way.shift_y;
-}
-
-void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
-               const Progress& progress) {
-    const Grid& plane = source.grid().plane;
-    validate(source.grid(), ErrorCode::usage, "propagated field");
-    if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));
-    Spectrum waves =
-        spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), scratch,
-                    [&](double done) { return !progress || progress(0.4 * done); });
-    propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
-    report(progress, 0.6);
-    const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
-    report(progress, 0.9);
-    const std::size_t left = (waves.window.width - plane.width) / 2, above = (waves.window.height - plane.height) / 2;
-    parallel_for(blocks_of(plane.height), [&](std::size_t block) {
-        const std::size_t y0 = block * lines_together, rows = std::min(lines_together, plane.height - y0);
-        Array<Complex, 2> lines({rows, plane.width});
-        wave.read({left, above + y0, plane.width, rows}, 0, lines);
-        sink.write({0, y0, plane.width, rows}, lines);
-    });
-    sink.finish();
-    report(progress, 1);
-}
-
-Field propagate(const FieldSource& source, double distance, std::size_t look) {
-    Field result(source.grid());
-    propagate(source, distance, result, look, {SIZE_MAX, {}});
-    return result;
 }
 
 Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength) {

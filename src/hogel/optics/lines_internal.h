@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+namespace hogel {
+
+/// Lines of an array that one thread takes together, so that columns are read a whole cache line at a time.
+constexpr std::size_t lines_together = 16;
+
+constexpr std::size_t blocks_of(std::size_t lines, std::size_t size = lines_together) {
+    return (lines + size - 1) / size;
+}
+
+/// Room between lines of so many samples, so that they do not all begin in the same places of the caches.
+constexpr std::size_t stride_of(std::size_t samples) { return (samples + 15) / 8 * 8; }
+
+/// Where frequency j stands in a transform of n samples.
+constexpr std::size_t wrapped(std::ptrdiff_t j, std::size_t n) {
+    const auto size = static_cast<std::ptrdiff_t>(n);
+    return static_cast<std::size_t>(((j % size) + size) % size);
+}
+
+/// Copies `count` frequencies from `first` on out of a transform of n samples, and into one.
+template <class T>
+void take_frequencies(const T* transform, std::size_t n, std::ptrdiff_t first, std::size_t count, T* out) {
+    const std::size_t begin = wrapped(first, n), until_end = std::min(count, n - begin);
+    std::copy_n(transform + begin, until_end, out);
+    std::copy_n(transform, count - until_end, out + until_end);
+}
+template <class T>
+void put_frequencies(const T* in, std::size_t count, T* transform, std::size_t n, std::ptrdiff_t first) {
+    const std::size_t begin = wrapped(first, n), until_end = std::min(count, n - begin);
+    std::copy_n(in, until_end, transform + begin);
+    std::copy_n(in + until_end, count - until_end, transform);
+}
+
+}  // namespace hogel

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/optics/lines_internal.h"
+#include "hogel/optics/phase_walk.h"
+#include "hogel/optics/spectrum.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// 1 within reach, 0 beyond reach and fade, and a smooth way between.
+double passes(double distance, double reach, double fade) {
+    if (distance <= reach) return 1;
+    if (distance >= reach + fade) return 0;
+    const double c = std::cos(0.5 * std::numbers::pi * (distance - reach) / fade);
+    return c * c;
+}
+
+// The directions of one row of a spectrum, on their way.
+class RowOfDirections {
+  public:
+    RowOfDirections(const Spectrum& spectrum, const Way& way, double row)
+        : spectrum_(spectrum),
+          way_(way),
+          frequency_(1 / spectrum.wavelength),
+          fy_(spectrum.frequency_y(row)),
+          reach_x_(way.reach_x > 0 ? way.reach_x : 0.5 * spectrum.window.size_x()),
+          reach_y_(way.reach_y > 0 ? way.reach_y : 0.5 * spectrum.window.size_y()) {}
+
+    // The phase that a direction gains.
+    double turns(double column) const {
+        return along_z(column) * way_.distance + fx(column) * way_.shift_x + fy_ * way_.shift_y;
+    }
+
+    // How far the phase of so many columns is from a parabola through both ends and the middle: the third derivative,
+    // 3 z f_x f_z⁻⁵/λ² at most, times the cube of half of them and 0.065.
+    double bend(double column, double count) const {
+        const double fz = std::min(along_z(column), along_z(column + count));
+        const double steepest = std::max(std::abs(fx(column)), std::abs(fx(column + count)));
+        const double half = 0.5 * count / spectrum_.window.size_x();
+        return 0.2 * std::abs(way_.distance) * steepest * frequency_ * frequency_ / std::pow(fz, 5) * half * half *
+               half;
+    }
+
+    // How much of a direction stays.
+    double stays(double column) const {
+        const double fz = along_z(column);
+        if (fz <= 0) return 0;
+        return passes(std::abs(aside_x(column, fz)), reach_x_, way_.fade_x) *
+               passes(std::abs(aside_y(fz)), reach_y_, way_.fade_y);
+    }
+
+    // How far directions travel aside grows or falls all the way between two columns on the same side of f_x = 0: so
+    // where both ends stay whole, all between does, and where both are lost on the same side, all is.
+    enum class Stays { whole, partly, lost };
+    Stays between(double first, double last) const {
+        const double fz0 = along_z(first), fz1 = along_z(last);
+        if (fx(first) * fx(last) < 0 || fz0 <= 0 || fz1 <= 0) return Stays::partly;
+        const auto [left, right] = std::minmax({aside_x(first, fz0), aside_x(last, fz1)});
+        const auto [low, high] = std::minmax({aside_y(fz0), aside_y(fz1)});
+        const double lost_x = reach_x_ + way_.fade_x, lost_y = reach_y_ + way_.fade_y;
+        if (left > lost_x || right < -lost_x || low > lost_y || high < -lost_y) return Stays::lost;
+        const bool whole = left >= -reach_x_ && right <= reach_x_ && low >= -reach_y_ && high <= reach_y_;
+        return whole ? Stays::whole : Stays::partly;
+    }
+
+  private:
+    double fx(double column) const { return spectrum_.frequency_x(column); }
+    double along_z(double column) const {
+        return std::sqrt(std::max(frequency_ * frequency_ - fx(column) * fx(column) - fy_ * fy_, 0.0));
+    }
+    // Beside the window's own way.
+    double aside_x(double column, double fz) const { return way_.distance * fx(column) / fz - way_.shift_x; }
+    double aside_y(double fz) const { return way_.distance * fy_ / fz - way_.shift_y; }
+
+    const Spectrum& spectrum_;
+    const Way& way_;
+    double frequency_, fy_, reach_x_, reach_y_;
+};
+
+void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
+    using Stays = RowOfDirections::Stays;
+    constexpr std::size_t stretch = 32;
+    constexpr double small = 1e-4;  // of a turn
+    for (std::size_t begin = 0; begin < samples.size(); begin += stretch) {
+        const std::size_t count = std::min(stretch, samples.size() - begin);
+        const double at = static_cast<double>(begin);
+        const Stays all = row.between(at, at + static_cast<double>(count - 1));
+        if (all == Stays::lost) {
+            std::ranges::fill(samples.subspan(begin, count), Complex(0));
+            continue;
+        }
+        const auto times_phase = [&](std::size_t i, std::complex<double> phase) {
+            Complex& value = samples[begin + i];
+            const double part = all == Stays::whole ? 1 : row.stays(at + static_cast<double>(i));
+            value = part > 0 ? Complex(part * times(std::complex<double>(value), phase)) : 0;
+        };
+        if (row.bend(at, stretch) < small) {
+            walk_phase(
+                count, [&](double step) { return row.turns(at + step); }, times_phase);
+        } else {
+            for (std::size_t i = 0; i < count; ++i) times_phase(i, unit_phasor(row.turns(at + static_cast<double>(i))));
+        }
+    }
+}
+
+}  // namespace
+
+void propagate(Spectrum& spectrum, const Way& way) {
+    parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
+        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
+            propagate_row(spectrum.samples.view()[r].elements(),
+                          RowOfDirections(spectrum, way, static_cast<double>(r)));
+    });
+    spectrum.window.center_x += way.shift_x;
+    spectrum.window.center_y += way.shift_y;
+}
+
+void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
+               const Progress& progress) {
+    const Grid& plane = source.grid().plane;
+    validate(source.grid(), ErrorCode::usage, "propagated field");
+    if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));
+    Spectrum waves =
+        spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), scratch,
+                    [&](double done) { return !progress || progress(0.4 * done); });
+    propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
+    report(progress, 0.6);
+    const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
+    report(progress, 0.9);
+    const std::size_t left = (waves.window.width - plane.width) / 2, above = (waves.window.height - plane.height) / 2;
+    parallel_for(blocks_of(plane.height), [&](std::size_t block) {
+        const std::size_t y0 = block * lines_together, rows = std::min(lines_together, plane.height - y0);
+        Array<Complex, 2> lines({rows, plane.width});
+        wave.read({left, above + y0, plane.width, rows}, 0, lines);
+        sink.write({0, y0, plane.width, rows}, lines);
+    });
+    sink.finish();
+    report(progress, 1);
+}
+
+Field propagate(const FieldSource& source, double distance, std::size_t look) {
+    Field result(source.grid());
+    propagate(source, distance, result, look, {SIZE_MAX, {}});
+    return result;
+}
+
+}  // namespace hogel
