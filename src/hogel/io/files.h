@@ -37,7 +37,7 @@ struct LightFieldFileOptions {
     /// with notes of what is done, and whoever creates the same file again with the same options finds these tiles
     /// already written. The text tells inputs apart that metadata does not, such as a file's date. Throws Error(usage)
     /// where the unfinished file is of other work.
-    std::optional<std::string> resume;
+    std::optional<std::string> resume = std::nullopt;
 };
 
 /// The file gets its own name when finish() is called; before that it is a temporary beside it, removed when the sink
