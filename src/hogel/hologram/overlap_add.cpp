@@ -98,12 +98,12 @@ class OverlapAdd final : public FieldSource {
                 const double cos2 = 1 - sx * sx - sy * sy;
                 if (cos2 <= 0) continue;
                 const double cosine = std::sqrt(cos2), U = -sx / cosine, V = -sy / cosine;
-                if (std::abs(U) > rays.tan_half_u || std::abs(V) > rays.tan_half_v) continue;
+                if (!rays.sees({U, V, 1})) continue;
                 const auto nearest = [](double at, std::size_t count) {
                     return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, static_cast<double>(count) - 1));
                 };
-                const std::size_t k = nearest((U + rays.tan_half_u) / rays.step_u() - 0.5, rays.directions_u);
-                const std::size_t l = nearest((rays.tan_half_v - V) / rays.step_v() - 0.5, rays.directions_v);
+                const std::size_t k = nearest(rays.column(U), rays.directions_u);
+                const std::size_t l = nearest(rays.row(V), rays.directions_v);
                 // Rows run down while y runs up, so a row of the transform is −j_y.
                 const auto row = static_cast<std::size_t>((n - jy) % n),
                            column = static_cast<std::size_t>((n + jx) % n);
