@@ -9,6 +9,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/shading/shading.h"
+#include "hogel/shading/test_scenes_internal.h"
 
 namespace hogel {
 namespace {
@@ -38,14 +39,6 @@ Scene box(float albedo, float emission) {
     scene.meshes.push_back(std::move(builder.mesh));
     add_missing_normals(scene, 0.5);
     return scene;
-}
-
-Light lamp(Vec3 position, float intensity) {
-    Light light;
-    light.kind = Light::Kind::point;
-    light.position = position;
-    light.intensity = {intensity, intensity, intensity};
-    return light;
 }
 
 // A closed room whose walls glow evenly and reflect half: e (1 + ½ + ¼ + …), whatever its form.

@@ -8,28 +8,14 @@
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
 #include "hogel/shading/shading.h"
+#include "hogel/shading/test_scenes_internal.h"
 
 namespace hogel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Mesh square(Vec3 center, Vec3 right, Vec3 up) {
-    Mesh mesh;
-    mesh.positions = {center - right - up, center + right - up, center + right + up, center - right + up};
-    mesh.normals.assign(4, normalize(cross(right, up)));
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    mesh.material.base_color = {0.8f, 0.4f, 1};
-    return mesh;
-}
-
-Light lamp(Vec3 position, float intensity) {
-    Light light;
-    light.kind = Light::Kind::point;
-    light.position = position;
-    light.intensity = {intensity, intensity, intensity};
-    return light;
-}
+const Rgb violet{0.8f, 0.4f, 1};
 
 ShadingOptions by(ShadingModel model, std::size_t shadow_map = 128) {
     ShadingOptions options;
@@ -41,7 +27,8 @@ ShadingOptions by(ShadingModel model, std::size_t shadow_map = 128) {
 /// A floor, a small roof over part of it, one lamp with shadows and one without.
 Scene roofed() {
     Scene scene;
-    scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), square({0.2, 0.1, 0.5}, {0.3, 0, 0}, {0, 0.2, 0})};
+    scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, violet),
+                    square({0.2, 0.1, 0.5}, {0.3, 0, 0}, {0, 0.2, 0}, violet)};
     scene.lights = {lamp({0.1, 0, 2}, 3), lamp({-1, 0.5, 1}, 2)};
     scene.lights[1].casts_shadows = false;
     scene.ambient = {0.1f, 0.1f, 0.1f};
@@ -97,7 +84,7 @@ TEST(SampleLighting, shadowed_is_the_interpolated_light_of_the_vertices_where_no
 
 TEST(SampleLighting, a_glossy_surface_shines_where_it_mirrors_the_lamp) {
     Scene scene;
-    scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
+    scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, violet)};
     scene.meshes[0].material.reflectance = 0.04f;
     scene.meshes[0].material.roughness = 0.3f;
     scene.lights = {lamp({-1, 0, 1}, 2)};

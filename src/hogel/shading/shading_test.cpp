@@ -8,33 +8,17 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/shading/test_scenes_internal.h"
 
 namespace hogel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Mesh square(Vec3 center, Vec3 right, Vec3 up) {
-    Mesh mesh;
-    mesh.positions = {center - right - up, center + right - up, center + right + up, center - right + up};
-    mesh.normals.assign(4, normalize(cross(right, up)));
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    mesh.material.base_color = {1, 1, 1};
-    return mesh;
-}
-
 Light directional(Vec3 direction, float irradiance) {
     Light light;
     light.direction = normalize(direction);
     light.intensity = {irradiance, irradiance, irradiance};
-    return light;
-}
-
-Light point(Vec3 position, float intensity) {
-    Light light;
-    light.kind = Light::Kind::point;
-    light.position = position;
-    light.intensity = {intensity, intensity, intensity};
     return light;
 }
 
@@ -76,7 +60,7 @@ TEST(Shading, a_point_light_falls_off_with_the_square_of_the_distance) {
         Scene scene;
         scene.meshes.push_back(square({0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}));
         const Vec3 corner = scene.meshes[0].positions[1];
-        scene.lights.push_back(point(corner + Vec3{0.6 * distance, 0, 0.8 * distance}, 3));
+        scene.lights.push_back(lamp(corner + Vec3{0.6 * distance, 0, 0.8 * distance}, 3));
         const double expected = 3 * 0.8 / (pi * distance * distance);
         EXPECT_NEAR(shade_vertices(scene).radiance[1].g, expected, 1e-6 * expected);
     }
@@ -89,12 +73,12 @@ TEST(Shading, a_blocker_throws_its_shadow_and_nothing_behind_the_lamp_does) {
     floor.normals.push_back({0, 0, 1});
     scene.meshes.push_back(floor);
     scene.meshes.push_back(square({0, 0, 1}, {0.1, 0, 0}, {0, 0.1, 0}));
-    scene.lights.push_back(point({0, 0, 2}, static_cast<float>(4 * pi)));
+    scene.lights.push_back(lamp({0, 0, 2}, static_cast<float>(4 * pi)));
     EXPECT_EQ(shade_vertices(scene).radiance[4].r, 0);  // the middle of the floor, below the blocker
     EXPECT_GT(shade_vertices(scene).radiance[0].r, 0.1f);
     scene.lights[0].casts_shadows = false;
     EXPECT_NEAR(shade_vertices(scene).radiance[4].r, 1, 1e-6);
-    scene.lights[0] = point({0, 0, 0.5}, static_cast<float>(pi / 4));
+    scene.lights[0] = lamp({0, 0, 0.5}, static_cast<float>(pi / 4));
     EXPECT_NEAR(shade_vertices(scene).radiance[4].r, 1, 1e-6);
     scene.lights[0] = directional({0, 0, -1}, static_cast<float>(pi));
     EXPECT_EQ(shade_vertices(scene).radiance[4].r, 0);
@@ -132,7 +116,7 @@ TEST(Shading, is_the_same_for_any_number_of_threads) {
             mesh.normals.push_back({0, 0, 1});
         }
     }
-    scene.lights.push_back(point({3, 2, 15}, 4));
+    scene.lights.push_back(lamp({3, 2, 15}, 4));
     const ShadedScene all = shade_vertices(scene);
     const ThreadLimit one(1);
     EXPECT_EQ(all.radiance, shade_vertices(scene).radiance);

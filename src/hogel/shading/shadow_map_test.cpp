@@ -7,6 +7,7 @@
 
 #include "hogel/scene/builtin.h"
 #include "hogel/shading/illumination.h"
+#include "hogel/shading/test_scenes_internal.h"
 
 namespace hogel {
 namespace {
@@ -26,20 +27,7 @@ struct Blockers {
     RayCaster caster;
 };
 
-void add_square(Scene& scene, Vec3 center, Vec3 right, Vec3 up) {
-    Mesh mesh;
-    mesh.positions = {center - right - up, center + right - up, center + right + up, center - right + up};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    scene.meshes.push_back(mesh);
-}
-
-Light lamp(Vec3 position) {
-    Light light;
-    light.kind = Light::Kind::point;
-    light.position = position;
-    light.intensity = {1, 1, 1};
-    return light;
-}
+void add_square(Scene& scene, Vec3 center, Vec3 right, Vec3 up) { scene.meshes.push_back(square(center, right, up)); }
 
 Light sun(Vec3 direction) {
     Light light;
@@ -60,7 +48,7 @@ TEST(ShadowMap, the_edge_of_a_shadow_is_where_geometry_puts_it) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {2, 0, 0}, {0, 2, 0});
     add_square(scene, {0, 0, 1}, {0.3, 0, 0}, {0, 0.3, 0});
-    for (const Light& light : {lamp({0.1, 0.05, 3}), sun({0.3, 0.1, -1})}) {
+    for (const Light& light : {lamp({0.1, 0.05, 3}, 1), sun({0.3, 0.1, -1})}) {
         constexpr std::size_t n = 256;
         const ShadowMap map = map_of(scene, light, n);
         const double texel = light.kind == Light::Kind::point ? 2 * 3.0 / n : 4.2 / (2 * n);
@@ -88,7 +76,7 @@ TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
             const Vec3 right{std::cos(angle), 0, std::sin(angle)}, up{0, 1, 0};
             Scene scene;
             add_square(scene, {0, 0, 0}, right, up);
-            for (const Light& light : {lamp({0.2, 0.3, 2.5}), sun({0.05, 0.1, -1})}) {
+            for (const Light& light : {lamp({0.2, 0.3, 2.5}, 1), sun({0.05, 0.1, -1})}) {
                 const ShadowMap map = map_of(scene, light, n);
                 for (int i = 0; i < 2000; ++i) {
                     const Vec3 p = place(engine) * right + place(engine) * up;
@@ -150,7 +138,7 @@ TEST(ShadowMap, neither_leaks_nor_speckles_on_the_built_in_scenes) {
 TEST(ShadowMap, of_a_light_without_shadows_is_empty_and_lets_all_through) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    Light light = lamp({0, 0, -1});
+    Light light = lamp({0, 0, -1}, 1);
     light.casts_shadows = false;
     const ShadowMap map(light, bounds(scene), 1024);
     EXPECT_EQ(map.rows(), 0u);
@@ -161,13 +149,13 @@ TEST(ShadowMap, of_a_light_without_shadows_is_empty_and_lets_all_through) {
 TEST(ShadowMap, a_light_on_a_surface_or_inside_a_body_is_no_trouble) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    const ShadowMap on = map_of(scene, lamp({0.2, 0.1, 0}), 32);
+    const ShadowMap on = map_of(scene, lamp({0.2, 0.1, 0}, 1), 32);
     EXPECT_TRUE(std::isfinite(on.lit({0.2, 0.1, 0}, {0, 0, 1})));
     EXPECT_TRUE(std::isfinite(on.lit({0.5, 0.1, 0}, {0, 0, 1})));
     // Between two plates, seen from outside of both.
     add_square(scene, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
     add_square(scene, {0, 0, 3}, {1, 0, 0}, {0, 1, 0});
-    const ShadowMap between = map_of(scene, lamp({0, 0, 0.5}), 64);
+    const ShadowMap between = map_of(scene, lamp({0, 0, 0.5}, 1), 64);
     EXPECT_EQ(between.lit({0, 0, 1}, {0, 0, 1}), 1.0f);
     EXPECT_EQ(between.lit({0, 0, 3}, {0, 0, 1}), 0.0f);
 }
