@@ -10,20 +10,15 @@ namespace {
 // The sum of the points' spherical waves sample by sample, over the points that the rule lets through.
 template <class Rule>
 Field sum_exactly(const std::vector<ScenePoint>& points, const FieldGrid& grid, const Progress& progress, Rule passes) {
-    return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
-        for (std::size_t row = 0; row < region.height; ++row)
-            for (std::size_t column = 0; column < region.width; ++column) {
-                const Vec3 place{grid.plane.x(static_cast<double>(region.x0 + column)),
-                                 grid.plane.y(static_cast<double>(region.y0 + row)), 0};
-                std::complex<double> sum = 0;
-                for (const ScenePoint& point : points) {
-                    const auto ray = passage(point.position, place, grid);
-                    if (!ray || !passes(point, place, ray->way)) continue;
-                    const double turns = ray->path / grid.wavelength + point.turns;
-                    sum += std::polar(modulus(point, *ray), 2 * std::numbers::pi * (turns - std::round(turns)));
-                }
-                values(row, column) = std::complex<float>(sum);
-            }
+    return sum_over_samples(grid, progress, [&](Vec3 place) {
+        std::complex<double> sum = 0;
+        for (const ScenePoint& point : points) {
+            const auto ray = passage(point.position, place, grid);
+            if (!ray || !passes(point, place, ray->way)) continue;
+            const double turns = ray->path / grid.wavelength + point.turns;
+            sum += std::polar(modulus(point, *ray), 2 * std::numbers::pi * (turns - std::round(turns)));
+        }
+        return sum;
     });
 }
 

@@ -81,21 +81,16 @@ Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneH
             lines.push_back(line);
         }
     }
-    return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
-        for (std::size_t row = 0; row < region.height; ++row)
-            for (std::size_t column = 0; column < region.width; ++column) {
-                const Vec3 place{grid.plane.x(static_cast<double>(region.x0 + column)),
-                                 grid.plane.y(static_cast<double>(region.y0 + row)), 0};
-                std::complex<double> sum = 0;
-                for (const LineSource& line : lines) {
-                    const Vec3 nearest = line.a + std::clamp(dot(place - line.a, line.b - line.a) /
-                                                                 dot(line.b - line.a, line.b - line.a),
-                                                             0.0, 1.0) *
-                                                      (line.b - line.a);
-                    if (passage(nearest, place, grid)) sum += line_wave(line, place, grid.wavelength);
-                }
-                values(row, column) = std::complex<float>(sum);
-            }
+    return sum_over_samples(grid, progress, [&](Vec3 place) {
+        std::complex<double> sum = 0;
+        for (const LineSource& line : lines) {
+            const Vec3 nearest =
+                line.a +
+                std::clamp(dot(place - line.a, line.b - line.a) / dot(line.b - line.a, line.b - line.a), 0.0, 1.0) *
+                    (line.b - line.a);
+            if (passage(nearest, place, grid)) sum += line_wave(line, place, grid.wavelength);
+        }
+        return sum;
     });
 }
 

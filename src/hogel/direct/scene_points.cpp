@@ -147,12 +147,7 @@ double modulus(const ScenePoint& point, const Passage& passage) {
     return point.amplitude * std::sqrt(cosine) / std::abs(passage.path);
 }
 
-Visibility::Visibility(const ShadedScene& scene)
-    : caster_(scene.positions, [&] {
-          std::vector<std::array<std::uint32_t, 3>> triangles;
-          for (const ShadedScene::Triangle& triangle : scene.triangles) triangles.push_back(triangle.vertices);
-          return triangles;
-      }()) {
+Visibility::Visibility(const ShadedScene& scene) : caster_(all_triangles(scene)) {
     Vec3 low, high;
     for (const Vec3& p : scene.positions) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -183,6 +178,17 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
         report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
     });
     return field;
+}
+
+Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
+                       const std::function<std::complex<double>(Vec3 place)>& wave) {
+    return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
+        for (std::size_t row = 0; row < region.height; ++row)
+            for (std::size_t column = 0; column < region.width; ++column)
+                values(row, column) =
+                    std::complex<float>(wave({grid.plane.x(static_cast<double>(region.x0 + column)),
+                                              grid.plane.y(static_cast<double>(region.y0 + row)), 0}));
+    });
 }
 
 }  // namespace hogel

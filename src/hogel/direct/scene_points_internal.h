@@ -73,6 +73,10 @@ class Visibility {
 Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
                      const std::function<void(const Region&, View<std::complex<float>, 2>)>& add);
 
+/// The same, sample by sample: `wave` is what arrives at a place on the hologram.
+Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
+                       const std::function<std::complex<double>(Vec3 place)>& wave);
+
 // The methods; scene_methods.cpp lists them by name.
 Field exact_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field exact_visible_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);

@@ -17,7 +17,7 @@ constexpr std::size_t bundle = 16;
 class RaytraceRenderer final : public LightFieldSource {
   public:
     RaytraceRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), caster_(scene_->positions, triangles(*scene_)) {
+        : scene_(std::move(scene)), grid_(grid), caster_(all_triangles(*scene_)) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         low_ = {infinity, infinity, infinity};
         high_ = -low_;
@@ -40,13 +40,6 @@ class RaytraceRenderer final : public LightFieldSource {
     }
 
   private:
-    static std::vector<std::array<std::uint32_t, 3>> triangles(const ShadedScene& scene) {
-        std::vector<std::array<std::uint32_t, 3>> list;
-        list.reserve(scene.triangles.size());
-        for (const ShadedScene::Triangle& triangle : scene.triangles) list.push_back(triangle.vertices);
-        return list;
-    }
-
     // How many steps forward the rays of a hogel begin and end: a little before the nearest point and a little behind
     // the farthest.
     std::pair<double, double> steps(Vec3 hogel) const {

@@ -3,12 +3,6 @@
 
 namespace hogel {
 
-RayCaster all_triangles(const ShadedScene& shaded) {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (const auto& triangle : shaded.triangles) triangles.push_back(triangle.vertices);
-    return {shaded.positions, triangles};
-}
-
 double ray_offset(const Scene& scene) {
     const Bounds box = bounds(scene);
     return 1e-4 * length(box.high - box.low);

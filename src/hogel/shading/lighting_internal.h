@@ -12,9 +12,6 @@ namespace hogel {
 std::unique_ptr<SampleLighting> make_direct_lighting(const Scene& scene, std::vector<ShadowMap> maps);
 std::unique_ptr<SampleLighting> make_shadowed_lighting(const Scene& scene, std::vector<ShadowMap> maps);
 
-/// The rays' view of a shaded scene: what blocks light.
-RayCaster all_triangles(const ShadedScene& shaded);
-
 /// Rays start this far above a surface, a ten-thousandth of the scene's diagonal, so that a point does not stand in its
 /// own light.
 double ray_offset(const Scene& scene);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hogel/trace/ray_caster.h"
+
 namespace hogel {
 namespace {
 
@@ -29,6 +31,13 @@ Rgb texture_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, 
 }
 
 }  // namespace
+
+RayCaster all_triangles(const ShadedScene& scene) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    triangles.reserve(scene.triangles.size());
+    for (const ShadedScene::Triangle& triangle : scene.triangles) triangles.push_back(triangle.vertices);
+    return {scene.positions, triangles};
+}
 
 Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const Sight& sight) {
     const ShadedScene::Triangle& triangle = scene.triangles[index];

@@ -11,6 +11,7 @@
 
 namespace hogel {
 
+class RayCaster;
 struct ShadedScene;
 
 /// How a sample looks at a surface.
@@ -52,6 +53,9 @@ struct ShadedScene {
     /// Whether interpolating the vertices' radiance is not all there is to this triangle.
     bool needs_samples(std::size_t index) const { return lighting || triangles[index].texture != no_texture; }
 };
+
+/// All triangles, numbered as in the scene, for rays to meet (trace/ray_caster.h).
+RayCaster all_triangles(const ShadedScene& scene);
 
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).
 Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const Sight& sight = {});
