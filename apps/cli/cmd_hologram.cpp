@@ -69,8 +69,9 @@ int hologram(Options options, const Session& session) {
     require_writable(options.output);
     auto light_field = open_for_hologram(session, options.input, options.render, options.hologram);
     require_holograms(light_field->grid(), options.hologram);
-    if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
-        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
+    if (kind == InputKind::scene)
+        light_field = render_for_holograms(session, std::move(light_field), options.hologram.wavelengths.size(),
+                                           needs_depth(options.hologram));
     const auto sources = make_holograms(session, *light_field, options.hologram, 1);
 
     std::vector<FieldGrid> grids;

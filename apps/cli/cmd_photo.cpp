@@ -78,7 +78,8 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     auto light_field = std::move(faces.front());
     require_holograms(grid, options.hologram, cameras);
     if (kind == InputKind::scene)
-        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
+        light_field = render_for_holograms(session, std::move(light_field), options.hologram.wavelengths.size(),
+                                           needs_depth(options.hologram));
     const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
     return photograph_colours(stage, holograms, cameras, options.scratch());

@@ -10,6 +10,7 @@
 
 #include "hogel/codec/stream.h"
 #include "hogel/direct/scene_hologram.h"
+#include "hogel/lightfield/keep_tiles.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/antialias.h"
 #include "hogel/render/light_spacing.h"
@@ -26,6 +27,8 @@ namespace {
 
 // A light field up to this size is kept in memory rather than rendered again for each colour.
 constexpr double kept_bytes = 2e9;
+// Of a larger one rows of hogels are kept up to this, while the squares that they hold are made into holograms.
+constexpr double kept_tile_bytes = 1e9;
 
 bool is_builtin(const std::string& name) {
     return name == church_radiance_scene.name ||
@@ -323,9 +326,11 @@ bool needs_depth(const HologramOptions& options) {
     return needs_depth(stereogram);
 }
 
-std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
-                                              bool with_depth) {
-    if (renderer->grid().samples() * sizeof(float) > kept_bytes) return renderer;
+std::unique_ptr<LightFieldSource> render_for_holograms(const Session& session,
+                                                       std::unique_ptr<LightFieldSource> renderer, std::size_t colours,
+                                                       bool with_depth) {
+    if (colours == 1 || renderer->grid().samples() * sizeof(float) > kept_bytes)
+        return keep_tiles(std::move(renderer), kept_tile_bytes, with_depth);
     Stage stage(session, "rendering");
     auto light_field = std::make_unique<LightField>(renderer->grid(), with_depth);
     copy(*renderer, *light_field, stage.progress());

@@ -97,10 +97,12 @@ std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Sessio
 /// Whether holograms like this need the depth of every ray.
 bool needs_depth(const HologramOptions& options);
 
-/// A light field that will be read once a colour: renders it now and keeps it, where it fits into a modest part of
-/// memory, with its depths if asked.
-std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
-                                              bool with_depth = false);
+/// A light field that holograms will read, once a colour, in tiles of their own: rendered in tiles that suit the
+/// renderer, and kept, whole and before, where there are several colours and it fits into a modest part of memory. With
+/// its depths if asked.
+std::unique_ptr<LightFieldSource> render_for_holograms(const Session& session,
+                                                       std::unique_ptr<LightFieldSource> renderer, std::size_t colours,
+                                                       bool with_depth);
 
 /// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
 /// photograph them: too coarse a pitch, say. To be asked before the work begins.
