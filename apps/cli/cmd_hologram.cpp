@@ -65,11 +65,11 @@ int hologram(Options options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
-    auto light_field = open_for_hologram(session, options.input, options.render, options.hologram);
-    require_holograms(light_field->grid(), options.hologram);
+    auto faces = open_for_hologram(session, options.input, options.render, options.hologram);
+    require_holograms(grids_of(faces), options.hologram);
     if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
-        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
-    const auto sources = make_holograms(session, *light_field, options.hologram, 1);
+        for (auto& face : faces) face = render_once(session, std::move(face), needs_depth(options.hologram));
+    const auto sources = make_holograms(session, faces, options.hologram, 1);
 
     std::vector<FieldGrid> grids;
     for (const auto& source : sources) grids.push_back(source->grid());
@@ -97,6 +97,7 @@ void add_hologram(CLI::App& app, Session& session) {
     add_hologram_options(command, options->hologram);
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
+    add_hemicube_option(command, options->render);
 }
 
 }  // namespace hogel::cli

@@ -218,6 +218,7 @@ CompressionResult compress(const LightFieldSource& source, const std::filesystem
                            const CompressionOptions& options, const Progress& progress) {
     check(options.target);
     const LightFieldGrid& grid = source.grid();
+    require_tangents(grid, ErrorCode::usage, "a compressed light field");
     const std::unique_ptr<TileCoder> coder = make_tile_coder(options.method, grid);
     StreamInfo info{grid, options.tile.value_or(coder->preferred_tile(grid)), options.method, options.metadata};
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
