@@ -224,43 +224,86 @@ HWY_INLINE std::uint64_t covered_words(const std::uint64_t* words, std::size_t c
     return covered;
 }
 
+// The values of the samples words[i] for the bits of `which`, each by itself.
+HWY_INLINE void shade_each(const std::uint64_t* words, std::uint64_t which, std::span<const StripEnds> strips, double n,
+                           double K, float (*samples)[4]) {
+    const hn::Full128<float> d4;
+    const hn::Full128<double> d2;
+    for (; which != 0; which &= which - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(which));
+        const StripEnds& strip = strips[words[i] & 0xffffffff];
+        const auto c = hn::Sub(hn::LoadU(d2, &strip.x0),
+                               hn::Mul(hn::Set(d2, K + static_cast<double>(i)), hn::LoadU(d2, &strip.z0)));
+        const float part = part_of_strip(hn::GetLane(c), hn::GetLane(hn::Shuffle01(c)), n);
+        const auto value0 = hn::LoadU(d4, strip.value0), value1 = hn::LoadU(d4, strip.value1);
+        hn::Store(hn::Add(value0, hn::Mul(hn::Set(d4, part), hn::Sub(value1, value0))), d4, samples[i]);
+    }
+}
+
+// Whether a vector of samples shows one and the same strip.
+HWY_INLINE bool show_one_strip(const std::uint64_t* words) {
+    const hn::ScalableTag<std::uint64_t> d;
+    const auto number = hn::Set(d, 0xffffffff), first = hn::Set(d, words[0] & 0xffffffff);
+    for (std::size_t i = 0; i < hn::Lanes(FloatTag()); i += hn::Lanes(d))
+        if (!hn::AllTrue(d, hn::Eq(hn::And(hn::LoadU(d, words + i), number), first))) return false;
+    return true;
+}
+
+// How far along a strip the directions K, K + 1, ... are: part_of_strip for half a vector of floats.
+HWY_INLINE auto parts_of_strip(const StripEnds& strip, double n, double K) {
+    const hn::ScalableTag<double> d;
+    const auto Ks = hn::Iota(d, K), zero = hn::Zero(d), one = hn::Set(d, 1.0);
+    const auto c0 = hn::Sub(hn::Set(d, strip.x0), hn::Mul(Ks, hn::Set(d, strip.z0)));
+    const auto c1 = hn::Sub(hn::Set(d, strip.x1), hn::Mul(Ks, hn::Set(d, strip.z1)));
+    const auto part = hn::Div(hn::Sub(hn::Set(d, n), c0), hn::Sub(c1, c0));
+    const auto positive = hn::IfThenElse(hn::Gt(part, zero), part, zero);
+    return hn::DemoteTo(hn::Rebind<float, decltype(d)>(), hn::IfThenElse(hn::Lt(positive, one), positive, one));
+}
+
 // Shades up to 64 samples of a column from direction k on; `aligned` says that whole vectors fit the rows' places.
 HWY_INLINE void shade_block(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
                             const ShadedPlane& out, std::size_t column, std::size_t k, std::size_t count,
                             bool aligned) {
     const FloatTag d;
-    const hn::Full128<float> d4;
-    const hn::Full128<double> d2;
     const std::uint64_t* words = plane.words + column * plane.directions + k;
     const double n = plane.first_column + static_cast<double>(column);
     const double K = static_cast<double>(plane.first_direction) + static_cast<double>(k);
 
     HWY_ALIGN float samples[64][4];
     const std::uint64_t covered = covered_words(words, count);
-    if (covered != 0) {
-        const auto behind = hn::LoadU(d4, background);
-        for (std::size_t i = 0; i < count; ++i) hn::Store(behind, d4, samples[i]);
-        for (std::uint64_t left = covered; left != 0; left &= left - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(left));
-            const StripEnds& strip = strips[words[i] & 0xffffffff];
-            const auto c = hn::Sub(hn::LoadU(d2, &strip.x0),
-                                   hn::Mul(hn::Set(d2, K + static_cast<double>(i)), hn::LoadU(d2, &strip.z0)));
-            const float part = part_of_strip(hn::GetLane(c), hn::GetLane(hn::Shuffle01(c)), n);
-            const auto value0 = hn::LoadU(d4, strip.value0), value1 = hn::LoadU(d4, strip.value1);
-            hn::Store(hn::Add(value0, hn::Mul(hn::Set(d4, part), hn::Sub(value1, value0))), d4, samples[i]);
-        }
-    }
+    const auto shade_range = [&](std::size_t first, std::size_t number) {
+        const auto behind = hn::LoadU(hn::Full128<float>(), background);
+        for (std::size_t i = 0; i < number; ++i) hn::Store(behind, hn::Full128<float>(), samples[first + i]);
+        const std::uint64_t range = (number < 64 ? (std::uint64_t{1} << number) - 1 : ~std::uint64_t{0}) << first;
+        shade_each(words, covered & range, strips, n, K, samples);
+    };
 
     if (!aligned) {
+        if (covered != 0) shade_range(0, count);
         for (int i = 0; i < 4; ++i)
             for (std::size_t j = 0; j < count && out.values[i]; ++j)
                 out.values[i][column * out.strides[i] + k + j] = covered != 0 ? samples[j][i] : background[i];
         return;
     }
-    Floats values[4];
-    for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, background[i]);
-    for (std::size_t j = 0; j < count; j += hn::Lanes(d)) {
-        if (covered != 0) hn::LoadInterleaved4(d, samples[j], values[0], values[1], values[2], values[3]);
+    const std::size_t lanes = hn::Lanes(d);
+    for (std::size_t j = 0; j < count; j += lanes) {
+        Floats values[4];
+        const std::uint64_t range = ((std::uint64_t{1} << lanes) - 1) << j;
+        if ((covered & range) == 0) {
+            for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, background[i]);
+        } else if ((covered & range) == range && show_one_strip(words + j)) {
+            // Large triangles: all lanes at once, by the operations of the plain kernel in its order.
+            const StripEnds& strip = strips[words[j] & 0xffffffff];
+            const double Kj = K + static_cast<double>(j);
+            const auto part = hn::Combine(d, parts_of_strip(strip, n, Kj + static_cast<double>(lanes / 2)),
+                                          parts_of_strip(strip, n, Kj));
+            for (int i = 0; i < 4; ++i)
+                values[i] =
+                    hn::Add(hn::Set(d, strip.value0[i]), hn::Mul(part, hn::Set(d, strip.value1[i] - strip.value0[i])));
+        } else {
+            shade_range(j, lanes);
+            hn::LoadInterleaved4(d, samples[j], values[0], values[1], values[2], values[3]);
+        }
         for (int i = 0; i < 4; ++i)
             if (out.values[i])
                 // Past the caches: nobody reads a sample soon after.

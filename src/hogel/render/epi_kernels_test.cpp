@@ -246,6 +246,10 @@ TEST_P(EveryTarget, vector_and_plain_shadings_are_the_same) {
         Plane plane(columns, directions, -3);
         for (std::uint64_t& word : plane.words)
             if (places.coin()) word = std::uint64_t{12345} << 32 | places.between(0, 19);
+        // Long runs of one strip, as large triangles make them.
+        if (directions % 2 == 0)
+            for (std::size_t k = 0; k < size; ++k)
+                if (k / 37 % 2 == 0) plane.words[k] = std::uint64_t{k} << 32 | (k / 37 + directions) % 20;
         // A column that sees nothing.
         if (directions % 3 == 0) std::fill_n(plane.words.begin(), directions, EpipolarPlane::nothing);
         // On cache lines, and off them.
