@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <map>
+
 #include "commands.h"
 #include "hogel/codec/compress.h"
 #include "hogel/transform/transform.h"
@@ -13,20 +15,19 @@ namespace {
 struct Options {
     std::string input, output;
     CompressionOptions compression;
+    std::string hemicube = "faces";
     Counts tile;
 };
 
-std::unique_ptr<LightFieldSource> open_input(const std::string& name) {
-    if (input_kind(name) != InputKind::light_field)
-        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", name));
-    std::vector<std::unique_ptr<LightFieldSource>> faces = open_light_field_faces(name);
-    if (faces.size() > 1)
-        throw Error(ErrorCode::bad_input, fmt::format("{}: is a hemicube; a compressed file holds one face", name));
-    return std::move(faces.front());
-}
+const std::map<std::string, HemicubeLayout> layouts{{"faces", HemicubeLayout::faces},
+                                                    {"unfolded", HemicubeLayout::unfolded}};
 
 int compress_file(Options options, const Session& session) {
-    const auto source = open_input(options.input);
+    if (input_kind(options.input) != InputKind::light_field)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
+    const std::vector<std::unique_ptr<LightFieldSource>> sources = open_light_field_faces(options.input);
+    std::vector<const LightFieldSource*> faces;
+    for (const auto& source : sources) faces.push_back(source.get());
     require_writable(options.output);
     CompressionOptions& compression = options.compression;
     CompressionTarget& target = compression.target;
@@ -35,9 +36,10 @@ int compress_file(Options options, const Session& session) {
     if (compression.method.transform.empty())
         compression.method.transform = default_transform(compression.method.coder);
     compression.metadata = describe_run(session);
-    if (source->has_depth()) session.say("hogel: the depth is left out");
+    compression.layout = layouts.at(options.hemicube);
+    if (faces.front()->has_depth()) session.say("hogel: the depth is left out");
     Stage stage(session, "compressing");
-    const CompressionResult result = compress(*source, options.output, compression, stage.progress());
+    const CompressionResult result = compress(faces, options.output, compression, stage.progress());
     session.say(fmt::format("{}: {}, {:.2f} dB, {:.4g} pixels per bit, coded {} {}", options.output,
                             format_bytes(static_cast<double>(result.bytes)), result.sqnr, result.pixels_per_bit,
                             result.passes, result.passes == 1 ? "time" : "times"));
@@ -79,6 +81,12 @@ void add_compress(CLI::App& app, Session& session) {
             "--transform", method.transform,
             fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform_names(), ", ")))
         ->type_name("NAME");
+    command
+        ->add_option("--hemicube", options->hemicube,
+                     "How a hemicube is coded: its faces one by one, or unfolded into one array with smooth corners")
+        ->type_name("faces|unfolded")
+        ->check(CLI::IsMember(layouts).description(""))
+        ->capture_default_str();
     add_counts(command, "--tile", options->tile, "Hogels across and down that are coded together; 0: as suits")
         ->default_str("");
 }

@@ -13,17 +13,41 @@ struct Options {
     bool single = false;
 };
 
+// All faces tile by tile, for they may come from the same bytes, which are then decoded once.
+void copy_together(const std::vector<std::unique_ptr<LightFieldSource>>& faces,
+                   const std::vector<std::unique_ptr<LightFieldSink>>& sinks, const Progress& progress) {
+    const LightFieldGrid& grid = faces.front()->grid();
+    const HogelRange size = faces.front()->preferred_tile();
+    for (std::size_t t = 0; t < grid.hogels_t; t += size.nt)
+        for (std::size_t s = 0; s < grid.hogels_s; s += size.ns) {
+            for (std::size_t i = 0; i < faces.size(); ++i) {
+                const HogelRange range{s, t, std::min(size.ns, grid.hogels_s - s),
+                                       std::min(size.nt, grid.hogels_t - t)};
+                LightFieldTile tile(faces[i]->grid(), range, false);
+                faces[i]->read(tile);
+                sinks[i]->write(tile);
+            }
+            report(progress, static_cast<double>(t) / static_cast<double>(grid.hogels_t));
+        }
+    for (const auto& sink : sinks) sink->finish();
+}
+
 int decompress_file(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field || !is_stream(options.input))
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
     require_writable(options.output);
-    const auto source = open_stream(options.input);
+    const auto faces = open_stream_faces(options.input);
     LightFieldFileOptions file;
     file.type = options.single ? SampleType::single : SampleType::half;
     file.metadata = describe_run(session);
-    const auto sink = create_light_field(options.output, source->grid(), file);
+    std::vector<LightFieldGrid> grids;
+    for (const auto& face : faces) grids.push_back(face->grid());
+    const auto sinks = create_light_field_faces(options.output, grids, file);
     Stage stage(session, "decompressing");
-    copy(*source, *sink, stage.progress());
+    if (faces.size() == 1)
+        copy(*faces.front(), *sinks.front(), stage.progress());
+    else
+        copy_together(faces, sinks, stage.progress());
     session.say(fmt::format("{}: {}", options.output,
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
     return 0;

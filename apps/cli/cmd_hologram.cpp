@@ -38,7 +38,9 @@ int straight_from_scene(const Options& options, const SceneMethod& method, const
                           static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
                          wavelength});
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
-    const auto scene = lit(session, load_scene(session, options.input, options.render), options.render);
+    RenderOptions render = options.render;
+    render.light_spacing = 0;  // in parts of a ray's width, and there are no rays
+    const auto scene = lit(session, load_scene(session, options.input, render), render);
     const auto sinks = create_hologram(options.output, grids, describe_run(session));
     SceneHologramOptions how;
     how.seed = session.seed;

@@ -39,12 +39,27 @@ class InRegions final : public LightFieldSource {
     HogelRange size_;
 };
 
+// What a renderer takes that is given a region at once; with several samples a ray, of the finer light field, which is
+// averaged in blocks.
+double renderer_bytes(const Options& options, const LightFieldGrid& grid, const HogelRange& region,
+                      const HogelRange& block, std::size_t values) {
+    const SamplesPerRay samples = options.render.samples_per_ray();
+    if (samples.count() == 1) return depth_buffer_bytes(options.render.algorithm, grid, region);
+    const LightFieldGrid fine = finer(grid, samples);
+    const HogelRange part{0, 0, samples.hogel * std::min(region.ns, block.ns),
+                          samples.hogel * std::min(region.nt, block.nt)};
+    return depth_buffer_bytes(options.render.algorithm, fine, part) +
+           static_cast<double>(values * fine.directions()) * static_cast<double>(part.hogels()) * sizeof(float);
+}
+
 // Says how much memory regions will take before they do, or that they would not fit.
-void state_memory(const Options& options, const LightFieldSource& source, const Session& session) {
+// @param block  the region that the renderer prefers
+void state_memory(const Options& options, const LightFieldSource& source, const HogelRange& block,
+                  const Session& session) {
     const LightFieldGrid& grid = source.grid();
     const HogelRange region = source.preferred_tile();
-    const double buffer = depth_buffer_bytes(options.render.algorithm, grid, region);
     const std::size_t kept = grid.channels + (options.file.with_depth ? 1 : 0);
+    const double buffer = renderer_bytes(options, grid, region, block, kept);
     const double values =
         static_cast<double>(kept * grid.directions()) * static_cast<double>(region.hogels()) * sizeof(float);
     const std::size_t regions =
@@ -68,9 +83,10 @@ int render(const Options& options, const Session& session) {
     require_writable(options.output);
     const std::vector<LightFieldGrid> grids = options.render.grids();
     auto sources = render_faces_on_demand(session, load_scene(session, options.scene, options.render), options.render);
+    const HogelRange block = sources.front()->preferred_tile();
     if (options.region.columns > 0)
         for (auto& source : sources) source = std::make_unique<InRegions>(std::move(source), options.region);
-    state_memory(options, *sources.front(), session);
+    state_memory(options, *sources.front(), block, session);
 
     LightFieldFileOptions file = options.file;
     file.type = options.single ? SampleType::single : SampleType::half;

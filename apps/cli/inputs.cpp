@@ -11,10 +11,13 @@
 #include "hogel/codec/stream.h"
 #include "hogel/direct/scene_hologram.h"
 #include "hogel/optics/photograph.h"
+#include "hogel/render/antialias.h"
+#include "hogel/render/light_spacing.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
 #include "hogel/scene/import.h"
 #include "hogel/shading/bake.h"
+#include "hogel/shading/light_cache.h"
 #include "hogel/shading/shading.h"
 #include "hogel/transform/transform.h"
 
@@ -112,8 +115,18 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
               ->type_name("NAME")
               ->capture_default_str());
     group(add_count(command, "--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map"));
+    group(command
+              ->add_option("--light-spacing", options.light_spacing,
+                           "Of the points of a surface at which light is worked out, in parts of the width of a ray "
+                           "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
+              ->type_name("F")
+              ->check(CLI::Range(0.0, 16.0).description(""))
+              ->capture_default_str());
     group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
     group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
+    group(add_counts(command, "--samples", options.samples,
+                     "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
+                     "makes 16"));
     group(add_length(command, "--size", options.size, "Width of the hologram"));
     group(add_angles(command, "--fov", options.field_of_view, "Field of view, the full angle; or across and down"));
     group(add_angles(command, "--toward", options.toward,
@@ -253,19 +266,28 @@ std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scen
     if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     Stage stage(session, "lighting");
-    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+    auto shaded = std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+    if (options.light_spacing > 0)
+        cache_light(*shaded,
+                    light_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.light_spacing));
+    if (const auto& cache = shaded->light_cache)
+        session.detail(fmt::format("light on surfaces: at most {}; no room for that of {} of {} triangles",
+                                   format_bytes(cache->bytes()), cache->triangles_without_room(),
+                                   shaded->triangles.size()));
+    return shaded;
 }
 
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
                                                    const RenderOptions& options) {
-    return make_renderer(options.algorithm, lit(session, scene, options), options.grid());
+    return make_renderer(options.algorithm, lit(session, scene, options), options.grid(), options.samples_per_ray());
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
                                                                       const RenderOptions& options) {
     const std::shared_ptr<const ShadedScene> shaded = lit(session, scene, options);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
-    for (const LightFieldGrid& grid : options.grids()) faces.push_back(make_renderer(options.algorithm, shaded, grid));
+    for (const LightFieldGrid& grid : options.grids())
+        faces.push_back(make_renderer(options.algorithm, shaded, grid, options.samples_per_ray()));
     return faces;
 }
 

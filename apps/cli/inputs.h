@@ -13,6 +13,7 @@
 #include "hogel/image/image.h"
 #include "hogel/io/files.h"
 #include "hogel/lightfield/light_field.h"
+#include "hogel/render/antialias.h"
 #include "hogel/scene/scene.h"
 #include "hogel/shading/shaded_scene.h"
 #include "session.h"
@@ -24,8 +25,10 @@ struct RenderOptions {
     std::string algorithm{defaults.algorithm};
     std::string shading{defaults.shading};
     std::size_t shadow_map = defaults.shadow_map;
+    double light_spacing = defaults.light_spacing;
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
+    Counts samples{1, 1};  ///< of a ray: along a hogel, along a direction's cell
     double size = defaults.size;
     Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
     Angles toward;
@@ -37,6 +40,7 @@ struct RenderOptions {
     LightFieldGrid grid() const;
     /// Of all faces: the front alone, or all five.
     std::vector<LightFieldGrid> grids() const;
+    SamplesPerRay samples_per_ray() const { return {samples.columns, samples.rows}; }
 };
 void add_render_options(CLI::App* command, RenderOptions& options);
 /// --hemicube, for commands that make use of all faces.
@@ -67,7 +71,8 @@ InputKind input_kind(const std::string& name);
 /// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), lit.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
 
-/// A scene with its light.
+/// A scene with its light, which unless light_spacing is 0 is kept on the surfaces for rays of the options' light
+/// field.
 std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options);
 
 /// The light field of a scene, rendered where it is read.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Decodes a compressed light field (.hgl) of the coder "hogel" as docs/format.md says, slowly and plainly, and compares
 it with what `hogel decompress --float` made of it: every sample must be the same, to the last bit before colours are
-joined.
+joined. Corners of an unfolded hemicube are nobody's.
 
 usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5
 """
@@ -350,42 +350,66 @@ class Tile:
         plane[y:y + 8, x:x + 8] = prediction + residual
 
 
+def compare(picture, truth):
+    if len(picture) == 1:
+        assert np.array_equal(picture, truth), "samples differ"
+        return
+    a, b, c = picture * np.array([3**-0.5, 2**-0.5, 6**-0.5])[:, None, None]
+    joined = np.stack([a + b + c, a - 2 * c, a - b + c])
+    assert np.allclose(joined, truth, rtol=0, atol=1e-6 * np.abs(truth).max()), "colours differ"
+
+
 def main():
     data = open(sys.argv[1], "rb").read()
     source = Bytes(data)
     assert data[:8] == b"\x89HGL\r\n\x1a\n"
     source.at = 8
     version, length = source.take("II")
-    assert version == 1
+    assert version in (1, 2)
     channels, columns, rows, n_u, n_v = source.take("5Q")
     _, tan_u, tan_v, _, _ = source.take("5d")
     assert source.text() == "front"
     tile_s, tile_t = source.take("2Q")
     assert source.text() == "hogel" and source.text() == ""
-    source.at = 16 + length
+    for _ in range(source.take("I")):
+        source.text(), source.text()
+    # Parts: for each its size, and the faces in it as name, columns and rows.
+    parts = [(n_u, n_v, tan_u, tan_v, [("radiance", 0, n_u, 0, n_v)])]
+    if version == 2:
+        layout, sides = source.text(), {}
+        for _ in range(source.take("I")):
+            name = source.text()
+            sides[name] = source.take("QQ4d")
+        if layout == "faces":
+            parts += [(u, v, a, b, [(f"{name}/radiance", 0, u, 0, v)]) for name, (u, v, a, b, _, _) in sides.items()]
+        else:
+            assert layout == "unfolded"
+            u0, v0 = sides["left"][0], sides["top"][1]
+            u1, v1 = u0 + n_u, v0 + n_v
+            u2, v2 = u1 + sides["right"][0], v1 + sides["bottom"][1]
+            places = [("radiance", u0, u1, v0, v1), ("left/radiance", 0, u0, v0, v1),
+                      ("right/radiance", u1, u2, v0, v1), ("top/radiance", u0, u1, 0, v0),
+                      ("bottom/radiance", u0, u1, v1, v2)]
+            parts = [(u2, v2, tan_u * u2 / n_u, tan_v * v2 / n_v, places)]
+    assert source.at == 16 + length
     assert source.take("I") == zlib.crc32(data[:16 + length])
     begin, = struct.unpack_from("<Q", data, len(data) - 12)
     assert struct.unpack_from("<I", data, len(data) - 4)[0] == zlib.crc32(data[begin:-4])
     index = Bytes(data[begin:])
-    aspect = f32((2 * tan_u / n_u) / (2 * tan_v / n_v))
-    with h5py.File(sys.argv[2], "r") as file:
-        expected = file["radiance"][:]
-    for t0 in range(0, rows, tile_t):
-        for s0 in range(0, columns, tile_s):
-            size, checksum = index.take("QI")
-            code = data[source.at:source.at + size]
-            source.at += size
-            assert zlib.crc32(code) == checksum
-            across, down = min(tile_s, columns - s0), min(tile_t, rows - t0)
-            for hogel in Tile(code, across, down, (channels, n_v, n_u), aspect).hogels:
-                picture = hogel.picture[:, :n_v, :n_u]
-                truth = expected[:, t0 + hogel.t, s0 + hogel.s]
-                if channels == 1:
-                    assert np.array_equal(picture, truth), f"hogel {s0 + hogel.s}, {t0 + hogel.t} differs"
-                else:
-                    a, b, c = picture * np.array([3**-0.5, 2**-0.5, 6**-0.5])[:, None, None]
-                    joined = np.stack([a + b + c, a - 2 * c, a - b + c])
-                    assert np.allclose(joined, truth, rtol=0, atol=1e-6 * np.abs(truth).max()), "colours differ"
+    file = h5py.File(sys.argv[2], "r")
+    for u, v, tan_u, tan_v, faces in parts:
+        aspect = f32((2 * tan_u / u) / (2 * tan_v / v))
+        expected = {name: file[name][:] for name, *_ in faces}
+        for t0 in range(0, rows, tile_t):
+            for s0 in range(0, columns, tile_s):
+                size, checksum = index.take("QI")
+                code = data[source.at:source.at + size]
+                source.at += size
+                assert zlib.crc32(code) == checksum
+                across, down = min(tile_s, columns - s0), min(tile_t, rows - t0)
+                for hogel in Tile(code, across, down, (channels, v, u), aspect).hogels:
+                    for name, u0, u1, v0, v1 in faces:
+                        compare(hogel.picture[:, v0:v1, u0:u1], expected[name][:, t0 + hogel.t, s0 + hogel.s])
     print("the same")
 
 

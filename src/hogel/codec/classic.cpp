@@ -27,8 +27,8 @@ enum class Content {
 
 class ClassicCoder : public TileCoder {
   public:
-    explicit ClassicCoder(std::string_view name, Content content = Content::radiance)
-        : transform_(transform(name)), content_(content) {}
+    explicit ClassicCoder(std::string_view name, const DirectionCross& counted, Content content = Content::radiance)
+        : transform_(transform(name)), counted_(counted), content_(content) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         HogelRange tile{0, 0, 1, 1};
@@ -60,12 +60,7 @@ class ClassicCoder : public TileCoder {
             writer.put(std::span(code));
         }
         decode(writer.bytes, work);
-        Encoded encoded{std::move(writer.bytes), 0};
-        for (std::size_t i = 0; i < work.radiance.size(); ++i) {
-            const double error = static_cast<double>(tile.radiance.data()[i]) - work.radiance.data()[i];
-            encoded.squared_error += error * error;
-        }
-        return encoded;
+        return {std::move(writer.bytes), squared_error(tile, work)};
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
@@ -94,6 +89,18 @@ class ClassicCoder : public TileCoder {
         const Shape<5>& shape = tile.radiance.shape();
         const std::vector<std::size_t> axes(shape.begin() + 1, shape.end());
         return content_ == Content::amplitude ? Pyramid::separate(axes, {{0, 1}, {2, 3}}) : Pyramid::interleaved(axes);
+    }
+    double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded) const {
+        const std::size_t width = truth.radiance.extent(4), height = truth.radiance.extent(3);
+        double sum = 0;
+        for (std::size_t row = 0; row < truth.radiance.size() / width; ++row) {
+            const auto [begin, end] = counted_.columns(row % height, width);
+            for (std::size_t i = row * width + begin; i < row * width + end; ++i) {
+                const double error = static_cast<double>(truth.radiance.data()[i]) - decoded.radiance.data()[i];
+                sum += error * error;
+            }
+        }
+        return sum;
     }
     // Transforms back along the groups of `back`.
     void decode(std::span<const std::uint8_t> bytes, const Pyramid& back, LightFieldTile& tile) const {
@@ -125,6 +132,7 @@ class ClassicCoder : public TileCoder {
     }
 
     Transform transform_;
+    DirectionCross counted_;
     Content content_;
 };
 
@@ -180,7 +188,7 @@ class Jpeg4dCoder final : public ClassicCoder {
 
 }  // namespace
 
-std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method) {
+std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const DirectionCross& counted) {
     const bool blocks = !transform(method.transform).is_wavelet();
     if (blocks != (method.coder == "jpeg4d"))
         throw Error(ErrorCode::usage,
@@ -188,10 +196,10 @@ std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method) {
                                 blocks                     ? "jpeg4d with dct8"
                                 : method.coder == "jpeg4d" ? "dct8"
                                                            : "a wavelet"));
-    if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform);
-    if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform);
+    if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform, counted);
+    if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform, counted);
     const Content content = method.coder == "fringes" ? Content::amplitude : Content::radiance;
-    return std::make_unique<ThreePassCoder>(method.transform, content);
+    return std::make_unique<ThreePassCoder>(method.transform, counted, content);
 }
 
 }  // namespace hogel

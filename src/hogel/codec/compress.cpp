@@ -26,7 +26,7 @@ double decibels(double signal, double error) {
 
 // What coding tiles with a step gave.
 struct Outcome {
-    double signal = 0, error = 0, bytes = 0, samples = 0;
+    double signal = 0, error = 0, bytes = 0, samples = 0;  // samples with those that do not count
 
     double sqnr() const { return decibels(signal, error); }
     void add(const Outcome& other) {
@@ -39,11 +39,23 @@ struct Outcome {
 
 class Compression {
   public:
-    Compression(const LightFieldSource& source, const TileCoder& coder, const StreamInfo& info, StreamWriter& writer,
-                const Progress& progress)
-        : source_(source), coder_(coder), tiling_(info.grid, info.tile), writer_(writer), progress_(progress) {}
+    // What is cut into tiles, by itself.
+    struct Part {
+        const LightFieldSource* source;
+        std::unique_ptr<TileCoder> coder;
+    };
 
-    const Tiling& tiling() const { return tiling_; }
+    Compression(std::span<const Part> parts, const StreamInfo& info, StreamWriter& writer, const Progress& progress)
+        : parts_(parts), tiling_(info.grid, info.tile), counted_(counted(info)), writer_(writer), progress_(progress) {}
+
+    // Tiles of all parts, those of the first before those of the second.
+    std::size_t tiles() const { return parts_.size() * tiling_.count(); }
+    bool embedded() const { return parts_.front().coder->embedded(); }
+    double samples() const {
+        double sum = 0;
+        for (const Part& part : parts_) sum += part.source->grid().samples();
+        return sum;
+    }
 
     // Codes these tiles, and writes them where that is wanted.
     Outcome code(std::span<const std::size_t> tiles, double step, bool write,
@@ -56,7 +68,7 @@ class Compression {
         parallel_ordered<Coded>(
             tiles.size(), in_flight(),
             [&](std::size_t i) {
-                return code_tile(tiling_[tiles[i]], step, most_bytes.empty() ? TileCoder::no_limit : most_bytes[i]);
+                return code_tile(tiles[i], step, most_bytes.empty() ? TileCoder::no_limit : most_bytes[i]);
             },
             [&](std::size_t i, Coded& coded) {
                 sum.add(coded.outcome);
@@ -72,7 +84,7 @@ class Compression {
     Outcome look(std::span<const std::size_t> tiles) {
         Outcome sum;
         parallel_ordered<Outcome>(
-            tiles.size(), in_flight(), [&](std::size_t i) { return read(tiling_[tiles[i]]).second; },
+            tiles.size(), in_flight(), [&](std::size_t i) { return read(tiles[i]).second; },
             [&](std::size_t, Outcome& outcome) { sum.add(outcome); });
         return sum;
     }
@@ -85,13 +97,20 @@ class Compression {
         Outcome outcome;
     };
 
-    std::size_t in_flight() const { return std::min(default_in_flight(), coder_.most_at_once()); }
+    std::size_t in_flight() const { return std::min(default_in_flight(), parts_.front().coder->most_at_once()); }
 
-    std::pair<LightFieldTile, Outcome> read(const HogelRange& range) const {
-        LightFieldTile tile(source_.grid(), range, false);
-        source_.read(tile);
+    std::pair<LightFieldTile, Outcome> read(std::size_t index) const {
+        const LightFieldSource& source = *parts_[index / tiling_.count()].source;
+        const HogelRange range = tiling_[index % tiling_.count()];
+        LightFieldTile tile(source.grid(), range, false);
+        source.read(tile);
         Outcome outcome;
-        for (const float value : tile.radiance.elements()) outcome.signal += static_cast<double>(value) * value;
+        const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
+        for (std::size_t row = 0; row < tile.radiance.size() / width; ++row) {
+            const auto [begin, end] = counted_.columns(row % height, width);
+            for (const float value : tile.radiance.elements().subspan(row * width + begin, end - begin))
+                outcome.signal += static_cast<double>(value) * value;
+        }
         if (!std::isfinite(outcome.signal))
             throw Error(ErrorCode::bad_input,
                         fmt::format("radiance is not finite everywhere in hogels {} to {} of rows {} to {}", range.s0,
@@ -100,32 +119,32 @@ class Compression {
         return {std::move(tile), outcome};
     }
 
-    Coded code_tile(const HogelRange& range, double step, std::size_t most_bytes) const {
-        auto [tile, outcome] = read(range);
-        TileCoder::Encoded encoded = coder_.encode(tile, step, most_bytes);
+    Coded code_tile(std::size_t index, double step, std::size_t most_bytes) const {
+        auto [tile, outcome] = read(index);
+        TileCoder::Encoded encoded = parts_[index / tiling_.count()].coder->encode(tile, step, most_bytes);
         outcome.error = encoded.squared_error;
         outcome.bytes = static_cast<double>(encoded.bytes.size());
         return {std::move(encoded.bytes), outcome};
     }
 
-    const LightFieldSource& source_;
-    const TileCoder& coder_;
+    std::span<const Part> parts_;
     Tiling tiling_;
+    DirectionCross counted_;
     StreamWriter& writer_;
     const Progress& progress_;
     std::vector<std::size_t> sizes_;
 };
 
-std::vector<std::size_t> all_tiles(const Tiling& tiling) {
-    std::vector<std::size_t> tiles(tiling.count());
+std::vector<std::size_t> all_tiles(std::size_t count) {
+    std::vector<std::size_t> tiles(count);
     std::iota(tiles.begin(), tiles.end(), 0);
     return tiles;
 }
 
 // Some tiles, spread over the light field.
-std::vector<std::size_t> some_tiles(const Tiling& tiling) {
+std::vector<std::size_t> some_tiles(std::size_t count) {
     std::vector<std::size_t> tiles;
-    for (std::size_t i = 0; i < sampled; ++i) tiles.push_back((2 * i + 1) * tiling.count() / (2 * sampled));
+    for (std::size_t i = 0; i < sampled; ++i) tiles.push_back((2 * i + 1) * count / (2 * sampled));
     return tiles;
 }
 
@@ -216,17 +235,33 @@ class StepSearch {
 
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
+    const LightFieldSource* const only = &source;
+    return compress({&only, 1}, path, options, progress);
+}
+
+CompressionResult compress(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+                           const CompressionOptions& options, const Progress& progress) {
     check(options.target);
-    const LightFieldGrid& grid = source.grid();
-    const std::unique_ptr<TileCoder> coder = make_tile_coder(options.method, grid);
-    StreamInfo info{grid, options.tile.value_or(coder->preferred_tile(grid)), options.method, options.metadata};
+    const LightFieldGrid& grid = faces.front()->grid();
+    StreamInfo info{grid, {}, options.method, options.metadata, {}, options.layout};
+    double pixels = 0;
+    for (const LightFieldSource* face : faces) {
+        if (face != faces.front()) info.sides.push_back(face->grid());
+        pixels += static_cast<double>(face->grid().directions()) * static_cast<double>(grid.hogels());
+    }
+    if (info.sides.empty()) info.layout = HemicubeLayout::faces;
+    const std::vector<LightFieldGrid> grids = coded_parts(info);
+    const auto unfolded = info.layout == HemicubeLayout::unfolded ? unfold(faces) : std::unique_ptr<LightFieldSource>{};
+    std::vector<Compression::Part> parts;
+    for (std::size_t i = 0; i < grids.size(); ++i)
+        parts.push_back({unfolded ? unfolded.get() : faces[i], make_tile_coder(info.method, grids[i], counted(info))});
+    info.tile = options.tile.value_or(parts.front().coder->preferred_tile(grids.front()));
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
     StreamWriter writer(path, info);
-    Compression compression(source, *coder, info, writer, progress);
+    Compression compression(parts, info, writer, progress);
     const CompressionTarget& target = options.target;
-    const std::vector<std::size_t> all = all_tiles(compression.tiling());
-    const double pixels = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
+    const std::vector<std::size_t> all = all_tiles(compression.tiles());
 
     CompressionResult result;
     Outcome outcome;
@@ -235,16 +270,16 @@ CompressionResult compress(const LightFieldSource& source, const std::filesystem
         outcome = compression.code(all, result.step, true);
         result.passes = 1;
     } else {
-        const std::vector<std::size_t> some = all.size() >= 3 * sampled ? some_tiles(compression.tiling()) : all;
+        const std::vector<std::size_t> some = all.size() >= 3 * sampled ? some_tiles(all.size()) : all;
         const Outcome seen = compression.look(some);
         // Detail of the step's size everywhere has an error of step²/12.
         const double rms = std::sqrt(seen.signal / seen.samples);
         double place =
             std::log2(rms > 0 ? rms * (target.sqnr ? std::sqrt(12) * std::pow(10, -*target.sqnr / 20) : 0.1) : 1);
-        StepSearch search(compression, band_of(target, pixels, coder->embedded()), [&](const Outcome& o) {
+        StepSearch search(compression, band_of(target, pixels, compression.embedded()), [&](const Outcome& o) {
             if (target.sqnr) return o.sqnr();
             const double overhead = static_cast<double>(writer.overhead(all.size()));
-            return std::log2(o.bytes * (grid.samples() / o.samples) + overhead);
+            return std::log2(o.bytes * (compression.samples() / o.samples) + overhead);
         });
         if (some.size() < all.size()) place = search.run(some, false, place);
         place = search.run(all, true, place);
@@ -252,7 +287,7 @@ CompressionResult compress(const LightFieldSource& source, const std::filesystem
         result.step = std::exp2(place);
         result.passes = search.passes();
         const double most = std::floor(pixels / target.pixels_per_bit.value_or(pixels) / 8);
-        if (target.pixels_per_bit && coder->embedded() && static_cast<double>(writer.size()) > most) {
+        if (target.pixels_per_bit && compression.embedded() && static_cast<double>(writer.size()) > most) {
             const double room = most - static_cast<double>(writer.overhead(all.size()));
             outcome = compression.code(all, result.step, true, cut(compression.sizes(), room));
             ++result.passes;

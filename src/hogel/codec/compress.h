@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "hogel/codec/stream.h"
 #include "hogel/core/progress.h"
@@ -21,6 +22,7 @@ struct CompressionOptions {
     CompressionTarget target;
     std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
     Metadata metadata;
+    HemicubeLayout layout = HemicubeLayout::faces;  ///< of several faces
 };
 
 struct CompressionResult {
@@ -39,6 +41,10 @@ struct CompressionResult {
 /// Throws Error(usage) for a target or method that makes no sense, Error(bad_input) for radiance that is not finite,
 /// Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
+                           const CompressionOptions& options, const Progress& progress = {});
+
+/// The same of all faces of a hemicube, the front first, in one stream. Quality and rate are those of all together.
+CompressionResult compress(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});
 
 }  // namespace hogel

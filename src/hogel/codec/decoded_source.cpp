@@ -14,70 +14,89 @@ namespace {
 
 using Decoded = std::shared_ptr<const LightFieldTile>;
 
-// Copies what two tiles have in common.
-void copy_common(const LightFieldTile& from, LightFieldTile& to) {
+// Copies what two tiles have in common: of `from` the directions from a place on, as many as `to` has.
+void copy_common(const LightFieldTile& from, Unfolding::Place place, LightFieldTile& to) {
     const HogelRange &a = from.range, &b = to.range;
     const std::size_t s0 = std::max(a.s0, b.s0), s1 = std::min(a.s0 + a.ns, b.s0 + b.ns);
     const std::size_t t0 = std::max(a.t0, b.t0), t1 = std::min(a.t0 + a.nt, b.t0 + b.nt);
-    const std::size_t row = (s1 - s0) * from.radiance.extent(3) * from.radiance.extent(4);
-    for (std::size_t c = 0; c < from.radiance.extent(0); ++c)
+    const auto& shape = to.radiance.shape();
+    for (std::size_t c = 0; c < shape[0]; ++c)
         for (std::size_t t = t0; t < t1; ++t)
-            std::copy_n(&from.radiance(c, t - a.t0, s0 - a.s0, 0, 0), row, &to.radiance(c, t - b.t0, s0 - b.s0, 0, 0));
+            for (std::size_t s = s0; s < s1; ++s)
+                for (std::size_t v = 0; v < shape[3]; ++v)
+                    std::copy_n(&from.radiance(c, t - a.t0, s - a.s0, place.v + v, place.u), shape[4],
+                                &to.radiance(c, t - b.t0, s - b.s0, v, 0));
 }
 
-class DecodedSource final : public LightFieldSource {
+// A stream, and the tiles of it that were decoded last.
+class DecodedStream {
   public:
-    DecodedSource(const std::filesystem::path& path, std::size_t memory, bool coefficients)
+    DecodedStream(const std::filesystem::path& path, std::size_t memory, bool coefficients)
         : reader_(path),
-          coder_(coder_of(reader_)),
+          coders_(coders_of(reader_)),
           coefficients_(coefficients),
           kept_(std::max<std::size_t>(1, memory / tile_bytes(reader_))) {
-        if (coefficients && !coder_->directional())
+        if (!coefficients) return;
+        if (!coders_.front()->directional())
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
-                                    path.string(), reader_.info().method.coder));
+                                    path.string(), info().method.coder));
+        if (!info().sides.empty())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is a hemicube; expected the directions of a single face", path.string()));
     }
 
-    const LightFieldGrid& grid() const override { return reader_.info().grid; }
-    HogelRange preferred_tile() const override { return reader_.info().tile; }
+    const StreamInfo& info() const { return reader_.info(); }
 
-    void read(LightFieldTile& tile) const override {
-        validate(tile, grid());
+    // Reads a face: as many directions as the tile has of a part, from a place on.
+    void read(std::size_t part, Unfolding::Place place, LightFieldTile& tile) const {
         const Tiling& tiling = reader_.tiling();
         const HogelRange &r = tile.range, &size = tiling.size();
+        const LightFieldGrid& grid = reader_.parts()[part];
         // A tile asked for alone is decoded into its place.
         const std::size_t first = r.t0 / size.nt * tiling.across() + r.s0 / size.ns;
-        if (tiling[first] == r && kept_ < tiling.count()) return decode(first, tile);
+        const bool whole = tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
+        if (tiling[first] == r && whole && kept_ < tiling.count()) return decode({part, first}, tile);
         for (std::size_t t = r.t0 / size.nt; t * size.nt < r.t0 + r.nt; ++t)
             for (std::size_t s = r.s0 / size.ns; s * size.ns < r.s0 + r.ns; ++s)
-                copy_common(*decoded(t * tiling.across() + s), tile);
+                copy_common(*decoded({part, t * tiling.across() + s}), place, tile);
     }
 
   private:
-    static std::unique_ptr<TileCoder> coder_of(const StreamReader& reader) {
+    struct Index {
+        std::size_t part, tile;
+        friend bool operator==(const Index&, const Index&) = default;
+    };
+
+    static std::vector<std::unique_ptr<TileCoder>> coders_of(const StreamReader& reader) {
         try {
-            return make_tile_coder(reader.info().method, reader.info().grid);
+            std::vector<std::unique_ptr<TileCoder>> coders;
+            for (const LightFieldGrid& part : reader.parts())
+                coders.push_back(make_tile_coder(reader.info().method, part));
+            return coders;
         } catch (const Error& error) {
             reader.damaged(error.what());
         }
     }
     static std::size_t tile_bytes(const StreamReader& reader) {
-        const StreamInfo& info = reader.info();
-        return info.tile.hogels() * info.grid.directions() * info.grid.channels * sizeof(float);
+        const LightFieldGrid& grid = reader.parts().front();
+        return reader.info().tile.hogels() * grid.directions() * grid.channels * sizeof(float);
     }
 
-    void decode(std::size_t index, LightFieldTile& tile) const {
-        const std::vector<std::uint8_t> bytes = reader_.read(index);
+    void decode(Index index, LightFieldTile& tile) const {
+        const std::vector<std::uint8_t> bytes = reader_.read(index.part * reader_.tiling().count() + index.tile);
+        const TileCoder& coder = *coders_[index.part];
         try {
-            coefficients_ ? coder_->decode_coefficients(bytes, tile) : coder_->decode(bytes, tile);
+            coefficients_ ? coder.decode_coefficients(bytes, tile) : coder.decode(bytes, tile);
         } catch (const Error& error) {
             if (error.code() != ErrorCode::bad_input) throw;
-            reader_.damaged(fmt::format("tile {}: {}", index, error.what()));
+            reader_.damaged(
+                fmt::format("tile {}: {}", index.part * reader_.tiling().count() + index.tile, error.what()));
         }
     }
 
     // The tile from the cache, or decoded by the first who asks while the others wait.
-    Decoded decoded(std::size_t index) const {
+    Decoded decoded(Index index) const {
         std::promise<Decoded> promise;
         {
             std::unique_lock lock(mutex_);
@@ -92,7 +111,8 @@ class DecodedSource final : public LightFieldSource {
             if (cache_.size() > kept_) cache_.pop_back();
         }
         try {
-            auto tile = std::make_shared<LightFieldTile>(grid(), reader_.tiling()[index], false);
+            auto tile =
+                std::make_shared<LightFieldTile>(reader_.parts()[index.part], reader_.tiling()[index.tile], false);
             // A thread that waits inside must not begin to read something else, which may wait for this very tile.
             isolate([&] { decode(index, *tile); });
             promise.set_value(tile);
@@ -106,26 +126,59 @@ class DecodedSource final : public LightFieldSource {
     }
 
     struct Entry {
-        std::size_t index;
+        Index index;
         std::shared_future<Decoded> tile;
     };
 
     StreamReader reader_;
-    std::unique_ptr<TileCoder> coder_;
+    std::vector<std::unique_ptr<TileCoder>> coders_;  // of each part
     bool coefficients_;
     std::size_t kept_;
     mutable std::mutex mutex_;
     mutable std::list<Entry> cache_;  // the one used last first
 };
 
+// One face of a stream.
+class DecodedFace final : public LightFieldSource {
+  public:
+    DecodedFace(std::shared_ptr<const DecodedStream> stream, std::size_t face)
+        : stream_(std::move(stream)), grid_(stream_->info().faces()[face]), part_(face) {
+        if (stream_->info().layout != HemicubeLayout::unfolded) return;
+        part_ = 0;
+        place_ = Unfolding(stream_->info().faces()).place(grid_.face);
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    HogelRange preferred_tile() const override { return stream_->info().tile; }
+    void read(LightFieldTile& tile) const override {
+        validate(tile, grid_);
+        stream_->read(part_, place_, tile);
+    }
+
+  private:
+    std::shared_ptr<const DecodedStream> stream_;
+    LightFieldGrid grid_;
+    std::size_t part_;
+    Unfolding::Place place_{0, 0};
+};
+
 }  // namespace
 
 std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, std::size_t memory) {
-    return std::make_unique<DecodedSource>(path, memory, false);
+    return std::move(open_stream_faces(path, memory).front());
+}
+
+std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::filesystem::path& path,
+                                                                 std::size_t memory) {
+    const auto stream = std::make_shared<const DecodedStream>(path, memory, false);
+    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    for (std::size_t face = 0; face <= stream->info().sides.size(); ++face)
+        faces.push_back(std::make_unique<DecodedFace>(stream, face));
+    return faces;
 }
 
 std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path, std::size_t memory) {
-    return std::make_unique<DecodedSource>(path, memory, true);
+    return std::make_unique<DecodedFace>(std::make_shared<const DecodedStream>(path, memory, true), 0);
 }
 
 }  // namespace hogel

@@ -49,11 +49,12 @@ void for_each_row(const Picture& picture, const TileSetup& setup, Use&& use) {
 }
 
 double squared_error(const Picture& picture, const TileSetup& setup, const LightFieldTile& tile, std::size_t s,
-                     std::size_t t) {
+                     std::size_t t, const DirectionCross& counted) {
     double sum = 0;
     for_each_row(picture, setup, [&](std::size_t c, std::size_t v, const std::vector<float>& row) {
         const float* truth = &tile.radiance(c, t, s, v, 0);
-        for (std::size_t u = 0; u < row.size(); ++u) {
+        const auto [begin, end] = counted.columns(v, row.size());
+        for (std::size_t u = begin; u < end; ++u) {
             const double error = static_cast<double>(truth[u]) - row[u];
             sum += error * error;
         }
@@ -63,7 +64,8 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Light
 
 class HogelCoder final : public TileCoder {
   public:
-    explicit HogelCoder(const LightFieldGrid& grid) : aspect_(static_cast<float>(grid.step_u() / grid.step_v())) {}
+    HogelCoder(const LightFieldGrid& grid, const DirectionCross& counted)
+        : aspect_(static_cast<float>(grid.step_u() / grid.step_v())), counted_(counted) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         const std::size_t hogel = samples_of_hogel(grid.directions_u, grid.directions_v, grid.channels);
@@ -111,7 +113,7 @@ class HogelCoder final : public TileCoder {
                 moved[n] = moved_disparities(hogel, coded, setup.grid, setup.aspect);
                 coded[k] = analyse(setup, k, source(hogel), moved[n], beside(hogel, coded),
                                    k < estimated.size() ? estimated[k] : std::vector<std::int16_t>{}, pictures);
-                errors[k] = squared_error(pictures[k], setup, tile, hogel.s, hogel.t);
+                errors[k] = squared_error(pictures[k], setup, tile, hogel.s, hogel.t, counted_);
                 source(hogel) = {};
             });
             for (std::size_t k = begin; k < end; ++k) {
@@ -180,10 +182,13 @@ class HogelCoder final : public TileCoder {
     }
 
     float aspect_;
+    DirectionCross counted_;
 };
 
 }  // namespace
 
-std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid) { return std::make_unique<HogelCoder>(grid); }
+std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted) {
+    return std::make_unique<HogelCoder>(grid, counted);
+}
 
 }  // namespace hogel

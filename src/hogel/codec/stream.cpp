@@ -15,7 +15,49 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'H', 'G', 'L', '\r', '\n', 0x1A, '\n'};
 constexpr std::size_t prefix = magic.size() + 8;  // then version and length of the header
 constexpr std::size_t entry_bytes = 12, footer_bytes = 12;
-constexpr std::uint32_t most_header = 1 << 24;
+constexpr std::uint32_t most_header = 1 << 24, latest_version = 2;
+
+constexpr std::string_view layout_name(HemicubeLayout layout) {
+    return layout == HemicubeLayout::faces ? "faces" : "unfolded";
+}
+
+Face take_face(ByteReader& reader) {
+    const std::string face = reader.take_text();
+    const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return name(known); });
+    if (found == all_faces.end()) reader.damaged("its header names an unknown face of a hemicube");
+    return *found;
+}
+
+// What version 2 has behind the rest.
+void put_sides(ByteWriter& fields, const StreamInfo& info) {
+    fields.put(layout_name(info.layout));
+    fields.put(static_cast<std::uint32_t>(info.sides.size()));
+    for (const LightFieldGrid& side : info.sides) {
+        fields.put(name(side.face));
+        for (const std::size_t count : {side.directions_u, side.directions_v}) fields.put(std::uint64_t{count});
+        for (const double number : {side.tan_half_u, side.tan_half_v, side.center_u, side.center_v}) fields.put(number);
+    }
+}
+
+void take_sides(ByteReader& reader, StreamInfo& info) {
+    const std::string layout = reader.take_text();
+    for (const HemicubeLayout known : {HemicubeLayout::faces, HemicubeLayout::unfolded})
+        if (layout == layout_name(known)) info.layout = known;
+    if (layout != layout_name(info.layout)) reader.damaged("its header names an unknown layout of a hemicube");
+    const auto count = reader.take<std::uint32_t>();
+    if (count == 0 || count >= all_faces.size()) reader.damaged("its header has an impossible number of faces");
+    std::vector<Face> seen{info.grid.face};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        LightFieldGrid& side = info.sides.emplace_back(info.grid);
+        side.face = take_face(reader);
+        if (std::ranges::count(seen, side.face) > 0 || seen.front() != Face::front)
+            reader.damaged("its header names faces that make no hemicube");
+        seen.push_back(side.face);
+        for (std::size_t* number : {&side.directions_u, &side.directions_v}) *number = reader.take<std::uint64_t>();
+        for (double* number : {&side.tan_half_u, &side.tan_half_v, &side.center_u, &side.center_v})
+            *number = reader.take_double();
+    }
+}
 
 Bytes header_of(const StreamInfo& info) {
     ByteWriter fields;
@@ -34,26 +76,24 @@ Bytes header_of(const StreamInfo& info) {
         fields.put(std::string_view(name));
         fields.put(std::string_view(value));
     }
+    if (info.version() > 1) put_sides(fields, info);
     ByteWriter header;
     header.put(std::span(magic));
-    header.put(StreamInfo::version);
+    header.put(info.version());
     header.put(static_cast<std::uint32_t>(fields.bytes.size()));
     header.put(std::span(fields.bytes));
     header.put(checksum(header.bytes));
     return std::move(header.bytes);
 }
 
-StreamInfo read_fields(ByteReader& reader) {
+StreamInfo read_fields(ByteReader& reader, std::uint32_t version) {
     StreamInfo info;
     LightFieldGrid& grid = info.grid;
     for (std::size_t* count : {&grid.channels, &grid.hogels_s, &grid.hogels_t, &grid.directions_u, &grid.directions_v})
         *count = reader.take<std::uint64_t>();
     for (double* number : {&grid.pitch, &grid.tan_half_u, &grid.tan_half_v, &grid.center_u, &grid.center_v})
         *number = reader.take_double();
-    const std::string face = reader.take_text();
-    const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return name(known); });
-    if (found == all_faces.end()) reader.damaged("its header names an unknown face of a hemicube");
-    grid.face = *found;
+    grid.face = take_face(reader);
     info.tile.ns = reader.take<std::uint64_t>();
     info.tile.nt = reader.take<std::uint64_t>();
     info.method.coder = reader.take_text();
@@ -63,6 +103,7 @@ StreamInfo read_fields(ByteReader& reader) {
         std::string name = reader.take_text();
         info.metadata.emplace_back(std::move(name), reader.take_text());
     }
+    if (version > 1) take_sides(reader, info);
     return info;
 }
 
@@ -75,6 +116,21 @@ bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
 }
 
 }  // namespace
+
+std::vector<LightFieldGrid> StreamInfo::faces() const {
+    std::vector<LightFieldGrid> all{grid};
+    all.insert(all.end(), sides.begin(), sides.end());
+    return all;
+}
+
+std::vector<LightFieldGrid> coded_parts(const StreamInfo& info) {
+    if (info.layout == HemicubeLayout::unfolded) return {Unfolding(info.faces()).grid()};
+    return info.faces();
+}
+
+DirectionCross counted(const StreamInfo& info) {
+    return info.layout == HemicubeLayout::unfolded ? Unfolding(info.faces()).cross() : DirectionCross{};
+}
 
 Tiling::Tiling(const LightFieldGrid& grid, const HogelRange& size)
     : hogels_s_(grid.hogels_s),
@@ -90,11 +146,12 @@ HogelRange Tiling::operator[](std::size_t tile) const {
 
 StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& info)
     : output_(path), file_(output_.temporary(), RawFile::Mode::create, path) {
-    if (!tile_fits(info.grid, info.tile))
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field has, "
-                                "and at most {} samples in each",
-                                path.string(), info.tile.ns, info.tile.nt, most_tile_samples));
+    for (const LightFieldGrid& part : coded_parts(info))
+        if (!tile_fits(part, info.tile))
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field "
+                                    "has, and at most {} samples in each",
+                                    path.string(), info.tile.ns, info.tile.nt, most_tile_samples));
     const Bytes header = header_of(info);
     file_.write(0, header.data(), header.size());
     first_ = next_ = header.size();
@@ -135,8 +192,9 @@ StreamReader::StreamReader(const std::filesystem::path& path) : file_(path, RawF
     if (!std::equal(magic.begin(), magic.end(), header.begin())) damaged("it is not a compressed light field");
     const std::string what = fmt::format("cannot read '{}'", path.string());
     ByteReader begin(std::span<const std::uint8_t>(header).subspan(magic.size()), what);
-    if (const auto found = begin.take<std::uint32_t>(); found != StreamInfo::version)
-        damaged(fmt::format("it has version {} of the format, expected {}", found, StreamInfo::version));
+    const auto version = begin.take<std::uint32_t>();
+    if (version == 0 || version > latest_version)
+        damaged(fmt::format("it has version {} of the format, expected 1 to {}", version, latest_version));
     const auto length = begin.take<std::uint32_t>();
     if (length > most_header || length + prefix + 4 > size) damaged("its header is longer than the file");
     header.resize(prefix + length + 4);
@@ -145,14 +203,22 @@ StreamReader::StreamReader(const std::filesystem::path& path) : file_(path, RawF
     if (end.take<std::uint32_t>() != checksum(std::span(header).first(prefix + length)))
         damaged("its header is damaged");
     ByteReader fields(std::span<const std::uint8_t>(header).subspan(prefix, length), what);
-    info_ = read_fields(fields);
+    info_ = read_fields(fields, version);
     if (fields.left() > 0) damaged("its header has bytes left over");
-    validate(info_.grid, ErrorCode::bad_input, what);
-    if (!tile_fits(info_.grid, info_.tile)) damaged("its header has impossible tiles");
+    for (const LightFieldGrid& face : info_.faces()) validate(face, ErrorCode::bad_input, what);
+    try {
+        parts_ = coded_parts(info_);
+    } catch (const Error& error) {
+        damaged(error.what());
+    }
+    for (const LightFieldGrid& part : parts_)
+        if (!tile_fits(part, info_.tile)) damaged("its header has impossible tiles");
     tiling_.emplace(info_.grid, info_.tile);
 
-    const std::uint64_t tiles = tiling_->count(), most = size - header.size();
-    if (most < footer_bytes || tiles > (most - footer_bytes) / entry_bytes) damaged("it is truncated");
+    const std::uint64_t of_part = tiling_->count(), most = size - header.size();
+    if (most < footer_bytes || of_part > (most - footer_bytes) / entry_bytes / parts_.size())
+        damaged("it is truncated");
+    const std::uint64_t tiles = of_part * parts_.size();
     Bytes index(tiles * entry_bytes + footer_bytes);
     file_.read(size - index.size(), index.data(), index.size());
     ByteReader entries(index, what);

@@ -31,6 +31,12 @@ class Tiling {
 // The largest tile that a stream may have; what a damaged header can make a reader ask memory for.
 constexpr std::size_t most_tile_samples = std::size_t{1} << 28;
 
+// The arrays of directions whose tiles a stream holds one after the other, all tiles of the first before those of the
+// second: its faces, or what they unfold into. Throws Error(usage) for faces that do not unfold.
+std::vector<LightFieldGrid> coded_parts(const StreamInfo& info);
+// What of such an array is the light field's.
+DirectionCross counted(const StreamInfo& info);
+
 // Writes a stream's tiles one after the other; they may be written anew from the first until finish().
 class StreamWriter {
   public:
@@ -40,7 +46,7 @@ class StreamWriter {
     void append(std::span<const std::uint8_t> tile);
     // Of the whole file, as if it were finished now.
     std::uint64_t size() const { return next_ + overhead(index_.size()) - first_; }
-    // What a file of so many tiles has beside them.
+    // What a file of so many tiles, of all parts, has beside them.
     std::uint64_t overhead(std::size_t tiles) const;
     void finish();
 
@@ -62,6 +68,7 @@ class StreamReader {
     explicit StreamReader(const std::filesystem::path& path);
     const StreamInfo& info() const { return info_; }
     const Tiling& tiling() const { return *tiling_; }
+    const std::vector<LightFieldGrid>& parts() const { return parts_; }
     std::vector<std::uint8_t> read(std::size_t tile) const;
     [[noreturn]] void damaged(const std::string& why) const;
 
@@ -73,7 +80,8 @@ class StreamReader {
 
     RawFile file_;
     StreamInfo info_;
-    std::optional<Tiling> tiling_;
+    std::optional<Tiling> tiling_;  // of each part
+    std::vector<LightFieldGrid> parts_;
     std::vector<Entry> index_;
 };
 

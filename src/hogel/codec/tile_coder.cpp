@@ -17,15 +17,16 @@ void TileCoder::decode_coefficients(std::span<const std::uint8_t>, LightFieldTil
     throw Error(ErrorCode::usage, "this coder keeps no coefficients of directions; coder fringes does");
 }
 
-std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid) {
+std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
+                                           const DirectionCross& counted) {
     if (!std::ranges::count(coder_names(), method.coder))
         throw Error(ErrorCode::usage, fmt::format("there is no coder '{}'; expected one of {}", method.coder,
                                                   fmt::join(coder_names(), ", ")));
-    if (method.coder != "hogel") return make_classic_coder(method);
+    if (method.coder != "hogel") return make_classic_coder(method, counted);
     if (!method.transform.empty())
         throw Error(ErrorCode::usage,
                     fmt::format("coder hogel has its own transform; expected none, not {}", method.transform));
-    return make_hogel_coder(grid);
+    return make_hogel_coder(grid, counted);
 }
 
 std::string_view default_transform(std::string_view coder) {

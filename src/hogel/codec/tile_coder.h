@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hogel/codec/unfolded.h"
 #include "hogel/lightfield/light_field.h"
 
 namespace hogel {
@@ -18,7 +19,7 @@ class TileCoder {
   public:
     struct Encoded {
         std::vector<std::uint8_t> bytes;
-        double squared_error = 0;  ///< Σ (f − f')² over the tile's radiance, of what decode() gives
+        double squared_error = 0;  ///< Σ (f − f')² over the tile's directions that count, of what decode() gives
     };
     static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
@@ -51,8 +52,10 @@ struct CodingMethod {
 /// hogel|threepass|ezw|jpeg4d|fringes.
 std::vector<std::string_view> coder_names();
 
+/// @param counted   the directions whose errors count
 /// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
-std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid);
+std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
+                                           const DirectionCross& counted = {});
 
 /// The transform that a coder is used with where none is named.
 std::string_view default_transform(std::string_view coder);

@@ -11,6 +11,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/io/files.h"
+#include "hogel/io/foreign.h"
 
 namespace hogel {
 namespace {
@@ -299,6 +300,53 @@ TEST_F(H5py, what_is_wrong_with_a_file_is_named) {
         EXPECT_NE(message.find(part), std::string::npos) << change << ": " << message;
         EXPECT_EQ(message.empty(), std::string(part).empty()) << change << ": " << message;
     }
+}
+
+// Arrays of MATLAB 7.3 as Python's packages write them: in chunks that do not divide them, mixed, compressed, and with
+// checksums; beside them what is no array of numbers. The same array is written plain for NumPy.
+TEST_F(H5py, arrays_of_matlab_in_chunks_are_those_of_numpy) {
+    run(R"(
+import sys, h5py, numpy as np
+random = np.random.default_rng(1)
+field = (random.standard_normal((131, 77)) + 1j * random.standard_normal((131, 77))).astype(np.complex64)
+np.save(sys.argv[1] + ".npy", field)
+pairs = np.zeros((77, 131), [("real", "f4"), ("imag", "f4")])
+pairs["real"], pairs["imag"] = field.T.real, field.T.imag
+packed = dict(chunks=(20, 30), compression="gzip", shuffle=True, fletcher32=True)
+with h5py.File(sys.argv[1], "w", userblock_size=512) as f:
+    f.create_dataset("plain", data=pairs).attrs["MATLAB_class"] = np.bytes_("single")
+    f.create_dataset("packed", data=pairs, **packed).attrs["MATLAB_class"] = np.bytes_("single")
+    for i in range(40):
+        f["number%d" % i] = 0.0
+    f.create_group("struct").attrs["MATLAB_class"] = np.bytes_("struct")
+    f.create_dataset("text", data=np.zeros((5, 1), "u2")).attrs["MATLAB_class"] = np.bytes_("char")
+    f.create_dataset("double", data=np.arange(6.0).reshape(2, 3)).attrs["MATLAB_class"] = np.bytes_("double")
+with open(sys.argv[1], "r+b") as f:
+    f.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\0\2IM")
+)",
+        directory_ / "a.mat");
+    ForeignField what;
+    what.pitch_x = what.pitch_y = 1e-6;
+    what.wavelength = 633e-9;
+    const Region all{0, 0, 77, 131};
+    const auto samples = [&](const fs::path& path, const std::string& variable) {
+        what.variable = variable;
+        Array<std::complex<float>, 2> values({all.height, all.width});
+        open_foreign_field(path, what)->read(all, 0, values);
+        return values;
+    };
+    const auto expected = samples(directory_ / "a.mat.npy", "");
+    for (const char* variable : {"plain", "packed"})
+        EXPECT_TRUE(std::ranges::equal(samples(directory_ / "a.mat", variable).elements(), expected.elements()))
+            << variable;
+    what.variable = "text";
+    EXPECT_THROW(open_foreign_field(directory_ / "a.mat", what), Error);
+    what.variable = "double";
+    what.values = ForeignField::Values::amplitude;
+    const auto real = open_foreign_field(directory_ / "a.mat", what);
+    Array<std::complex<float>, 2> one({1, 1});
+    real->read({1, 2, 1, 1}, 0, one);
+    EXPECT_EQ(one(0, 0), std::complex<float>(5));
 }
 
 }  // namespace

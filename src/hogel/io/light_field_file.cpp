@@ -165,11 +165,8 @@ std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesy
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path) {
+    if (is_stream(path)) return open_stream_faces(path);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
-    if (is_stream(path)) {
-        faces.push_back(open_stream(path));
-        return faces;
-    }
     const hdf5::Session session;
     const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);

@@ -15,6 +15,14 @@ std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
+// Its header says so, little-endian, before what tells the order of bytes.
+bool is_version_73(const std::filesystem::path& path) {
+    const RawFile file(path, RawFile::Mode::read, path);
+    unsigned char version[4];
+    file.read(124, version, sizeof version);
+    return version[1] == 2 && version[2] == 'I' && version[3] == 'M';
+}
+
 // The one array that is meant.
 const MatArray& chosen(const std::filesystem::path& path, const std::vector<MatArray>& arrays,
                        const std::string& name) {
@@ -34,7 +42,8 @@ bool is_mat(std::span<const unsigned char> start) {
 }
 
 std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ForeignField& what) {
-    const std::vector<MatArray> arrays = read_mat5(path, all_bytes(path), what.variable);
+    const std::vector<MatArray> arrays =
+        is_version_73(path) ? read_mat73(path, what.variable) : read_mat5(path, all_bytes(path), what.variable);
     const MatArray& array = chosen(path, arrays, what.variable);
     const bool complex = !array.imaginary.empty();
     const Meaning meaning(path, what, array.floating ? Number::real : array.real_number, complex);

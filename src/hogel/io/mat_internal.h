@@ -24,4 +24,7 @@ struct MatArray {
 std::vector<MatArray> read_mat5(const std::filesystem::path& path, std::span<const unsigned char> bytes,
                                 const std::string& name);
 
+/// The same of a MAT file of version 7.3.
+std::vector<MatArray> read_mat73(const std::filesystem::path& path, const std::string& name);
+
 }  // namespace hogel

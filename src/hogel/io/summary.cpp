@@ -50,6 +50,21 @@ void describe(const LightFieldGrid& grid, FileSummary& summary) {
                             {"channels", static_cast<double>(grid.channels)}});
 }
 
+// Which faces there are, and how the sides are sampled.
+void describe_faces(const std::vector<LightFieldGrid>& grids, FileSummary& summary) {
+    std::string faces;
+    for (const LightFieldGrid& face : grids) {
+        if (!faces.empty()) faces += ' ';
+        faces += name(face.face);
+        if (face.face == Face::front) continue;
+        summary.numbers.emplace_back(fmt::format("{}_directions_u", name(face.face)),
+                                     static_cast<double>(face.directions_u));
+        summary.numbers.emplace_back(fmt::format("{}_directions_v", name(face.face)),
+                                     static_cast<double>(face.directions_v));
+    }
+    summary.text.emplace_back("faces", faces);
+}
+
 void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary) {
     const Grid& plane = grid.plane;
     const auto add = [&](std::string_view name, double value) {
@@ -68,11 +83,17 @@ void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary) {
 
 void describe(const StreamInfo& info, FileSummary& summary) {
     const LightFieldGrid& grid = info.grid;
-    const double pixels = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
+    double pixels = 0;
+    for (const LightFieldGrid& face : info.faces())
+        pixels += static_cast<double>(face.directions()) * static_cast<double>(face.hogels());
     describe(grid, summary);
+    if (!info.sides.empty()) {
+        describe_faces(info.faces(), summary);
+        summary.text.emplace_back("hemicube", info.layout == HemicubeLayout::unfolded ? "unfolded" : "faces");
+    }
     summary.text.insert(summary.text.end(), {{"format", "hogel compressed light field"}, {"coder", info.method.coder}});
     if (!info.method.transform.empty()) summary.text.emplace_back("transform", info.method.transform);
-    summary.numbers.insert(summary.numbers.end(), {{"format_version", static_cast<double>(info.version)},
+    summary.numbers.insert(summary.numbers.end(), {{"format_version", static_cast<double>(info.version())},
                                                    {"tile_s", static_cast<double>(info.tile.ns)},
                                                    {"tile_t", static_cast<double>(info.tile.nt)},
                                                    {"pixels_per_bit", pixels / (8 * summary.numbers.front().second)}});
@@ -113,17 +134,7 @@ FileSummary summarize(const std::filesystem::path& path) {
         const std::vector<LightFieldGrid> grids = read_light_field_grids(file.id(), path);
         const LightFieldGrid& grid = grids.front();
         describe(grid, summary);
-        std::string faces;
-        for (const LightFieldGrid& face : grids) {
-            if (!faces.empty()) faces += ' ';
-            faces += name(face.face);
-            if (face.face == Face::front) continue;
-            summary.numbers.emplace_back(fmt::format("{}_directions_u", name(face.face)),
-                                         static_cast<double>(face.directions_u));
-            summary.numbers.emplace_back(fmt::format("{}_directions_v", name(face.face)),
-                                         static_cast<double>(face.directions_v));
-        }
-        summary.text.emplace_back("faces", faces);
+        describe_faces(grids, summary);
         const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
         const std::vector<std::size_t> shape{grid.channels, grid.hogels_t, grid.hogels_s, grid.directions_v,
                                              grid.directions_u};
