@@ -20,7 +20,7 @@ struct RegionLimits {
 struct RegionTimes {
     Curve curve;
     double bytes = 0;      ///< the most memory held, beyond the scene
-    std::size_t part = 1;  ///< times are told from every so many-th triangle
+    std::size_t part = 1;  ///< times are told from one in so many triangles
 };
 
 /// Milliseconds of one core for each hogel of a light field, shading included, against the side of the region that the
@@ -28,7 +28,7 @@ struct RegionTimes {
 /// and `mvr`, which take each row by itself; and for `raytrace` and `zbuffer`, which take each hogel by itself, the
 /// mean of hogels all over the hologram. Measured in processor time, so that other work beside it matters little.
 ///
-/// Where a single hogel would take longer than a region may, every n-th triangle is rendered instead, and what that
+/// Where a single hogel would take longer than a region may, one in n triangles is rendered instead, and what that
 /// takes beyond an empty scene counts n times: good for renderers whose work is a sum over triangles, as that of all
 /// is which take so long. Such a curve is dashed.
 RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
