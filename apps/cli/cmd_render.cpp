@@ -122,6 +122,7 @@ void add_render(CLI::App& app, Session& session) {
                "Hogels that a renderer is given at once (default: what it prefers)")
         ->group("Light field of a scene");
     add_hemicube_option(command, options->render);
+    add_frequencies_option(command, options->render);
 }
 
 }  // namespace hogel::cli

@@ -73,6 +73,7 @@ StereogramOptions stereogram_options(const LightFieldGrid& light_field, const Ho
     stereogram.average = averages.at(options.average);
     stereogram.transform = options.basis.empty() ? std::string(defaults.basis) : options.basis;
     stereogram.tolerance = options.tolerance;
+    stereogram.line_pitch = options.lines;
     return stereogram;
 }
 
@@ -92,6 +93,17 @@ LightFieldGrid RenderOptions::grid() const {
     grid.center_u = u.center;
     grid.center_v = v.center;
     grid.channels = 3;
+    if (frequencies > 0) {
+        // As many frequencies j/d as the field of view holds.
+        const double step = frequencies / grid.pitch;
+        const auto reach = [&](double angle) { return std::floor(std::sin(angle / 2) / step + 1e-9); };
+        const double across = 2 * reach(field_of_view.across) + 1, down = 2 * reach(field_of_view.down) + 1;
+        grid.spacing = Spacing::sines;
+        grid.directions_u = static_cast<std::size_t>(across);
+        grid.directions_v = static_cast<std::size_t>(down);
+        grid.tan_half_u = 0.5 * across * step;
+        grid.tan_half_v = 0.5 * down * step;
+    }
     validate(grid, ErrorCode::usage, "light field");
     return grid;
 }
@@ -156,10 +168,21 @@ void add_hemicube_option(CLI::App* command, RenderOptions& options) {
         ->excludes("--toward");
 }
 
+void add_frequencies_option(CLI::App* command, RenderOptions& options) {
+    add_length(command, "--frequencies", options.frequencies,
+               "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds")
+        ->group("Light field of a scene")
+        ->excludes("--hemicube")
+        ->excludes("--directions")
+        ->excludes("--toward");
+}
+
 void add_hologram_options(CLI::App* command, HologramOptions& options) {
     const auto group = [](CLI::Option* option) { option->group("Hologram"); };
     group(add_wavelengths(command, options.wavelengths));
     group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
+    group(add_length(command, "--lines", options.lines,
+                     "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions"));
     group(command
               ->add_option("--method", options.method,
                            "fourier: one transform a hogel\n"
@@ -297,17 +320,20 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
     return render_on_demand(session, load_scene(session, name, options), options);
 }
 
-std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
-                                                    const RenderOptions& render, HologramOptions& hologram) {
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& session, const std::string& name,
+                                                                 const RenderOptions& render,
+                                                                 HologramOptions& hologram) {
     if (methods.at(hologram.method) == Method::basis && input_kind(name) == InputKind::light_field && is_stream(name)) {
         const CodingMethod stored = read_stream_info(name).method;
         if (stored.coder == "fringes" && (hologram.basis.empty() || hologram.basis == stored.transform)) {
             hologram.basis = stored.transform;
             hologram.coefficients = true;
-            return open_coefficients(name);
+            std::vector<std::unique_ptr<LightFieldSource>> coefficients;
+            coefficients.push_back(open_coefficients(name));
+            return coefficients;
         }
     }
-    return open_or_render(session, name, render);
+    return open_or_render_faces(session, name, render);
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
@@ -332,24 +358,33 @@ std::unique_ptr<LightFieldSource> render_once(const Session& session, std::uniqu
     return light_field;
 }
 
-void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options,
+std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces) {
+    std::vector<LightFieldGrid> grids;
+    for (const auto& face : faces) grids.push_back(face->grid());
+    return grids;
+}
+
+void require_holograms(std::span<const LightFieldGrid> faces, const HologramOptions& options,
                        std::span<const Camera> cameras) {
     // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
     const double shortest = *std::ranges::min_element(options.wavelengths);
-    const FieldGrid hologram = stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
+    const FieldGrid hologram = stereogram_grid(faces, stereogram_options(faces.front(), options, shortest));
     require_photographs(hologram, cameras);
     for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
 
-std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
+std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
+                                                         std::span<const std::unique_ptr<LightFieldSource>> faces,
                                                          const HologramOptions& options, std::size_t looks) {
+    std::vector<const LightFieldSource*> sources;
+    for (const auto& face : faces) sources.push_back(face.get());
     std::vector<std::unique_ptr<FieldSource>> holograms;
     for (const double wavelength : options.wavelengths) {
-        StereogramOptions stereogram = stereogram_options(light_field.grid(), options, wavelength);
+        StereogramOptions stereogram = stereogram_options(faces.front()->grid(), options, wavelength);
         stereogram.looks = looks;
         stereogram.seed = session.seed;
-        holograms.push_back(options.coefficients ? make_stereogram_of_coefficients(light_field, stereogram)
-                                                 : make_stereogram(light_field, stereogram));
+        holograms.push_back(options.coefficients ? make_stereogram_of_coefficients(*sources.front(), stereogram)
+                                                 : make_stereogram(sources, stereogram));
     }
     return holograms;
 }

@@ -33,6 +33,7 @@ struct RenderOptions {
     Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
     Angles toward;
     bool hemicube = false;
+    double frequencies = 0;  ///< wavelength on whose frequency grid the directions lie, metres; 0: in perspective
     bool as_is = false;
     double front = defaults.front;
 
@@ -45,6 +46,8 @@ struct RenderOptions {
 void add_render_options(CLI::App* command, RenderOptions& options);
 /// --hemicube, for commands that make use of all faces.
 void add_hemicube_option(CLI::App* command, RenderOptions& options);
+/// --frequencies, for the command that makes light fields.
+void add_frequencies_option(CLI::App* command, RenderOptions& options);
 
 /// How a light field becomes a hologram.
 struct HologramOptions {
@@ -57,6 +60,7 @@ struct HologramOptions {
     double tolerance = 0;
     double spacing = defaults.spacing;
     std::size_t planes = defaults.planes;
+    double lines = 0;           ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
     bool coefficients = false;  ///< whether the light field holds coefficients of `basis` instead of radiances
 };
 void add_hologram_options(CLI::App* command, HologramOptions& options);
@@ -83,10 +87,11 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options);
 
-/// The same, but coefficients instead where a compressed light field has those of the basis fringes that are asked for,
-/// which the options then say.
-std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
-                                                    const RenderOptions& render, HologramOptions& hologram);
+/// All faces of it, or coefficients instead where a compressed light field has those of the basis fringes that are
+/// asked for, which the options then say.
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& session, const std::string& name,
+                                                                 const RenderOptions& render,
+                                                                 HologramOptions& hologram);
 
 /// The same for all faces, the front first.
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
@@ -102,13 +107,16 @@ bool needs_depth(const HologramOptions& options);
 std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
                                               bool with_depth = false);
 
+std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces);
+
 /// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
 /// photograph them: too coarse a pitch, say. To be asked before the work begins.
-void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options,
+void require_holograms(std::span<const LightFieldGrid> faces, const HologramOptions& options,
                        std::span<const Camera> cameras = {});
 
 /// One hologram a wavelength, made from the light field where it is read.
-std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
+std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
+                                                         std::span<const std::unique_ptr<LightFieldSource>> faces,
                                                          const HologramOptions& options, std::size_t looks);
 
 /// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With a folder for scratch
