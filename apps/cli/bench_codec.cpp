@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "hogel/codec/compress.h"
 #include "hogel/core/parallel.h"
+#include "resources.h"
 #include "temporary_folder.h"
 
 namespace hogel::cli {
 namespace {
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double root_mean_square(const LightField& field) {
     double sum = 0;

@@ -6,21 +6,22 @@
 #include <cmath>
 
 #include "hogel/render/renderer.h"
+#include "resources.h"
 
 namespace hogel::cli {
 namespace {
 
 // A tile is rendered by the thread that asks for it.
-double processor_seconds() {
+double thread_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double time_of_reading(const LightFieldSource& source, LightFieldTile& tile) {
-    const double began = processor_seconds();
+    const double began = thread_seconds();
     source.read(tile);
-    return processor_seconds() - began;
+    return thread_seconds() - began;
 }
 
 // Seconds a hogel, of hogels spread evenly over the hologram.
@@ -44,34 +45,49 @@ double time_of_hogels(const LightFieldSource& source, double budget) {
     return seconds / static_cast<double>(hogels);
 }
 
-// What a single hogel will take, guessed from a part of the triangles.
-double expected_seconds(const std::string& algorithm, const ShadedScene& scene, const LightFieldGrid& grid) {
-    constexpr std::size_t part = 64;
-    auto thinned = std::make_shared<ShadedScene>(scene);
-    thinned->triangles.clear();
-    for (std::size_t i = 0; i < scene.triangles.size(); i += part) thinned->triangles.push_back(scene.triangles[i]);
-    const auto source = make_renderer(algorithm, thinned, grid);
+// Every part-th run of triangles that follow each other, as these share vertices and look alike; or none for part 0.
+std::shared_ptr<const ShadedScene> thinned(const ShadedScene& scene, std::size_t part) {
+    auto few = std::make_shared<ShadedScene>(scene);
+    few->triangles.clear();
+    constexpr std::size_t run = 16;
+    for (std::size_t i = 0; part > 0 && i < scene.triangles.size(); ++i)
+        if (i / run % part == 0) few->triangles.push_back(scene.triangles[i]);
+    return few;
+}
+
+// The least part by which a single hogel takes no longer than it may: a power of two, 1 as a rule.
+std::size_t affordable_part(const std::string& algorithm, const ShadedScene& scene, const LightFieldGrid& grid,
+                            double seconds) {
+    constexpr std::size_t guess = 64;
+    const auto source = make_renderer(algorithm, thinned(scene, guess), grid);
     LightFieldTile tile(grid, {grid.hogels_s / 2, grid.hogels_t / 2, 1, 1}, false);
-    return part * time_of_reading(*source, tile);
+    const double whole = guess * time_of_reading(*source, tile);
+    std::size_t part = 1;
+    while (whole > seconds * static_cast<double>(part)) part *= 2;
+    return part;
 }
 
 }  // namespace
 
-Curve time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
-                   const LightFieldGrid& grid, const RegionLimits& limits) {
-    const auto source = make_renderer(algorithm, scene, grid);
+RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
+                         const LightFieldGrid& grid, const RegionLimits& limits) {
+    const double before = forget_most_memory();
     const bool hogel_by_hogel = algorithm == "raytrace" || algorithm == "zbuffer";
     const bool row_by_row = algorithm == "simplex3d" || algorithm == "mvr";
     const std::size_t largest = std::min({limits.side, grid.hogels_s, grid.hogels_t});
-    Curve curve{algorithm, {}};
+    RegionTimes times{{algorithm, {}}};
     if (hogel_by_hogel) {
+        const auto source = make_renderer(algorithm, scene, grid);
         const double milliseconds = 1e3 * time_of_hogels(*source, 0.2 * limits.seconds);
         for (std::size_t side = 1; side <= largest; side *= 2)
-            curve.points.emplace_back(static_cast<double>(side), milliseconds);
-        return curve;
+            times.curve.points.emplace_back(static_cast<double>(side), milliseconds);
+        times.bytes = most_memory_held() - before;
+        return times;
     }
-    constexpr double patience = 4;
-    if (expected_seconds(algorithm, *scene, grid) > patience * limits.seconds) return curve;
+    times.part = affordable_part(algorithm, *scene, grid, limits.seconds);
+    times.curve.dashed = times.part > 1;
+    const auto source = make_renderer(algorithm, times.part > 1 ? thinned(*scene, times.part) : scene, grid);
+    const auto empty = make_renderer(algorithm, thinned(*scene, 0), grid);
     double last = 0;
     for (std::size_t side = 1; side <= largest; side *= 2) {
         const std::size_t rows = row_by_row ? 1 : side, hogels = side * rows;
@@ -82,9 +98,12 @@ Curve time_regions(const std::string& algorithm, const std::shared_ptr<const Sha
         last = time_of_reading(*source, tile);
         // Short times are uncertain, and the first includes memory that is touched for the first time.
         if (last < 0.02 * limits.seconds) last = std::min(last, time_of_reading(*source, tile));
-        curve.points.emplace_back(static_cast<double>(side), 1e3 * last / static_cast<double>(hogels));
+        const auto part = static_cast<double>(times.part);
+        const double whole = times.part > 1 ? part * last - (part - 1) * time_of_reading(*empty, tile) : last;
+        times.curve.points.emplace_back(static_cast<double>(side), 1e3 * whole / static_cast<double>(hogels));
     }
-    return curve;
+    times.bytes = most_memory_held() - before;
+    return times;
 }
 
 }  // namespace hogel::cli

@@ -48,6 +48,11 @@ struct Defaults {
     double bench_field_of_view = 40_deg;
     std::size_t bench_largest_region = 128;
     double bench_seconds = 8, bench_gigabytes = 6;
+    std::size_t bench_peer_directions = 256;
+    std::size_t bench_few_hogels = 64;  ///< along a side, where peers are measured with few hogels and with many
+    std::size_t bench_rounds = 5;
+    double bench_peer_seconds = 1;
+    std::size_t bench_stream_hogels = 512;
 };
 inline constexpr Defaults defaults;
 

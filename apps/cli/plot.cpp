@@ -11,7 +11,7 @@ namespace hogel::cli {
 namespace {
 
 // In pixels.
-constexpr double width = 760, height = 480, left = 74, right = 130, top = 66, bottom = 56;
+constexpr double width = 760, height = 480, left = 74, right = 130, top = 66, bottom = 56, note_height = 18;
 constexpr double label_distance = 15;  // between the names of two curves
 
 // Distinct also for eyes that see red and green alike.
@@ -61,8 +61,9 @@ struct Axes {
     }
 };
 
-Axes axes_of(PlotText::Scale scale, const std::vector<Curve>& curves) {
-    Axes axes{scale, {}, {}};
+Axes axes_of(const PlotText& text, const std::vector<Curve>& curves) {
+    Axes axes{text.y, {}, {}};
+    for (const auto& [name, level] : text.levels) axes.y.include(axes.on_scale(level));
     for (const Curve& curve : curves)
         for (const auto& [x, y] : curve.points) {
             axes.x.include(std::log2(x));
@@ -130,8 +131,8 @@ std::string curve_svg(const Axes& axes, const Curve& curve, const char* colour, 
     }
     line.pop_back();
     std::string svg = fmt::format(
-        "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-linejoin=\"round\"/>\n{}", line,
-        colour, dots);
+        "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-linejoin=\"round\"{}/>\n{}",
+        line, colour, curve.dashed ? " stroke-dasharray=\"6 4\"" : "", dots);
     const double end_x = axes.column(curve.points.back().first), end_y = axes.row(curve.points.back().second);
     svg += fmt::format(
         "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"0.7\" "
@@ -141,19 +142,33 @@ std::string curve_svg(const Axes& axes, const Curve& curve, const char* colour, 
                          fmt::format("fill=\"{}\" font-weight=\"600\"", colour));
 }
 
+std::string level_svg(const Axes& axes, const std::string& name, double level) {
+    const double y = axes.row(level);
+    return fmt::format(
+               "<line x1=\"{}\" y1=\"{:.1f}\" x2=\"{}\" y2=\"{:.1f}\" stroke=\"#57606a\" "
+               "stroke-dasharray=\"8 5\"/>\n",
+               left, y, width - right, y) +
+           text_at(left + 8, y - 5, name, "fill=\"#57606a\" font-style=\"italic\"");
+}
+
 }  // namespace
 
 std::string plot_svg(const PlotText& text, const std::vector<Curve>& curves) {
-    const Axes axes = axes_of(text.y, curves);
+    const Axes axes = axes_of(text, curves);
+    const double whole = height + note_height * static_cast<double>(text.notes.size());
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" font-size=\"12.5\" fill=\"#24292f\">\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-        width, height);
+        width, whole);
     svg += text_at(left, 27, text.title, "font-size=\"17\" font-weight=\"600\"");
     svg += text_at(left, 47, text.subtitle, "fill=\"#57606a\"");
     svg += grid_lines(axes);
     svg += text_at((left + width - right) / 2, height - 14, text.x_axis, "text-anchor=\"middle\"");
+    for (std::size_t i = 0; i < text.notes.size(); ++i)
+        svg += text_at(left, height + note_height * static_cast<double>(i) + 4, text.notes[i],
+                       "fill=\"#57606a\" font-size=\"11.5\"");
+    for (const auto& [name, level] : text.levels) svg += level_svg(axes, name, level);
     const double middle = (top + height - bottom) / 2;
     svg += text_at(18, middle, text.y_axis,
                    fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle));

@@ -84,7 +84,8 @@ Metadata describe_run(const Session& session) {
         const std::string name = option->get_single_name();
         // How many threads worked, how often, and how much was said does not touch the result: equal input, equal
         // bytes.
-        constexpr std::array<std::string_view, 6> silent{"help", "quiet", "verbose", "threads", "output", "resume"};
+        constexpr std::array<std::string_view, 7> silent{"help",   "quiet",  "verbose", "threads",
+                                                         "output", "resume", "region"};
         if (std::ranges::find(silent, name) != silent.end()) continue;
         const bool is_flag = option->get_expected_min() == 0;
         std::string value = option->count() > 0 ? CLI::detail::join(option->results(), " ") : option->get_default_str();

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "hogel/core/error.h"
+#include "hogel/core/half.h"
 #include "hogel/io/dataset_internal.h"
-#include "hogel/io/half_internal.h"
 
 namespace hogel {
 namespace {

@@ -77,6 +77,8 @@ class LightFieldWriter final : public LightFieldSink {
         hogels_ += tile.range.hogels();
     }
 
+    bool wants_depth() const override { return with_depth_; }
+
     bool has_already(const HogelRange& range) override {
         if (!shared_->file.was_done(part(range))) return false;
         hogels_ += range.hogels();

@@ -215,7 +215,7 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
         range.ns = std::min(range.ns, grid.hogels_s - range.s0);
         range.nt = std::min(range.nt, grid.hogels_t - range.t0);
         if (!sink.has_already(range)) {
-            LightFieldTile tile(grid, range, source.has_depth());
+            LightFieldTile tile(grid, range, source.has_depth() && sink.wants_depth());
             source.read(tile);
             sink.write(tile);
         }

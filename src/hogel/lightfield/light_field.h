@@ -111,6 +111,8 @@ class LightFieldSink {
   public:
     virtual ~LightFieldSink() = default;
     virtual void write(const LightFieldTile& tile) = 0;
+    /// Whether write() has a use for depth.
+    virtual bool wants_depth() const { return true; }
     /// Whether the sink goes on with earlier work in which this very tile was written; then it counts as written now.
     virtual bool has_already(const HogelRange&) { return false; }
     /// Called once after the last tile; a file appears under its own name only now.
@@ -125,6 +127,7 @@ class LightField final : public LightFieldSource, public LightFieldSink {
     bool has_depth() const override { return depth.size() > 0; }
     void read(LightFieldTile& tile) const override;
     void write(const LightFieldTile& tile) override;
+    bool wants_depth() const override { return has_depth(); }
 
     Array<float, 5> radiance;  ///< [c][t][s][v][u]
     Array<float, 4> depth;     ///< [t][s][v][u], metres; empty without depth

@@ -4,6 +4,7 @@
 
 #include "hogel/render/oblique_internal.h"
 #include "hogel/render/oblique_triangle_internal.h"
+#include "hogel/render/region_memory_internal.h"
 #include "hogel/render/span_internal.h"
 
 namespace hogel {
@@ -53,7 +54,7 @@ class ObliqueRenderer final : public LightFieldSource {
     bool has_depth() const override { return true; }
 
     void read(LightFieldTile& tile) const override {
-        Array<NearestTriangle, 2> picture({tile.range.nt, tile.range.ns});
+        Array<NearestTriangle, 2> picture(oblique_buffer(tile.range));
         for (std::size_t v = 0; v < grid_.directions_v; ++v)
             for (std::size_t u = 0; u < grid_.directions_u; ++u) {
                 std::ranges::fill(picture.elements(), NearestTriangle{});

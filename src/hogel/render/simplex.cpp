@@ -1,4 +1,5 @@
 #include "hogel/render/oblique_triangle_internal.h"
+#include "hogel/render/region_memory_internal.h"
 #include "hogel/render/simplex_internal.h"
 #include "hogel/render/simplex_scan_internal.h"
 #include "hogel/render/simplex_slice_internal.h"
@@ -21,8 +22,7 @@ class SimplexRenderer final : public LightFieldSource {
 
     // Source: [K] fig. 5.21.
     void read(LightFieldTile& tile) const override {
-        // Inner loops run over hogels.
-        Array<NearestTriangle, 4> buffer({grid_.directions_v, grid_.directions_u, tile.range.nt, tile.range.ns});
+        Array<NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
         std::vector<Simplex<4>> simplices;
         for (std::uint32_t index : triangles_) {
             // Half of the near plane's depth: what lies before it is decided ray by ray.

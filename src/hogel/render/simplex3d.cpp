@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hogel/render/oblique_triangle_internal.h"
+#include "hogel/render/region_memory_internal.h"
 #include "hogel/render/row_tile_internal.h"
 #include "hogel/render/simplex_slice_internal.h"
 #include "hogel/render/simplex_volume_internal.h"
@@ -25,7 +26,7 @@ class Simplex3dRenderer final : public LightFieldSource {
     HogelRange preferred_tile() const override { return row_tile(grid_); }
 
     void read(LightFieldTile& tile) const override {
-        Array<NearestTriangle, 3> buffer({grid_.directions_v, grid_.directions_u, tile.range.ns});
+        Array<NearestTriangle, 3> buffer(simplex3d_buffer(grid_, tile.range));
         std::vector<Simplex<3>> simplices;
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
             std::ranges::fill(buffer.elements(), NearestTriangle{});

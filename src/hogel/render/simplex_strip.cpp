@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hogel/render/oblique_triangle_internal.h"
+#include "hogel/render/region_memory_internal.h"
 #include "hogel/render/row_axes_internal.h"
 #include "hogel/render/span_internal.h"
 
@@ -61,7 +62,7 @@ class SimplexStripRenderer final : public LightFieldSource {
         const std::size_t rows = axes_.slow_hogels(tile.range), hogels = axes_.fast_hogels(tile.range);
         const std::size_t directions = axes_.fast_directions();
         // One V at a time, so that what the triangles of a neighbourhood write to stays close together.
-        Array<NearestTriangle, 3> buffer({rows, hogels, directions});
+        Array<NearestTriangle, 3> buffer(simplex_strip_buffer(axes_, tile.range));
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
             std::ranges::fill(buffer.elements(), NearestTriangle{});
             const Slab slab(*this, tile.range, slow);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "hogel/io/half_internal.h"
+#include "hogel/core/half.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/io/half_internal.h"
+#include "hogel/core/half.h"
 
 namespace hogel {
 

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "bench_render_options.h"
+#include "bench_rows.h"
+#include "hogel/core/parallel.h"
+#include "hogel/render/renderer.h"
+#include "outputs.h"
+
+namespace hogel::cli {
+namespace {
+
+constexpr std::size_t rows = 2;
+
+// Medians over rounds.
+Times times_of(const std::function<void()>& work, std::size_t rounds) {
+    std::vector<double> wall, processor;
+    for (std::size_t i = 0; i < rounds; ++i) {
+        if (interrupted_by() != 0) throw Error(ErrorCode::cancelled, "stopped");
+        const Times times = time_of(work);
+        wall.push_back(times.wall);
+        processor.push_back(times.processor);
+    }
+    return {median(wall), median(processor)};
+}
+
+Times times_of(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
+               const LightFieldGrid& grid, std::size_t rounds) {
+    const auto source = make_renderer(algorithm, scene, grid);
+    HogelRows some(*source, rows);
+    some.render();  // touches the memory
+    return times_of([&] { some.render(); }, rounds);
+}
+
+// How many times the processor time of the first point each takes.
+Curve relative(const std::string& name, const std::vector<std::pair<double, double>>& seconds) {
+    Curve curve{name, {}};
+    for (const auto& [size, time] : seconds) curve.points.emplace_back(size, time / seconds.front().second);
+    return curve;
+}
+
+std::vector<Curve> measure(const Session& session, const std::string& algorithm, const std::string& name,
+                           const BenchRenderOptions& options) {
+    RenderOptions render = options.render;
+    render.shading = bench_shading(name, options);
+    const auto scene = bench_scene(session, name, render);
+    const Counts hogels = render.hogels;
+    std::vector<std::pair<double, double>> by_hogels, by_directions, by_triangles;
+    for (const std::size_t times : {1, 2, 4, 8}) {
+        session.detail(fmt::format("{} times the hogels and the directions", times));
+        render.hogels = {times * hogels.columns, times * hogels.rows};
+        by_hogels.emplace_back(times, times_of(algorithm, scene, render.grid(), options.rounds).processor);
+        render.hogels = hogels;
+        LightFieldGrid grid = render.grid();
+        for (std::size_t doubled = 1; doubled < times; doubled *= 2)
+            (grid.directions_u > grid.directions_v ? grid.directions_v : grid.directions_u) *= 2;
+        by_directions.emplace_back(times, times_of(algorithm, scene, grid, options.rounds).processor);
+    }
+    for (const std::size_t parts : {1, 2, 4}) {
+        session.detail(fmt::format("{} times the triangles", parts * parts));
+        const auto finer = parts == 1 ? scene : bench_scene(session, fmt::format("{}:{}", name, parts), render);
+        by_triangles.emplace_back(parts * parts, times_of(algorithm, finer, render.grid(), options.rounds).processor);
+    }
+    return {relative("hogels", by_hogels), relative("directions", by_directions), relative("triangles", by_triangles)};
+}
+
+std::string table(const std::vector<Curve>& curves) {
+    std::string text = "| times as many | 1 | 2 | 4 | 8 | 16 | a doubling, at most |\n|---|---|---|---|---|---|---|\n";
+    for (const Curve& curve : curves) {
+        text += fmt::format("| {} |", curve.name);
+        for (const double times : {1, 2, 4, 8, 16}) {
+            const auto point = std::ranges::find(curve.points, times, &std::pair<double, double>::first);
+            text += point == curve.points.end() ? " |" : fmt::format(" {:.2f} |", point->second);
+        }
+        double worst = 0;
+        for (std::size_t i = 1; i < curve.points.size(); ++i) {
+            const auto [size, time] = curve.points[i - 1];
+            const auto [larger, longer] = curve.points[i];
+            worst = std::max(worst, std::pow(longer / time, 1 / std::log2(larger / size)));
+        }
+        text += fmt::format(" {:.2f} |\n", worst);
+    }
+    return text;
+}
+
+// Two triangles that fill the view of every hogel.
+std::shared_ptr<const ShadedScene> wall(double size) {
+    auto scene = std::make_shared<ShadedScene>();
+    for (const auto& [x, y] : {std::pair{-10, -10}, std::pair{10, -10}, std::pair{10, 10}, std::pair{-10, 10}}) {
+        scene->positions.push_back({x * size, y * size, -size});
+        scene->radiance.push_back({x > 0 ? 1.0f : 0.2f, y > 0 ? 1.0f : 0.2f, 0.5f});
+        scene->texture_coordinates.push_back({});
+    }
+    scene->triangles = {{{0, 1, 2}, ShadedScene::no_texture, 0}, {{0, 2, 3}, ShadedScene::no_texture, 0}};
+    return scene;
+}
+
+// In million samples a second: two triangles, and plain writing of as many samples.
+void print_limits(const std::string& algorithm, const LightFieldGrid& grid, double size, std::size_t rounds) {
+    const auto source = make_renderer(algorithm, wall(size), grid);
+    HogelRows some(*source, rows);
+    some.render();
+    const double rendering = times_of([&] { some.render(); }, rounds).processor;
+    const double writing = times_of(
+                               [&] {
+                                   parallel_for(some.tiles().size(), [&](std::size_t i) {
+                                       const auto values = some.tiles()[i].radiance.elements();
+                                       std::memset(const_cast<float*>(values.data()), 0, values.size_bytes());
+                                   });
+                               },
+                               rounds)
+                               .processor;
+    fmt::print(
+        "Two triangles that fill the view: {:.3g} million samples a processor second; plain writing of the "
+        "same samples: {:.3g}; {:.0f} % of its speed.\n",
+        1e-6 * some.rays() / rendering, 1e-6 * some.rays() / writing, 100 * writing / rendering);
+}
+
+void print_threads(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
+                   const LightFieldGrid& grid, std::size_t rounds) {
+    std::vector<double> seconds;
+    for (const std::size_t threads : {1, 2}) {
+        const ThreadLimit limit(threads);
+        seconds.push_back(times_of(algorithm, scene, grid, rounds).wall);
+    }
+    fmt::print("Two threads are {:.2f} times as fast as one.\n\n", seconds[0] / seconds[1]);
+}
+
+}  // namespace
+
+int bench_render_scaling(const BenchRenderOptions& given, const Session& session) {
+    BenchRenderOptions options = given;
+    if (!options.own_hogels) options.render.hogels = {defaults.bench_few_hogels, defaults.bench_few_hogels};
+    if (options.scenes.empty()) options.scenes.emplace_back("pumpkin");
+    const std::string algorithm =
+        options.algorithms.empty() ? std::string(defaults.algorithm) : options.algorithms.front();
+    std::optional<OutputFolder> folder;
+    if (!options.output.empty()) folder.emplace(options.output);
+    for (const std::string& name : options.scenes) {
+        const LightFieldGrid grid = options.render.grid();
+        const std::vector<Curve> curves = measure(session, algorithm, name, options);
+        const std::string title = fmt::format("What `{}` takes for larger light fields: {}", algorithm, name);
+        const std::string subtitle = fmt::format("from {}x{} hogels of {}x{} directions and the scene as it is",
+                                                 grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v);
+        fmt::print("{}; {}.\nProcessor time against the first, median of {} rounds.\n\n{}\n", title, subtitle,
+                   options.rounds, table(curves));
+        if (folder) {
+            std::vector<Curve> drawn = curves;
+            Curve& proportional = drawn.emplace_back(Curve{"in proportion", {}});
+            for (const double times : {1, 2, 4, 8, 16}) proportional.points.emplace_back(times, times);
+            proportional.dashed = true;
+            write_text(folder->path() / fmt::format("scaling_{}.svg", std::filesystem::path(name).stem().string()),
+                       plot_svg({title, subtitle, "Times as many", "Times as long"}, drawn));
+        }
+        RenderOptions render = options.render;
+        render.shading = bench_shading(name, options);
+        print_threads(algorithm, bench_scene(session, name, render), grid, options.rounds);
+        print_limits(algorithm, grid, options.render.size, options.rounds);
+    }
+    return 0;
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,57 @@
+#include "bench_rows.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "hogel/core/parallel.h"
+#include "resources.h"
+
+namespace hogel::cli {
+
+HogelRows::HogelRows(const LightFieldSource& source, std::size_t rows) : source_(source) {
+    const LightFieldGrid& grid = source.grid();
+    rows = std::min(rows, grid.hogels_t);
+    const std::size_t width = std::min(source.preferred_tile().ns, grid.hogels_s);
+    for (std::size_t i = 0; i < rows; ++i) {
+        places_.push_back((2 * i + 1) * grid.hogels_t / (2 * rows));
+        for (std::size_t s = 0; s < grid.hogels_s; s += width)
+            tiles_.emplace_back(grid, HogelRange{s, places_[i], std::min(width, grid.hogels_s - s), 1}, false);
+    }
+}
+
+void HogelRows::render() {
+    parallel_for(tiles_.size(), [&](std::size_t i) { source_.read(tiles_[i]); });
+}
+
+std::vector<HogelPlace> HogelRows::some(std::size_t count) const {
+    const std::size_t width = source_.grid().hogels_s;
+    std::vector<HogelPlace> hogels;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = (2 * i + 1) * this->hogels() / (2 * count);
+        hogels.push_back({at % width, places_[at / width]});
+    }
+    return hogels;
+}
+
+Rgb HogelRows::sample(HogelPlace hogel, std::size_t v, std::size_t u) const {
+    const LightFieldTile& tile = *std::ranges::find_if(tiles_, [&](const LightFieldTile& one) {
+        return one.range.t0 == hogel.t && one.range.s0 <= hogel.s && hogel.s < one.range.s0 + one.range.ns;
+    });
+    const std::size_t s = hogel.s - tile.range.s0;
+    return {tile.radiance(0, 0, s, v, u), tile.radiance(1, 0, s, v, u), tile.radiance(2, 0, s, v, u)};
+}
+
+Times time_of(const std::function<void()>& work) {
+    const auto began = std::chrono::steady_clock::now();
+    const double processor = processor_seconds();
+    work();
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(),
+            processor_seconds() - processor};
+}
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+}  // namespace hogel::cli
