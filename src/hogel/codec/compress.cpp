@@ -297,6 +297,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
     if (exact && options.method != CodingMethod{})
         throw Error(ErrorCode::usage, fmt::format("coder {} cannot keep to an error, nor be lossless; expected hogel",
                                                   options.method.coder));
+    require_tangents(grid, ErrorCode::usage, "a compressed light field");
     StreamInfo info{grid, {}, options.method, options.metadata, {}, options.layout};
     if (exact) info.method.coder = options.target.lossless ? "lossless" : "bounded";
     double pixels = 0;

@@ -24,8 +24,10 @@ std::size_t across(std::ptrdiff_t reach) { return static_cast<std::size_t>(2 * r
 
 FilmSize::FilmSize(const NarrowBand& band, const FieldGrid& hologram, double pupil, double blur)
     : sines(sine_grid(band, hologram.plane, blur)),
-      reach_x(pupil_reach(pupil, pupil_step(hologram.wavelength, sines.size_x, sines.step), sines.size_x)),
-      reach_y(pupil_reach(pupil, pupil_step(hologram.wavelength, sines.size_y, sines.step), sines.size_y)),
+      reach_x(pupil_reach(pupil, band.geometry.eye().z, pupil_step(hologram.wavelength, sines.size_x, sines.step),
+                          sines.size_x)),
+      reach_y(pupil_reach(pupil, band.geometry.eye().z, pupil_step(hologram.wavelength, sines.size_y, sines.step),
+                          sines.size_y)),
       band_rows(band.plane.height) {}
 
 double FilmSize::pupil_bytes() const {

@@ -21,9 +21,14 @@ inline double path(double sine_x, double sine_y, double distance_z, double delta
     return change / (std::sqrt(r * r + change) + r) + along;
 }
 
-/// Offsets from the middle of a pupil, in steps of its plane, that its disc may reach.
-inline std::ptrdiff_t pupil_reach(double pupil, double step, std::size_t size) {
-    return std::min(static_cast<std::ptrdiff_t>(0.5 * pupil / step) + 1, static_cast<std::ptrdiff_t>(size - 1) / 2);
+/// How far from the middle of a pupil's plane of frequencies its disc may reach: light in direction n enters a pupil at
+/// δ with a frequency that differs from δ/λ by 3δ²/4Rλ at the most, for eyes up to 55° aside.
+inline double frequency_radius(double pupil, double distance) { return 0.5 * pupil * (1 + 0.75 * pupil / distance); }
+
+/// The same in steps of that plane.
+inline std::ptrdiff_t pupil_reach(double pupil, double distance, double step, std::size_t size) {
+    return std::min(static_cast<std::ptrdiff_t>(frequency_radius(pupil, distance) / step) + 1,
+                    static_cast<std::ptrdiff_t>(size - 1) / 2);
 }
 
 /// Metres in the pupil's plane between the frequencies of a transform of so many samples.
@@ -31,9 +36,10 @@ inline double pupil_step(double wavelength, std::size_t size, double sine_step) 
     return wavelength / (static_cast<double>(size) * sine_step);
 }
 
-/// A camera's lens at the frequencies of the transform, where the light that reaches the pupil at δ has frequency δ/λ
-/// in the sines. The defocus phase depends on the direction, slowly; the film gets as many nodes as keep it within half
-/// a radian, each with a phase of its own.
+/// A camera's lens at the frequencies of the transform. Around the direction n light that enters the pupil at δ has the
+/// frequency (δ − ∇_n Q)/λ in the sines, Q being the path beside the term linear in δ; so the disc is a little bent
+/// among the frequencies, and more so aslant. The defocus phase depends on the direction, slowly; the film gets as many
+/// nodes as keep it within half a radian, each with a phase of its own.
 class FilmLens {
   public:
     FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)
@@ -58,25 +64,16 @@ class FilmLens {
     }
 
     // Offsets from the middle of the pupil, in steps, that the disc may reach.
-    std::ptrdiff_t reach_x() const { return pupil_reach(camera_.pupil, step_x_, sines_.size_x); }
-    std::ptrdiff_t reach_y() const { return pupil_reach(camera_.pupil, step_y_, sines_.size_y); }
-
-    // How much of the light passes in amplitude at a place of the pupil's plane. The edge falls over one sample, so
-    // that the disc has its area on a coarse grid too.
-    double passes(std::ptrdiff_t column, std::ptrdiff_t row) const {
-        const double dx = step_x_ * static_cast<double>(column), dy = step_y_ * static_cast<double>(row);
-        const double edge = std::max(step_x_, step_y_), square = dx * dx + dy * dy;
-        const double inner = std::max(radius_ - 0.5 * edge, 0.0);
-        if (square < inner * inner) return 1;
-        return std::clamp((radius_ - std::sqrt(square)) / edge + 0.5, 0.0, 1.0);
-    }
+    std::ptrdiff_t reach_x() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_x_, sines_.size_x); }
+    std::ptrdiff_t reach_y() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_y_, sines_.size_y); }
 
     // Of the opening, as sampled, m².
     double area() const {
+        const Direction middle(sines_.first_x + 0.5 * span_x(), sines_.first_y + 0.5 * span_y());
         double sum = 0;
         for (std::ptrdiff_t row = -reach_y(); row <= reach_y(); ++row)
             for (std::ptrdiff_t column = -reach_x(); column <= reach_x(); ++column) {
-                const double inside = passes(column, row);
+                const double inside = passes(middle, static_cast<double>(column), static_cast<double>(row));
                 sum += inside * inside;
             }
         return sum * step_x_ * step_y_;
@@ -85,23 +82,61 @@ class FilmLens {
     // Calls emit(column offset, factor) along a row of the pupil, for light from the direction (n_x, n_y).
     template <class Emit>
     void row(double nx, double ny, std::ptrdiff_t row, const Emit& emit) const {
+        const Direction from(nx, ny);
         const double scale = 1 / (static_cast<double>(sines_.size_x) * static_cast<double>(sines_.size_y));
-        const double dy = step_y_ * static_cast<double>(row), edge = std::max(step_x_, step_y_);
-        if (std::abs(dy) > radius_ + edge) return;
-        const double half = std::sqrt((radius_ + edge) * (radius_ + edge) - dy * dy);
-        const auto last = std::min(reach_x(), static_cast<std::ptrdiff_t>(half / step_x_));
+        const double dy = step_y_ * static_cast<double>(row);
+        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + std::max(step_x_, step_y_);
+        if (std::abs(dy) > widest) return;
+        const auto last =
+            std::min(reach_x(), static_cast<std::ptrdiff_t>(std::sqrt(widest * widest - dy * dy) / step_x_));
         const double in_focus = ratio(nx, ny);
+        const auto column = [&](double step) { return step - static_cast<double>(last); };
         walk_phase(
             static_cast<std::size_t>(2 * last + 1),
-            [&](double step) { return defocus(nx, ny, in_focus, step_x_ * (step - static_cast<double>(last)), dy); },
+            [&](double step) {
+                const Place at = place(from, step_x_ * column(step), dy);
+                return defocus(nx, ny, in_focus, at.x, at.y);
+            },
             [&](std::size_t i, std::complex<double> phase) {
-                const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(i) - last;
-                emit(column, std::complex<float>(scale * passes(column, row) * phase));
+                const double at = column(static_cast<double>(i));
+                emit(static_cast<std::ptrdiff_t>(at),
+                     std::complex<float>(scale * passes(from, at, static_cast<double>(row)) * phase));
             });
     }
 
   private:
     static constexpr double most_nodes = 33;
+
+    struct Direction {
+        Direction(double nx, double ny) : x(nx), y(ny), cosine(std::sqrt(1 - nx * nx - ny * ny)) {}
+        double x, y, cosine;
+    };
+
+    struct Place {
+        double x, y;    // in the pupil
+        double cosine;  // of the light's direction there
+    };
+
+    // Where the light around a direction n enters that has a frequency fx/λ, fy/λ in the sines: from there the point in
+    // direction n of the hologram lies in direction m = n − (f − n (n·f)) cos θ/R, exactly.
+    Place place(const Direction& n, double fx, double fy) const {
+        const double R = camera_.eye.z, along = n.x * fx + n.y * fy, step = n.cosine / R;
+        const double mx = n.x - step * (fx - n.x * along), my = n.y - step * (fy - n.y * along);
+        const double cosine = std::sqrt(std::max(1 - mx * mx - my * my, 1e-12));
+        return {R * (n.x / n.cosine - mx / cosine), R * (n.y / n.cosine - my / cosine), cosine};
+    }
+
+    // How much of the light passes in amplitude at a frequency, in steps: within the disc (cos θ_n/cos θ_m)², which is
+    // what frequencies lie denser there, to the fourth power, times what the light is stronger nearer by. The edge
+    // falls over one sample, so that the disc has its area on a coarse grid too.
+    double passes(const Direction& n, double column, double row) const {
+        const double edge = std::max(step_x_, step_y_);
+        const Place at = place(n, step_x_ * column, step_y_ * row);
+        const double weight = n.cosine * n.cosine / (at.cosine * at.cosine);
+        const double square = at.x * at.x + at.y * at.y, inner = std::max(radius_ - 0.5 * edge, 0.0);
+        if (square < inner * inner) return weight;
+        return weight * std::clamp((radius_ - std::sqrt(square)) / edge + 0.5, 0.0, 1.0);
+    }
 
     double span_x() const { return static_cast<double>(sines_.size_x) * sines_.step; }
     double span_y() const { return static_cast<double>(sines_.size_y) * sines_.step; }

@@ -25,9 +25,10 @@ struct Chain {
 // A square around an eye's pupil.
 Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pupil, eye.x, eye.y}); }
 
-// Samples across that hold the spectrum of a wave behind a pupil, and its intensity.
+// Samples across that hold the spectrum of a wave behind a pupil, and three to the finest wave of its intensity, which
+// is interpolated.
 std::size_t film_samples(std::size_t columns, double size, double pupil, double distance, double wavelength) {
-    const double intensity = 2 * edge_room * pupil / (wavelength * distance) * size;
+    const double intensity = 3 * edge_room * pupil / (wavelength * distance) * size;
     return good_fft_size(
         static_cast<std::size_t>(std::ceil(std::max(edge_room * static_cast<double>(columns), intensity))) + 16);
 }

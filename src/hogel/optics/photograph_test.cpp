@@ -156,8 +156,10 @@ TEST(Photograph, by_the_full_chain_is_the_same_picture) {
         }
     const auto narrow = photograph(field, cameras), full = photograph_fully(field, cameras);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-        EXPECT_GT(correlation(narrow[c], full[c]), 0.999) << c;
-        EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 5e-3) << c;
+        // Aslant it is 0.9994 where the pupil's disc is not bent among the frequencies.
+        EXPECT_GT(correlation(narrow[c], full[c]), 0.9997) << c;
+        // What light leaves the film at one side comes in again at the other in the narrow band alone.
+        EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 7e-3) << c;
     }
 }
 
