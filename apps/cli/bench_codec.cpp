@@ -17,16 +17,29 @@ double root_mean_square(const LightField& field) {
     return std::sqrt(sum / static_cast<double>(field.radiance.size()));
 }
 
+// A part of the way from one point to another, in the logarithms of all but the SQNR.
+RatePoint between(const RatePoint& a, const RatePoint& b, double part) {
+    const auto mean = [&](double RatePoint::*member) { return a.*member * std::pow(b.*member / a.*member, part); };
+    return {mean(&RatePoint::pixels_per_bit), a.sqnr + part * (b.sqnr - a.sqnr), mean(&RatePoint::encoding),
+            mean(&RatePoint::decoding)};
+}
+
 }  // namespace
 
 std::optional<RatePoint> RateCurve::at(double sqnr) const {
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const RatePoint &fine = points[k], &coarse = points[k + 1];
         if (!(fine.sqnr >= sqnr && coarse.sqnr <= sqnr && fine.sqnr > coarse.sqnr)) continue;
-        const double part = (fine.sqnr - sqnr) / (fine.sqnr - coarse.sqnr);
-        const auto between = [&](double a, double b) { return a * std::pow(b / a, part); };
-        return RatePoint{between(fine.pixels_per_bit, coarse.pixels_per_bit), sqnr,
-                         between(fine.encoding, coarse.encoding), between(fine.decoding, coarse.decoding)};
+        return between(fine, coarse, (fine.sqnr - sqnr) / (fine.sqnr - coarse.sqnr));
+    }
+    return std::nullopt;
+}
+
+std::optional<RatePoint> RateCurve::at_rate(double pixels_per_bit) const {
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const double fine = points[k].pixels_per_bit, coarse = points[k + 1].pixels_per_bit;
+        if (!(fine <= pixels_per_bit && coarse >= pixels_per_bit && fine < coarse)) continue;
+        return between(points[k], points[k + 1], std::log(pixels_per_bit / fine) / std::log(coarse / fine));
     }
     return std::nullopt;
 }
@@ -48,7 +61,11 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
         double began = processor_seconds();
         const CompressionResult result = compress(field, path, options);
         const double encoding = processor_seconds() - began;
-        if (result.sqnr < range.low - 6) continue;
+        if (result.sqnr < range.low - 6) {
+            // Far off: most of the way at once.
+            step *= std::pow(10, std::min(0.0, (result.sqnr - range.low + 8) / 20));
+            continue;
+        }
         began = processor_seconds();
         copy(*open_stream(path), decoded);
         const double decoding = processor_seconds() - began;

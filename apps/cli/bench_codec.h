@@ -22,6 +22,7 @@ struct RateCurve {
 
     /// Between the points: straight in the logarithms of all but the SQNR. Nothing where they do not reach.
     std::optional<RatePoint> at(double sqnr) const;
+    std::optional<RatePoint> at_rate(double pixels_per_bit) const;
 };
 
 /// From one SQNR to another.
@@ -34,8 +35,9 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
 
 /// Coders that other programs have.
 std::vector<std::string> peer_names();
-/// A peer on the hogels of a light field of one channel as pictures, row by row and back, of 10 bits for video and 16
-/// for still pictures. Nothing where the program is not installed or lacks the coder.
+/// A peer on a light field of one channel: zfp on the array of floats; the others, by way of ffmpeg, on the hogels as
+/// pictures, row by row and back, of 10 bits for video and 16 for still pictures. Nothing where the program is not
+/// installed or lacks the coder.
 std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range);
 
 }  // namespace hogel::cli

@@ -128,15 +128,59 @@ double bytes_in(const std::filesystem::path& folder) {
     return sum;
 }
 
+// The array of floats as it is, with absolute tolerances. Axes of one sample are left out.
+std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange& range) {
+    if (!run("command -v zfp")) return std::nullopt;
+    const TemporaryFolder folder;
+    const std::filesystem::path raw = folder.path() / "raw", back = folder.path() / "back",
+                                coded = folder.path() / "coded";
+    const std::span<const float> truth = field.radiance.elements();
+    std::ofstream(raw, std::ios::binary)
+        .write(reinterpret_cast<const char*>(truth.data()), std::streamsize(truth.size_bytes()));
+    std::string axes;
+    int count = 0;
+    for (std::size_t axis = 5; axis-- > 1;)
+        if (const std::size_t n = field.radiance.extent(axis); n > 1) {
+            axes += fmt::format(" {}", n);
+            ++count;
+        }
+    if (count == 0) return std::nullopt;
+    double signal = 0;
+    for (const float value : truth) signal += static_cast<double>(value) * value;
+    const double samples = static_cast<double>(truth.size());
+    // Errors stay far below the tolerance that is asked for.
+    double tolerance = std::sqrt(signal / samples) * std::pow(10, -range.high / 20);
+    RateCurve curve{"zfp", {}};
+    std::vector<float> decoded(truth.size());
+    for (int k = 0; k < 16; ++k, tolerance *= 2) {
+        const std::string what = fmt::format("zfp -q -f -{}{} -a {} -z {}", count, axes, tolerance, quoted(coded));
+        const double began = processor_seconds_of_programs();
+        if (!run(fmt::format("{} -i {}", what, quoted(raw)))) break;
+        const double between = processor_seconds_of_programs();
+        if (!run(fmt::format("{} -o {}", what, quoted(back)))) break;
+        const double ended = processor_seconds_of_programs();
+        std::ifstream file(back, std::ios::binary);
+        if (!file.read(reinterpret_cast<char*>(decoded.data()), std::streamsize(truth.size_bytes()))) break;
+        double error = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) error += std::pow(double(truth[i]) - decoded[i], 2);
+        const double sqnr = 10 * std::log10(signal / error);
+        curve.points.push_back({samples / (8 * static_cast<double>(std::filesystem::file_size(coded))), sqnr,
+                                1e-6 * samples / (between - began), 1e-6 * samples / (ended - between)});
+        if (sqnr < range.low) break;
+    }
+    return curve;
+}
+
 }  // namespace
 
 std::vector<std::string> peer_names() {
-    std::vector<std::string> names;
+    std::vector<std::string> names{"zfp"};
     for (const Peer& peer : peers()) names.emplace_back(peer.name);
     return names;
 }
 
 std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range) {
+    if (name == "zfp") return measure_zfp(field, range);
     const Peer& peer = *std::ranges::find(peers(), name, &Peer::name);
     if (!run(fmt::format("ffmpeg -hide_banner -h encoder={} | grep -q '^Encoder {}'", peer.needs, peer.needs)))
         return std::nullopt;

@@ -2,8 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 #include "bench_codec.h"
+#include "bench_field.h"
 #include "commands.h"
 #include "hogel/codec/compress.h"
 #include "hogel/core/output_file.h"
@@ -15,12 +17,15 @@
 namespace hogel::cli {
 namespace {
 
+constexpr std::array<std::pair<std::string_view, Brightness>, 2> dense_fields{
+    {{"dense", Brightness::even}, {"dense-hdr", Brightness::high}}};
+
 struct Options {
     std::string input, output;
     RenderOptions render;
     std::vector<std::string> coders, transforms, peers;
-    std::vector<double> sqnrs{25, 30, 35, 40};
-    bool grey = false;
+    std::vector<double> sqnrs{25, 30, 35, 40}, rates{8};
+    bool grey = false, thesis = false;
 };
 
 // The whole light field in memory; its colours' mean where that is asked for.
@@ -35,6 +40,13 @@ LightField load(const LightFieldSource& source, bool grey, const Progress& progr
     const float* in = field.radiance.data();
     for (std::size_t i = 0; i < count; ++i) mean.radiance.data()[i] = (in[i] + in[count + i] + in[2 * count + i]) / 3;
     return mean;
+}
+
+// A light field that is made for this, or any other.
+std::unique_ptr<LightFieldSource> open(const Session& session, const Options& options) {
+    for (const auto& [name, brightness] : dense_fields)
+        if (options.input == name) return make_dense_field(options.render.grid(), brightness);
+    return open_or_render(session, options.input, options.render);
 }
 
 // Each coder with the transforms that go with it.
@@ -54,27 +66,33 @@ std::vector<CodingMethod> methods_of(const Options& options) {
     return methods;
 }
 
-std::string table(const std::vector<RateCurve>& curves, const std::vector<double>& sqnrs) {
+std::string table(const std::vector<RateCurve>& curves, const std::vector<double>& sqnrs,
+                  const std::vector<double>& rates) {
     std::string text = "| |";
     for (const double sqnr : sqnrs) text += fmt::format(" {:g} dB |", sqnr);
+    for (const double rate : rates) text += fmt::format(" at {:g} |", rate);
     text += " encode | decode |\n|---|";
-    for (std::size_t i = 0; i < sqnrs.size() + 2; ++i) text += "---|";
+    for (std::size_t i = 0; i < sqnrs.size() + rates.size() + 2; ++i) text += "---|";
     text += "\n";
     const double middle = sqnrs[(sqnrs.size() - 1) / 2];
     for (const RateCurve& curve : curves) {
         text += fmt::format("| {} |", curve.name);
         for (const double sqnr : sqnrs) {
             const auto point = curve.at(sqnr);
-            text += point ? fmt::format(" {:.2f} |", point->pixels_per_bit) : " |";
+            text += point ? fmt::format(" {:.2f} |", point->pixels_per_bit) : " – |";
+        }
+        for (const double rate : rates) {
+            const auto point = curve.at_rate(rate);
+            text += point ? fmt::format(" {:.1f} dB |", point->sqnr) : " – |";
         }
         const auto point = curve.at(middle);
-        text += point ? fmt::format(" {:.2g} | {:.2g} |\n", point->encoding, point->decoding) : " | |\n";
+        text += point ? fmt::format(" {:.2g} | {:.2g} |\n", point->encoding, point->decoding) : " – | – |\n";
     }
     return text;
 }
 
 int bench(const Options& options, const Session& session) {
-    const auto source = open_or_render(session, options.input, options.render);
+    const auto source = open(session, options);
     for (const std::string& name : options.coders)
         make_tile_coder({name, std::string(default_transform(name))}, source->grid());
     std::optional<Stage> reading(std::in_place, session, "reading");
@@ -103,20 +121,24 @@ int bench(const Options& options, const Session& session) {
         if (auto curve = measure_peer(field, name, range))
             curves.push_back(std::move(*curve));
         else
-            session.say(fmt::format("{}: left out, ffmpeg does not have it", name));
+            session.say(fmt::format("{}: left out, it is not installed", name));
     }
     const std::string name = std::filesystem::path(options.input).stem().string();
     const std::string subtitle =
         fmt::format("{}x{} hogels, {}x{} directions, {}", grid.hogels_s, grid.hogels_t, grid.directions_u,
                     grid.directions_v, grid.channels == 1 ? "grey" : "colour");
-    fmt::print("{}; {}.\nPixels per bit at SQNRs; million samples a second of one core, at {:g} dB.\n\n{}", name,
-               subtitle, sqnrs[(sqnrs.size() - 1) / 2], table(curves, sqnrs));
+    fmt::print(
+        "{}; {}.\nPixels per bit at SQNRs, SQNRs at pixels per bit; million samples a second of one core, at {:g} "
+        "dB.\n\n{}",
+        name, subtitle, sqnrs[(sqnrs.size() - 1) / 2], table(curves, sqnrs, options.rates));
     if (folder) {
         std::vector<Curve> drawn;
         for (const RateCurve& curve : curves) {
             Curve& line = drawn.emplace_back(Curve{curve.name, {}});
             for (const RatePoint& point : curve.points) line.points.emplace_back(point.pixels_per_bit, point.sqnr);
         }
+        // [K] 4.5.3 tells of one point: about 8 pixels a bit at roughly 30 dB for the better transforms.
+        if (options.thesis) drawn.push_back({"[K]", {{8, 30}}});
         const std::string svg =
             plot_svg({name, subtitle, "Pixels per bit", "SQNR (dB)", PlotText::Scale::linear}, drawn);
         write_file(folder->path() / fmt::format("codec_{}.svg", name),
@@ -133,7 +155,11 @@ void add_bench_codec(CLI::App& app, Session& session) {
                                     "  hogel bench codec pumpkin --hogels 16x16 --directions 128 -o plots\n"
                                     "  hogel bench codec a.h5 --coders hogel --grey --peers x265,svt-av1",
                                     [options, &session] { return bench(*options, session); });
-    command->add_option("input", options->input, "Light field or scene")->type_name("X.h5|X.hgl|SCENE")->required();
+    command
+        ->add_option("input", options->input,
+                     "Light field or scene; dense, dense-hdr: ellipses made for this, hardly moving between hogels")
+        ->type_name("X.h5|X.hgl|SCENE|dense|dense-hdr")
+        ->required();
     command->add_option("-o,--output", options->output, "Folder for a plot, SVG")->type_name("DIR");
     command
         ->add_option("--coders", options->coders,
@@ -149,10 +175,17 @@ void add_bench_codec(CLI::App& app, Session& session) {
         ->delimiter(',')
         ->check(CLI::Range(1.0, 120.0).description(""))
         ->capture_default_str();
+    command->add_option("--ppb", options->rates, "Pixels per bit to tell the SQNR at")
+        ->type_name("N,...")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber.description(""))
+        ->capture_default_str();
+    command->add_flag("--thesis", options->thesis,
+                      "Draw the point that Kartch's thesis tells of, 30 dB at 8 pixels a bit");
     command->add_flag("--grey", options->grey, "Measure the mean of the colours");
     command
         ->add_option("--peers", options->peers,
-                     fmt::format("Others, by way of ffmpeg: {}", fmt::join(peer_names(), ", ")))
+                     fmt::format("Others, where they are installed: {}", fmt::join(peer_names(), ", ")))
         ->type_name("NAME,...")
         ->delimiter(',')
         ->check(CLI::IsMember(peer_names()).description(""));

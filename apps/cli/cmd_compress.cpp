@@ -31,7 +31,8 @@ int compress_file(Options options, const Session& session) {
     require_writable(options.output);
     CompressionOptions& compression = options.compression;
     CompressionTarget& target = compression.target;
-    if (!target.sqnr && !target.pixels_per_bit && !target.step) target.sqnr = defaults.sqnr;
+    if (!target.sqnr && !target.pixels_per_bit && !target.step && !target.max_error && !target.lossless)
+        target.sqnr = defaults.sqnr;
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
     if (compression.method.transform.empty())
         compression.method.transform = default_transform(compression.method.coder);
@@ -53,6 +54,7 @@ void add_compress(CLI::App& app, Session& session) {
     CLI::App* command = add_command(app, session, "compress", "Compress a light field",
                                     "  hogel compress pumpkin.h5 -o pumpkin.hgl\n"
                                     "  hogel compress pumpkin.h5 -o small.hgl --ppb 20\n"
+                                    "  hogel compress pumpkin.h5 -o exact.hgl --lossless\n"
                                     "  hogel compress pumpkin.h5 -o k.hgl --coder ezw --transform ai33 --sqnr 30",
                                     [options, &session] { return compress_file(*options, session); });
     CodingMethod& method = options->compression.method;
@@ -69,10 +71,21 @@ void add_compress(CLI::App& app, Session& session) {
     CLI::Option* ppb = command->add_option("--ppb", target.pixels_per_bit, "Size: rays, with all their colours, a bit")
                            ->type_name("N")
                            ->excludes(sqnr);
-    command->add_option("--step", target.step, "The quantiser's step, in units of radiance")
-        ->type_name("N")
+    CLI::Option* step = command->add_option("--step", target.step, "The quantiser's step, in units of radiance")
+                            ->type_name("N")
+                            ->excludes(sqnr)
+                            ->excludes(ppb);
+    CLI::Option* max_error =
+        command->add_option("--max-error", target.max_error, "Every sample within this of what it was, in radiance")
+            ->type_name("E")
+            ->excludes(sqnr)
+            ->excludes(ppb)
+            ->excludes(step);
+    command->add_flag("--lossless", target.lossless, "Every bit of every sample as it was")
         ->excludes(sqnr)
-        ->excludes(ppb);
+        ->excludes(ppb)
+        ->excludes(step)
+        ->excludes(max_error);
     command->add_option("--coder", method.coder, fmt::format("{}", fmt::join(coder_names(), ", ")))
         ->type_name("NAME")
         ->capture_default_str();

@@ -10,7 +10,7 @@ namespace {
 
 struct Options {
     std::string input, output;
-    bool single = false;
+    bool single = false, half = false;
 };
 
 // All faces tile by tile, for they may come from the same bytes, which are then decoded once.
@@ -38,7 +38,10 @@ int decompress_file(const Options& options, const Session& session) {
     require_writable(options.output);
     const auto faces = open_stream_faces(options.input);
     LightFieldFileOptions file;
-    file.type = options.single ? SampleType::single : SampleType::half;
+    // Who asked for exact samples shall not lose them here.
+    const std::string coder = read_stream_info(options.input).method.coder;
+    const bool exact = coder == "lossless" || coder == "bounded";
+    file.type = options.single || (exact && !options.half) ? SampleType::single : SampleType::half;
     file.metadata = describe_run(session);
     std::vector<LightFieldGrid> grids;
     for (const auto& face : faces) grids.push_back(face->grid());
@@ -62,7 +65,9 @@ void add_decompress(CLI::App& app, Session& session) {
                                     [options, &session] { return decompress_file(*options, session); });
     command->add_option("input", options->input, "Compressed light field")->type_name("X.hgl")->required();
     command->add_option("-o,--output", options->output, "Light field to write, HDF5")->type_name("FILE")->required();
-    command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
+    CLI::Option* single = command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
+    command->add_flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
+        ->excludes(single);
 }
 
 }  // namespace hogel::cli

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Decodes a compressed light field (.hgl) of the coder "hogel" as docs/format.md says, slowly and plainly, and compares
-it with what `hogel decompress --float` made of it: every sample must be the same, to the last bit before colours are
-joined. Corners of an unfolded hemicube are nobody's.
+"""Decodes a compressed light field (.hgl) of the coders "hogel", "lossless" and "bounded" as docs/format.md says, slowly
+and plainly, and compares it with what `hogel decompress --float` made of it: every sample must be the same, to the last
+bit. Corners of an unfolded hemicube are nobody's.
 
 usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5
 """
@@ -77,6 +77,16 @@ class Decoder:
         half = self.range >> 1
         value = min(self.code // half, 1)
         self.narrow(half * value, half)
+        return value
+
+    def raw(self, count):
+        value = 0
+        for done in range(0, count, 16):
+            bits = min(16, count - done)
+            unit = self.range >> bits
+            part = min(self.code // unit, 2**bits - 1)
+            self.narrow(unit * part, unit)
+            value |= part << done
         return value
 
     def number(self, models, name):
@@ -350,13 +360,94 @@ class Tile:
         plane[y:y + 8, x:x + 8] = prediction + residual
 
 
-def compare(picture, truth):
-    if len(picture) == 1:
-        assert np.array_equal(picture, truth), "samples differ"
-        return
-    a, b, c = picture * np.array([3**-0.5, 2**-0.5, 6**-0.5])[:, None, None]
-    joined = np.stack([a + b + c, a - 2 * c, a - b + c])
-    assert np.allclose(joined, truth, rtol=0, atol=1e-6 * np.abs(truth).max()), "colours differ"
+def joined(tile, shape):
+    """What the hogels of a tile show, as [c][t][s][v][u], red, green and blue."""
+    result = np.zeros(shape, f32)
+    for hogel in tile.hogels:
+        picture = hogel.picture[:, :shape[3], :shape[4]]
+        if len(picture) == 3:
+            a, b, c = (f32(factor) * p for factor, p in zip((3**-0.5, 2**-0.5, 6**-0.5), picture))
+            picture = np.stack([a + b + c, a - f32(2) * c, a - b + c])
+        result[:, hogel.t, hogel.s] = picture
+    return result
+
+
+class Exact:
+    """What is coded beside the prediction of a row of hogels."""
+
+    def __init__(self, data):
+        self.decoder, self.models = Decoder(data), Models()
+
+    def residual(self, around):
+        """around: size (negative for negative numbers, 33 for special) and weight of those near by, left and above first."""
+        bit, models = self.decoder.bit, self.models
+        beside = [size for size, weight, near in around if near]
+        special, sign = beside.count(33), sum((size > 0) - (size < 0) for size in beside if size != 33)
+        weights = sum(weight for size, weight, _ in around if size != 33)
+        total = sum(weight * abs(size) for size, weight, _ in around if size != 33)
+        mean = (total + weights // 2) // weights if weights else 0
+        node = 1
+        for _ in range(6):
+            node = node * 2 + bit(models["size", special, mean, node])
+        size = node - 64
+        if size == 33 or size == 0:
+            return None if size == 33 else 0, size
+        negative, number, left = bit(models["sign", sign]), 1, size - 1
+        for _ in range(min(2, left)):
+            left -= 1
+            number = number << 1 | bit(models["below", size, number & 3])
+        number = number << left | self.decoder.raw(left)
+        return (-number, -size) if negative else (number, size)
+
+
+def ordered(value):
+    bits = int(np.array(value, f32).view("u4"))
+    return bits ^ (0xFFFFFFFF if bits >> 31 else 0x80000000)
+
+
+def exact(coder, data, shape, aspect, counts):
+    channels, rows, columns, n_v, n_u = shape
+    source = Bytes(data)
+    length = source.take("I")
+    tile = joined(Tile(data[4:4 + length], columns, rows, (channels, n_v, n_u), aspect), shape)
+    source.at += length
+    if coder == "lossless":
+        zero = source.take("B")
+        half = 1 << zero >> 1
+    else:
+        bound = source.take("d")
+    sizes = [source.take("I") for _ in range(rows)]
+    for t in range(rows):
+        code = Exact(data[source.at:source.at + sizes[t]])
+        source.at += sizes[t]
+        for s in range(columns):
+            before = None
+            for c in range(channels):
+                seen = np.zeros((n_v, n_u), int)
+                for v, u in np.argwhere(counts):
+                    around = [(int(seen[v, u - 1]), 2, True)] if u else []
+                    if v:
+                        around.append((int(seen[v - 1, u]), 2, True))
+                        around += [(int(seen[v - 1, k]), 1, False) for k in (u - 1, u + 1) if 0 <= k < n_u]
+                    if before is not None:
+                        around.append((int(before[v, u]), 2, False))
+                    number, seen[v, u] = code.residual(around)
+                    here = tile[c, t, s]
+                    if coder == "bounded":
+                        raw = code.decoder.raw(32) if number is None else None
+                        here[v, u] = np.uint32(raw).view(f32) if raw is not None else f32(
+                            float(here[v, u]) + 2 * bound * number)
+                        continue
+                    value = 0x80000000  # of +0
+                    if number is not None:
+                        expected = ordered(here[v, u])
+                        expected = (expected if expected > 0xFFFFFFFF - half else expected + half) >> zero
+                        value = (expected + number) % (1 << (32 - zero)) << zero
+                    bits = value - 2**31 if value >> 31 else ~(value | ((1 << zero) - 1)) & 0xFFFFFFFF
+                    here[v, u] = np.uint32(bits).view(f32)
+                before = seen
+    assert source.at == len(data)
+    return tile
 
 
 def main():
@@ -370,7 +461,8 @@ def main():
     _, tan_u, tan_v, _, _ = source.take("5d")
     assert source.text() == "front"
     tile_s, tile_t = source.take("2Q")
-    assert source.text() == "hogel" and source.text() == ""
+    coder = source.text()
+    assert coder in ("hogel", "lossless", "bounded") and source.text() == ""
     for _ in range(source.take("I")):
         source.text(), source.text()
     # Parts: for each its size, and the faces in it as name, columns and rows.
@@ -407,9 +499,16 @@ def main():
                 source.at += size
                 assert zlib.crc32(code) == checksum
                 across, down = min(tile_s, columns - s0), min(tile_t, rows - t0)
-                for hogel in Tile(code, across, down, (channels, v, u), aspect).hogels:
-                    for name, u0, u1, v0, v1 in faces:
-                        compare(hogel.picture[:, v0:v1, u0:u1], expected[name][:, t0 + hogel.t, s0 + hogel.s])
+                counts = np.zeros((v, u), bool)
+                for _, u0, u1, v0, v1 in faces:
+                    counts[v0:v1, u0:u1] = True
+                if coder == "hogel":
+                    tile = joined(Tile(code, across, down, (channels, v, u), aspect), (channels, down, across, v, u))
+                else:
+                    tile = exact(coder, code, (channels, down, across, v, u), aspect, counts)
+                for name, u0, u1, v0, v1 in faces:
+                    truth = expected[name][:, t0:t0 + down, s0:s0 + across]
+                    assert np.array_equal(tile[..., v0:v1, u0:u1].view("u4"), truth.view("u4")), "samples differ"
     print("the same")
 
 

@@ -60,7 +60,7 @@ class ClassicCoder : public TileCoder {
             writer.put(std::span(code));
         }
         decode(writer.bytes, work);
-        return {std::move(writer.bytes), squared_error(tile, work)};
+        return {std::move(writer.bytes), squared_error(tile, work, counted_)};
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
@@ -89,18 +89,6 @@ class ClassicCoder : public TileCoder {
         const Shape<5>& shape = tile.radiance.shape();
         const std::vector<std::size_t> axes(shape.begin() + 1, shape.end());
         return content_ == Content::amplitude ? Pyramid::separate(axes, {{0, 1}, {2, 3}}) : Pyramid::interleaved(axes);
-    }
-    double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded) const {
-        const std::size_t width = truth.radiance.extent(4), height = truth.radiance.extent(3);
-        double sum = 0;
-        for (std::size_t row = 0; row < truth.radiance.size() / width; ++row) {
-            const auto [begin, end] = counted_.columns(row % height, width);
-            for (std::size_t i = row * width + begin; i < row * width + end; ++i) {
-                const double error = static_cast<double>(truth.radiance.data()[i]) - decoded.radiance.data()[i];
-                sum += error * error;
-            }
-        }
-        return sum;
     }
     // Transforms back along the groups of `back`.
     void decode(std::span<const std::uint8_t> bytes, const Pyramid& back, LightFieldTile& tile) const {

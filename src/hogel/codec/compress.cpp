@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "hogel/codec/exact_coder_internal.h"
 #include "hogel/codec/search_internal.h"
 #include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr double sqnr_tolerance = 0.1, rate_tolerance = 0.02;
 constexpr std::size_t sampled = 8;  // tiles coded to guess the step
 constexpr int most_passes = 12;
+constexpr double likely_bounded_step = 3;        // times the error
+constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
 
 double decibels(double signal, double error) {
     return error > 0 ? 10 * std::log10(signal / error) : std::numeric_limits<double>::infinity();
@@ -88,6 +91,18 @@ class Compression {
             [&](std::size_t, Outcome& outcome) { sum.add(outcome); });
         return sum;
     }
+    // The bytes of the middle of the tile in the middle, and the root mean square of what is there.
+    std::pair<double, double> try_middle(double step) const {
+        HogelRange range = tiling_[tiling_.count() / 2];
+        for (const auto& [begin, count] : {std::pair{&range.s0, &range.ns}, {&range.t0, &range.nt}}) {
+            const std::size_t kept = std::min<std::size_t>(*count, 8);
+            *begin += (*count - kept) / 2;
+            *count = kept;
+        }
+        const auto [tile, outcome] = read(parts_.front(), range);
+        const auto bytes = static_cast<double>(parts_.front().coder->encode(tile, step).bytes.size());
+        return {bytes, std::sqrt(outcome.signal / outcome.samples)};
+    }
     // Of the tiles last written.
     const std::vector<std::size_t>& sizes() const { return sizes_; }
 
@@ -100,16 +115,18 @@ class Compression {
     std::size_t in_flight() const { return std::min(default_in_flight(), parts_.front().coder->most_at_once()); }
 
     std::pair<LightFieldTile, Outcome> read(std::size_t index) const {
-        const LightFieldSource& source = *parts_[index / tiling_.count()].source;
-        const HogelRange range = tiling_[index % tiling_.count()];
-        LightFieldTile tile(source.grid(), range, false);
-        source.read(tile);
+        return read(parts_[index / tiling_.count()], tiling_[index % tiling_.count()]);
+    }
+    std::pair<LightFieldTile, Outcome> read(const Part& part, const HogelRange& range) const {
+        LightFieldTile tile(part.source->grid(), range, false);
+        part.source->read(tile);
         Outcome outcome;
+        const bool any_value = part.coder->takes_any_value();
         const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
         for (std::size_t row = 0; row < tile.radiance.size() / width; ++row) {
             const auto [begin, end] = counted_.columns(row % height, width);
             for (const float value : tile.radiance.elements().subspan(row * width + begin, end - begin))
-                outcome.signal += static_cast<double>(value) * value;
+                if (std::isfinite(value) || !any_value) outcome.signal += static_cast<double>(value) * value;
         }
         if (!std::isfinite(outcome.signal))
             throw Error(ErrorCode::bad_input,
@@ -164,8 +181,14 @@ std::vector<std::size_t> cut(const std::vector<std::size_t>& sizes, double room)
 }
 
 void check(const CompressionTarget& target) {
-    if (target.sqnr.has_value() + target.pixels_per_bit.has_value() + target.step.has_value() != 1)
-        throw Error(ErrorCode::usage, "compression: expected exactly one of an SQNR, a rate and a step");
+    if (target.sqnr.has_value() + target.pixels_per_bit.has_value() + target.step.has_value() +
+            target.max_error.has_value() + target.lossless !=
+        1)
+        throw Error(ErrorCode::usage,
+                    "compression: expected exactly one of an SQNR, a rate, a step, an error and lossless");
+    if (target.max_error && !(*target.max_error > 0 && std::isfinite(*target.max_error)))
+        throw Error(ErrorCode::usage,
+                    fmt::format("an error of {} was asked for, expected a positive one", *target.max_error));
     if (target.sqnr && !(*target.sqnr > 0 && *target.sqnr <= 120))
         throw Error(ErrorCode::usage, fmt::format("an SQNR of {} dB was asked for, expected 0 to 120", *target.sqnr));
     if (target.pixels_per_bit && !(*target.pixels_per_bit > 0 && std::isfinite(*target.pixels_per_bit)))
@@ -231,6 +254,33 @@ class StepSearch {
     int passes_ = 0;
 };
 
+// The step of a prediction that makes tiles smallest, by halves and doubles from a likely one.
+double smallest_step(const Compression& compression, const CompressionTarget& target) {
+    constexpr int most = 8;
+    double start = target.max_error ? likely_bounded_step * *target.max_error
+                                    : likely_lossless_step * compression.try_middle(1).second;
+    if (!(start > 0)) start = 1;
+    const auto bytes = [&](int power) { return compression.try_middle(std::ldexp(start, power)).first; };
+    int best = 0;
+    double least = bytes(0);
+    for (const int way : {1, -1}) {
+        for (int power = way; std::abs(power) < most; power += way) {
+            const double here = bytes(power);
+            if (here >= least) break;
+            least = here;
+            best = power;
+        }
+        if (best != 0) break;
+    }
+    return std::ldexp(start, best);
+}
+
+std::unique_ptr<TileCoder> coder_for(const StreamInfo& info, const LightFieldGrid& part,
+                                     const CompressionTarget& target) {
+    if (target.max_error) return make_bounded_coder(part, counted(info), *target.max_error);
+    return make_tile_coder(info.method, part, counted(info));
+}
+
 }  // namespace
 
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
@@ -243,8 +293,13 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
                            const CompressionOptions& options, const Progress& progress) {
     check(options.target);
     const LightFieldGrid& grid = faces.front()->grid();
+    const bool exact = options.target.lossless || options.target.max_error;
+    if (exact && options.method != CodingMethod{})
+        throw Error(ErrorCode::usage, fmt::format("coder {} cannot keep to an error, nor be lossless; expected hogel",
+                                                  options.method.coder));
     require_tangents(grid, ErrorCode::usage, "a compressed light field");
     StreamInfo info{grid, {}, options.method, options.metadata, {}, options.layout};
+    if (exact) info.method.coder = options.target.lossless ? "lossless" : "bounded";
     double pixels = 0;
     for (const LightFieldSource* face : faces) {
         if (face != faces.front()) info.sides.push_back(face->grid());
@@ -255,7 +310,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
     const auto unfolded = info.layout == HemicubeLayout::unfolded ? unfold(faces) : std::unique_ptr<LightFieldSource>{};
     std::vector<Compression::Part> parts;
     for (std::size_t i = 0; i < grids.size(); ++i)
-        parts.push_back({unfolded ? unfolded.get() : faces[i], make_tile_coder(info.method, grids[i], counted(info))});
+        parts.push_back({unfolded ? unfolded.get() : faces[i], coder_for(info, grids[i], options.target)});
     info.tile = options.tile.value_or(parts.front().coder->preferred_tile(grids.front()));
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
@@ -266,8 +321,8 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
 
     CompressionResult result;
     Outcome outcome;
-    if (target.step) {
-        result.step = *target.step;
+    if (target.step || exact) {
+        result.step = exact ? smallest_step(compression, target) : *target.step;
         outcome = compression.code(all, result.step, true);
         result.passes = 1;
     } else {

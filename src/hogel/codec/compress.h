@@ -10,11 +10,13 @@
 
 namespace hogel {
 
-/// What to give up for a small file: exactly one of the three.
+/// What to give up for a small file: exactly one.
 struct CompressionTarget {
     std::optional<double> sqnr;            ///< 10 log10(Σ f² / Σ (f − f')²) in decibels, over all samples
     std::optional<double> pixels_per_bit;  ///< rays (with all their channels) a bit of the whole file
     std::optional<double> step;            ///< the quantiser's, in units of radiance, as it is
+    std::optional<double> max_error;  ///< |f − f'| of every sample at most; what is not finite comes back as it is
+    bool lossless = false;            ///< nothing: every float comes back with all its bits
 };
 
 struct CompressionOptions {
@@ -36,10 +38,11 @@ struct CompressionResult {
 /// The step that meets the target is found by coding, first some of the tiles and then all, until
 ///   an SQNR is met or exceeded by at most 0.1 dB,
 ///   or the rate is met to within 2% (a file is never larger than asked for; exact where the coder is embedded).
-/// Where that cannot be (a light field of few samples), the file is the smallest that has the SQNR, or the best that
-/// has the rate. Depth is not stored. The file appears when it is complete.
-/// Throws Error(usage) for a target or method that makes no sense, Error(bad_input) for radiance that is not finite,
-/// Error(cannot_write).
+/// Within an error, or lossless, what is coded beside the prediction makes it so, and the step is the one among some
+/// that gives the smallest tiles; with the coder hogel alone. Where that cannot be (a light field of few samples), the
+/// file is the smallest that has the SQNR, or the best that has the rate. Depth is not stored. The file appears when it
+/// is complete. Throws Error(usage) for a target or method that makes no sense, Error(bad_input) for radiance that is
+/// not finite (within an error, or lossless: it may be), Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});
 

@@ -69,7 +69,7 @@ class DecodedStream {
         try {
             std::vector<std::unique_ptr<TileCoder>> coders;
             for (const LightFieldGrid& part : reader.parts())
-                coders.push_back(make_tile_coder(reader.info().method, part));
+                coders.push_back(make_tile_coder(reader.info().method, part, counted(reader.info())));
             return coders;
         } catch (const Error& error) {
             reader.damaged(error.what());

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hogel/codec/classic_internal.h"
+#include "hogel/codec/exact_coder_internal.h"
 #include "hogel/codec/hogel_coder_internal.h"
 #include "hogel/core/error.h"
 
@@ -19,6 +20,8 @@ void TileCoder::decode_coefficients(std::span<const std::uint8_t>, LightFieldTil
 
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
                                            const DirectionCross& counted) {
+    if (method == CodingMethod{"lossless", ""}) return make_lossless_coder(grid, counted);
+    if (method == CodingMethod{"bounded", ""}) return make_bounded_coder(grid, counted, 0);
     if (!std::ranges::count(coder_names(), method.coder))
         throw Error(ErrorCode::usage, fmt::format("there is no coder '{}'; expected one of {}", method.coder,
                                                   fmt::join(coder_names(), ", ")));

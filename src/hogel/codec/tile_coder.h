@@ -28,6 +28,8 @@ class TileCoder {
     virtual HogelRange preferred_tile(const LightFieldGrid& grid) const = 0;
     /// How many tiles to code at once: as many as there are threads, or fewer where a tile keeps all of them busy.
     virtual std::size_t most_at_once() const { return std::numeric_limits<std::size_t>::max(); }
+    /// True where radiance that is not finite is coded as it is.
+    virtual bool takes_any_value() const { return false; }
     /// True where encode() heeds most_bytes: any prefix of the bytes decodes to a coarser tile.
     virtual bool embedded() const { return false; }
     /// @param step   the quantiser's, in units of radiance: the larger, the coarser. An error is about step/√12 where
@@ -49,7 +51,7 @@ struct CodingMethod {
     friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
 };
 
-/// hogel|threepass|ezw|jpeg4d|fringes.
+/// hogel|threepass|ezw|jpeg4d|fringes. Streams also know lossless and bounded, which compress() makes of hogel.
 std::vector<std::string_view> coder_names();
 
 /// @param counted   the directions whose errors count

@@ -1,6 +1,7 @@
 #include "hogel/codec/unfolded.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
@@ -147,6 +148,19 @@ void Unfolding::fill_corners(View<float, 2> array) const {
             fill_corner(array,
                         {cross_.begin_u, cross_.end_u, left, left ? cross_.begin_u : grid_.directions_u - cross_.end_u},
                         {cross_.begin_v, cross_.end_v, top, top ? cross_.begin_v : grid_.directions_v - cross_.end_v});
+}
+
+double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded, const DirectionCross& counted) {
+    const std::size_t width = truth.radiance.extent(4), height = truth.radiance.extent(3);
+    double sum = 0;
+    for (std::size_t row = 0; row < truth.radiance.size() / width; ++row) {
+        const auto [begin, end] = counted.columns(row % height, width);
+        for (std::size_t i = row * width + begin; i < row * width + end; ++i) {
+            const double error = static_cast<double>(truth.radiance.data()[i]) - decoded.radiance.data()[i];
+            if (std::isfinite(error)) sum += error * error;
+        }
+    }
+    return sum;
 }
 
 std::unique_ptr<LightFieldSource> unfold(std::span<const LightFieldSource* const> faces) {

@@ -53,6 +53,9 @@ class Unfolding {
     DirectionCross cross_;
 };
 
+/// Σ (f − f')² over the directions that count, without what is not finite.
+double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded, const DirectionCross& counted);
+
 /// The faces of a hemicube, unfolded where they are read. They must outlive it.
 std::unique_ptr<LightFieldSource> unfold(std::span<const LightFieldSource* const> faces);
 

@@ -1,0 +1,181 @@
+#include "hogel/codec/exact_coder_internal.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "hogel/codec/compress.h"
+#include "hogel/codec/test_fields_internal.h"
+#include "hogel/core/error.h"
+#include "hogel/core/parallel.h"
+
+namespace hogel {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+CompressionOptions lossless() {
+    CompressionOptions options;
+    options.target.lossless = true;
+    options.tile = HogelRange{0, 0, 4, 3};
+    return options;
+}
+
+CompressionOptions within(double error) {
+    CompressionOptions options;
+    options.target.max_error = error;
+    options.tile = HogelRange{0, 0, 4, 3};
+    return options;
+}
+
+LightField through(const LightField& field, const CompressionOptions& options, CompressionResult* result = nullptr) {
+    const TestFolder folder;
+    const CompressionResult found = compress(field, folder / "a.hgl", options);
+    if (result) *result = found;
+    LightField decoded(field.grid());
+    copy(*open_stream(folder / "a.hgl"), decoded);
+    return decoded;
+}
+
+void expect_same_bits(const LightField& a, const LightField& b) {
+    for (std::size_t i = 0; i < a.radiance.size(); ++i)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(a.radiance.data()[i]),
+                  std::bit_cast<std::uint32_t>(b.radiance.data()[i]))
+            << i;
+}
+
+// Some samples are what no light is.
+LightField with_oddities(std::size_t channels) {
+    LightField field = textured_planes(5, 4, 13, 11, channels);
+    const float odd[] = {
+        infinity, -infinity, std::bit_cast<float>(0x7FC12345u), std::bit_cast<float>(0xFF800001u),    -0.0f, 0.0f,
+        1e-45f,   -1e-40f,   std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest(), -0.7f, 1e-30f};
+    for (std::size_t i = 0; i < std::size(odd); ++i) field.radiance.data()[i * 97 + 5] = odd[i];
+    return field;
+}
+
+// The nearest float with ten bits behind the point, as half floats have.
+float ten_bits(float value) { return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) + 0x1000u) & ~0x1FFFu); }
+
+TEST(Lossless, every_bit_comes_back) {
+    for (const std::size_t channels : {1, 3}) {
+        const LightField field = with_oddities(channels);
+        CompressionResult result;
+        expect_same_bits(field, through(field, lossless(), &result));
+        EXPECT_EQ(result.sqnr, infinity);
+        LightField rough = textured_planes(3, 5, 10, 9, channels);
+        for (float& value : rough.radiance.elements()) value = ten_bits(value);
+        expect_same_bits(rough, through(rough, lossless()));
+    }
+    const LightField dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
+    expect_same_bits(dark, through(dark, lossless()));
+}
+
+// Noise of any bits at all cannot become smaller, but not much larger either.
+TEST(Lossless, noise_takes_little_more_than_it_is) {
+    LightField field = textured_planes(6, 6, 32, 24, 1);
+    std::uint32_t k = 0;
+    for (float& value : field.radiance.elements()) value = std::bit_cast<float>(philox({k++, 7, 7, 7}, {1, 2})[0]);
+    CompressionResult result;
+    expect_same_bits(field, through(field, lossless(), &result));
+    EXPECT_LT(double(result.bytes), 1.1 * 4 * 6 * 6 * 32 * 24);
+}
+
+// What half floats hold takes fewer bits than their 16, as it is predicted, and the other 16 of a float none.
+TEST(Lossless, half_floats_cost_no_more_than_half_floats) {
+    LightField field = textured_planes(8, 8, 32, 32, 1);
+    for (float& value : field.radiance.elements()) value = ten_bits(value);
+    CompressionResult result;
+    through(field, lossless(), &result);
+    EXPECT_GT(result.pixels_per_bit, 1 / 9.0);
+}
+
+TEST(Bounded, no_sample_is_farther_off_than_asked) {
+    const LightField field = with_oddities(3);
+    std::size_t bytes = std::numeric_limits<std::size_t>::max();
+    for (const double error : {1e-9, 1e-6, 1e-3, 0.01, 0.2}) {
+        CompressionResult result;
+        const LightField decoded = through(field, within(error), &result);
+        double largest = 0;
+        for (std::size_t i = 0; i < field.radiance.size(); ++i) {
+            const float truth = field.radiance.data()[i], found = decoded.radiance.data()[i];
+            if (std::isfinite(truth))
+                largest = std::max(largest, std::abs(double(truth) - found));
+            else
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(truth), std::bit_cast<std::uint32_t>(found));
+        }
+        EXPECT_LE(largest, error);
+        EXPECT_LE(result.bytes, bytes) << error;
+        bytes = result.bytes;
+    }
+}
+
+TEST(Bounded, says_the_sqnr_that_it_has) {
+    const LightField field = textured_planes(6, 5, 20, 16, 1);
+    CompressionResult result;
+    const LightField decoded = through(field, within(0.01), &result);
+    EXPECT_NEAR(sqnr_of(field, decoded), result.sqnr, 1e-6);
+    EXPECT_GT(result.sqnr, 35);
+}
+
+TEST(Exact, bytes_do_not_depend_on_threads) {
+    const TestFolder folder;
+    const LightField field = with_oddities(3);
+    for (const CompressionOptions& options : {lossless(), within(0.01)}) {
+        std::vector<std::vector<std::uint8_t>> files;
+        for (const std::size_t threads : {1, 3}) {
+            const ThreadLimit limit(threads);
+            compress(field, folder / "a.hgl", options);
+            files.push_back(bytes_of_file(folder / "a.hgl"));
+        }
+        EXPECT_EQ(files[0], files[1]);
+    }
+}
+
+TEST(Exact, other_coders_are_refused) {
+    const TestFolder folder;
+    const LightField field = textured_planes(2, 2, 4, 4, 1);
+    CompressionOptions options = lossless();
+    options.method = {"ezw", "haar"};
+    EXPECT_THROW(compress(field, folder / "a.hgl", options), Error);
+    EXPECT_THROW(compress(field, folder / "a.hgl", within(-1)), Error);
+    options = lossless();
+    options.target.sqnr = 30;
+    EXPECT_THROW(compress(field, folder / "a.hgl", options), Error);
+}
+
+// Whatever the bytes are, decoding ends, in an Error(bad_input) or with a tile.
+TEST(Exact, bytes_of_any_kind_do_no_harm) {
+    const LightField field = with_oddities(1);
+    LightFieldTile tile(field.grid(), {0, 0, 2, 1}, false);
+    field.read(tile);
+    const auto try_coder = [&](const TileCoder& coder) {
+        const std::vector<std::uint8_t> good = coder.encode(tile, 0.02).bytes;
+        const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
+            LightFieldTile decoded = tile;
+            try {
+                coder.decode(bytes, decoded);
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ErrorCode::bad_input);
+                return true;
+            }
+            return false;
+        };
+        EXPECT_FALSE(fails(good));
+        for (std::size_t length = 0; length < good.size(); length += 5)
+            ASSERT_TRUE(fails({good.begin(), good.begin() + std::ptrdiff_t(length)})) << length;
+        for (std::size_t at = 0; at < good.size(); at += 2) {
+            std::vector<std::uint8_t> bad = good;
+            bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
+            fails(bad);
+        }
+        std::vector<std::uint8_t> longer = good;
+        longer.insert(longer.end(), 8, 0x55);
+        EXPECT_TRUE(fails(longer));
+    };
+    try_coder(*make_lossless_coder(field.grid(), {}));
+    try_coder(*make_bounded_coder(field.grid(), {}, 0.01));
+}
+
+}  // namespace
+}  // namespace hogel
