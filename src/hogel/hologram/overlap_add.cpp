@@ -53,8 +53,11 @@ class OverlapAdd final : public FieldSource {
                 std::pow(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(side_)), 2)));
         for (const float row : window_)
             for (const float column : window_) square_.push_back(row * column);
+        hogels_a_metre_ = 1 / light_field.grid().pitch;
+        waves_a_metre_ = 1 / grid.wavelength;
         list_directions();
         list_brightness();
+        steps_a_metre_ = 1 / depth_step_;
     }
 
     const FieldGrid& grid() const override { return grid_; }
@@ -128,16 +131,19 @@ class OverlapAdd final : public FieldSource {
         const Fft2 spectrum(1, good_fft_size(4 * side_ + 4 * static_cast<std::size_t>(farthest)));
         for (std::size_t i = 0; i < brightness_steps; ++i) {
             const double depth = depth_step_ * static_cast<double>(i);
-            const Fan across{rays.center_u, rays.tan_half_u}, down{rays.center_v, rays.tan_half_v};
+            const auto slant = [](double other) { return std::sqrt(1 + other * other); };
+            const Fan across{rays.center_u, rays.tan_half_u, slant(rays.center_v)},
+                down{rays.center_v, rays.tan_half_v, slant(rays.center_u)};
             const double u = one_dimension(depth, across, spectrum);
             const double v = down == across ? u : one_dimension(depth, down, spectrum);
             brightness_.push_back(static_cast<float>(u * v));
         }
     }
 
-    // Directions along one axis: the middle and half of their range of U or V.
+    // Directions along one axis: the middle and half of their range of U or V, and how much longer the way to the
+    // surface is because the fan points aside along the other axis.
     struct Fan {
-        double center, half;
+        double center, half, slant;
         friend bool operator==(const Fan&, const Fan&) = default;
     };
 
@@ -153,11 +159,11 @@ class OverlapAdd final : public FieldSource {
         for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
             const double sine = step * static_cast<double>(j);
             if (std::abs(sine) >= 1) continue;
-            const double U = -sine / std::sqrt(1 - sine * sine);
+            const double U = -sine * fan.slant / std::sqrt(1 - sine * sine);
             if (std::abs(U - fan.center) > fan.half) continue;
             lit += 1;
             middle += static_cast<double>(j);
-            const double hops = std::round(-U * depth / hop), path = std::hypot(depth, hops * hop) - depth;
+            const double hops = std::round(-U * depth / hop), path = std::hypot(depth * fan.slant, hops * hop) - depth;
             const auto first =
                 static_cast<std::ptrdiff_t>(hops - middle_hops) * static_cast<std::ptrdiff_t>(hop_) + length;
             for (std::size_t p = 0; p < side_; ++p) {
@@ -184,7 +190,7 @@ class OverlapAdd final : public FieldSource {
     }
 
     float brightness(double depth) const {
-        const double at = std::min(std::abs(depth) / depth_step_, static_cast<double>(brightness_steps - 1));
+        const double at = std::min(std::abs(depth) * steps_a_metre_, static_cast<double>(brightness_steps - 1));
         const auto below = std::min(static_cast<std::size_t>(at), brightness_steps - 2);
         const auto rest = static_cast<float>(at - static_cast<double>(below));
         return (1 - rest) * brightness_[below] + rest * brightness_[below + 1];
@@ -253,11 +259,11 @@ class OverlapAdd final : public FieldSource {
     // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
     double turns_of_point(const Direction& direction, double depth, const HogelPlace& place,
                           const PointTurns& points) const {
-        const double pitch = light_field_.grid().pitch, hogels = depth / pitch;
+        const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
         const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
         const double x = static_cast<double>(columns) * pitch, y = static_cast<double>(rows) * pitch;
         const double distance = std::copysign(std::sqrt(depth * depth + x * x + y * y), depth);
-        return distance / grid_.wavelength +
+        return distance * waves_a_metre_ +
                points(static_cast<std::int64_t>(place.s) + columns, static_cast<std::int64_t>(place.t) - rows);
     }
 
@@ -303,6 +309,8 @@ class OverlapAdd final : public FieldSource {
     std::vector<Direction> directions_;
     std::vector<float> brightness_;  // by |ζ| in steps of depth_step_, the last for all beyond
     double depth_step_ = 0;
+    // What every ray would have to divide by.
+    double hogels_a_metre_ = 0, waves_a_metre_ = 0, steps_a_metre_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,133 @@
+// Every encoding for a modulator of the same hologram: what its photograph is worth, the light that it uses, and time.
+//   pattern_bench [samples=512] [iterations=40]
+// A wavy picture 10 mm behind a hologram of samples × samples at 8 µm, 633 nm, as a stereogram of hogels of 16 samples
+// whose light fills 15 % of what the pitch diffracts to either way. The pattern's photograph, its order turned straight
+// ahead, through a lens of 3 mm, 300 mm away, is compared with that of the light field by rays, both as bright on the
+// average; so is the photograph of the complex field itself, whose speckle is what no encoding can better.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <numbers>
+
+#include "hogel/core/error.h"
+#include "hogel/hologram/pattern.h"
+#include "hogel/hologram/stereogram.h"
+#include "hogel/image/compare.h"
+#include "hogel/lightfield/photograph.h"
+#include "hogel/optics/photograph.h"
+
+namespace {
+
+using namespace hogel;
+
+constexpr double wavelength = 633e-9, pitch = 8e-6, depth = 10e-3;
+constexpr std::size_t hogel_side = 16, looks = 4;
+
+LightField wavy_picture(std::size_t samples) {
+    const double half_sine = 0.15 * wavelength / (2 * pitch), size = static_cast<double>(samples) * pitch;
+    const LightFieldGrid grid{
+        samples / hogel_side, samples / hogel_side, pitch * hogel_side, 16, 16, half_sine, half_sine, 1};
+    LightField light_field(grid);
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s)
+            for (std::size_t l = 0; l < 16; ++l)
+                for (std::size_t k = 0; k < 16; ++k) {
+                    const double x = grid.s(double(s)) + grid.u(double(k)) * depth;
+                    const double y = grid.t(double(t)) + grid.v(double(l)) * depth;
+                    light_field.radiance(0, t, s, l, k) =
+                        float(0.5 + 0.5 * std::sin(14 * x / size) * std::sin(17 * y / size));
+                }
+    return light_field;
+}
+
+// Divides by the mean, so that pictures of any efficiency compare.
+Image normalised(Image image) {
+    double mean = 0;
+    for (const float value : image.pixels.elements()) mean += value / double(image.pixels.size());
+    for (float& value : image.pixels.elements()) value = float(0.5 * value / mean);
+    return image;
+}
+
+void report(const char* name, Image mean, const Image& truth, double efficiency, double light_field, double seconds) {
+    const ImageComparison result = compare(truth, normalised(std::move(mean)));
+    std::printf("| `%s` | %.1f/%.2f | %.1f %% |", name, result.psnr, result.ssim, 100 * efficiency);
+    light_field > 0 ? std::printf(" %.1f %% |", 100 * light_field) : std::printf(" |");
+    std::printf(" %.2f |\n", seconds);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const std::size_t samples = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 512;
+    const std::size_t iterations = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 40;
+    const LightField light_field = wavy_picture(samples);
+    const double size = double(samples) * pitch;
+    Camera camera;
+    camera.eye = {0, 0, 300e-3};
+    camera.pupil = 3e-3;
+    camera.focus_depth = depth;
+    camera.picture = {24, 24, 0.8 * size / 24, 0.8 * size / 24, 0, 0};
+    const auto take = [&](const FieldSource& field) { return photograph(field, std::span(&camera, 1))[0]; };
+    const Image truth = normalised(photograph(light_field, std::span(&camera, 1), 128)[0]);
+    const auto stereogram = [&](std::uint64_t seed) {
+        StereogramOptions options;
+        options.wavelength = wavelength;
+        options.pitch = pitch;
+        options.seed = seed;
+        const auto source = make_stereogram(light_field, options);
+        Field field(source->grid());
+        copy(*source, field);
+        return field;
+    };
+    std::printf(
+        "| encoding | PSNR/SSIM of the photograph | light in F | in its light field | seconds "
+        "|\n|---|---|---|---|---|\n");
+    const auto add = [](Image& sum, const Image& image) {
+        if (sum.pixels.size() == 0) sum = Image(image.width(), image.height(), 1);
+        for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels.data()[i] += image.pixels.data()[i];
+    };
+    Image complex;
+    for (std::uint64_t look = 1; look <= looks; ++look) add(complex, take(stereogram(look)));
+    report("the complex field", complex, truth, 1, 1, 0);
+    const std::pair<const char*, Encoding> encodings[] = {{"phase", Encoding::phase},
+                                                          {"double-phase", Encoding::double_phase},
+                                                          {"gerchberg-saxton", Encoding::gerchberg_saxton},
+                                                          {"gradient", Encoding::gradient},
+                                                          {"intensity", Encoding::intensity},
+                                                          {"bipolar", Encoding::bipolar},
+                                                          {"burckhardt", Encoding::burckhardt},
+                                                          {"lee", Encoding::lee},
+                                                          {"binary", Encoding::binary}};
+    for (const auto& [name, encoding] : encodings) {
+        try {
+            Image sum;
+            double efficiency = 0, light = 0, seconds = 0;
+            for (std::uint64_t look = 1; look <= looks; ++look) {
+                PatternOptions options;
+                options.encoding = encoding;
+                options.modulator = {"bench", samples, samples, pitch, 256};
+                options.window = hogel_side;
+                options.iterations = iterations;
+                Field field = stereogram(look);
+                const std::clock_t start = std::clock();
+                const Pattern pattern = encode_pattern(field, options);
+                seconds += double(std::clock() - start) / CLOCKS_PER_SEC / looks;
+                efficiency += pattern.efficiency / looks;
+                light += pattern.light_field_efficiency / looks;
+                field.samples = transmission(pattern, encoding);
+                const double frequency = std::sin(pattern.reference_angle) * pitch / wavelength;
+                for (std::size_t y = 0; y < samples; ++y)
+                    for (std::size_t x = 0; x < samples; ++x)
+                        field.samples(y, x) *= std::complex<float>(
+                            std::polar(1.0, 2 * std::numbers::pi * std::fmod(frequency * double(x), 1.0)));
+                add(sum, take(field));
+            }
+            report(name, sum, truth, efficiency, light, seconds);
+        } catch (const Error& error) {
+            std::printf("| `%s` | refused: %s |\n", name, error.what());
+        }
+    }
+}
