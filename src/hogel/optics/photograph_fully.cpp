@@ -6,6 +6,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/units.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/elements.h"
 #include "hogel/optics/film_interpolation_internal.h"
@@ -202,6 +203,10 @@ std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const
     std::vector<Image> images;
     for (const Camera& camera : cameras) {
         require_light_towards(hologram.grid(), camera);
+        if (film > 0 && film < camera.pupil)
+            throw Error(ErrorCode::usage,
+                        fmt::format("a film {} behind a thin lens of {}: nearer than the lens is wide",
+                                    format_length(film), format_length(camera.pupil)));
         if (film > 0 && is_tilted(camera))
             throw Error(ErrorCode::usage,
                         "behind a thin lens the film is parallel to the hologram; it cannot be tilted");
