@@ -1,9 +1,10 @@
 // Every method on the same scenes: quality of the photograph and time, as a Markdown table.
 //   hologram_bench [samples=256] [looks=2] [methods...]
-// A textured plane tilted by 15 degrees, and a near plane that hides half of a far one, at depths from −20 to 20 mm. A
-// hologram of samples × samples at 3 µm, 633 nm; a lens of 3 mm, 100 mm away, focused on the middle of the scene or on
-// the near plane; photographs of `looks` independent sets of phases averaged. The reference is the same camera by rays.
-// PSNR and SSIM are limited by speckle, alike for all. Seconds: of one hologram, on all threads.
+// A small patch, a wide surface of one radiance, a textured plane tilted by 15 degrees, and a near plane that hides
+// half of a far one, at depths from −20 to 20 mm. A hologram of samples × samples at 3 µm, 633 nm; a lens of 3 mm, 100
+// mm away, focused on the middle of the scene or on the near plane; photographs of `looks` independent sets of phases
+// averaged. The reference is the same camera by rays. PSNR and SSIM are limited by speckle, alike for all. Seconds: of
+// one hologram, on all threads.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -90,6 +91,22 @@ Test tilted(double depth, double half) {
     return {scene, depth};
 }
 
+// A patch of a few resolution cells: where it lies, and how bright.
+Test point(double depth, double half) {
+    auto scene = std::make_shared<ShadedScene>();
+    const double little = 0.12 * half;
+    add_plane(*scene, little, -little, little, depth, 0, 1);
+    return {scene, depth};
+}
+
+// A surface of one radiance wider than the hologram: parallel light in all directions alike.
+Test uniform(double depth, double half) {
+    auto scene = std::make_shared<ShadedScene>();
+    add_plane(*scene, 3 * half, -3 * half, 3 * half, depth, 0, 0);
+    for (auto& radiance : scene->radiance) radiance = {0.5f, 0.5f, 0.5f};
+    return {scene, depth};
+}
+
 Test occluding(double depth, double half) {
     auto scene = std::make_shared<ShadedScene>();
     add_plane(*scene, half, -half, half, depth + 1e-3, 0, 1);
@@ -120,8 +137,8 @@ std::vector<Way> ways() {
     add("phase-added", Method::fourier, Phases::added);
     add("phase-added-exact", Method::fourier, Phases::added_exactly);
     add("olas", Method::overlap_add, Phases::random);
-    for (const char* name : {"points-tiled", "points-hpo", "edges", "lines", "fraunhofer", "fresnel", "planes",
-                             "polygons", "polygons-visible"})
+    for (const char* name : {"points", "points-visible", "points-tiled", "points-hpo", "edges", "lines", "fraunhofer",
+                             "fresnel", "planes", "polygons", "polygons-visible"})
         all.push_back({name, name, {}});
     return all;
 }
@@ -150,14 +167,16 @@ int main(int argc, char** argv) {
     const std::size_t looks = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 2;
     const double size = double(samples) * pitch, half = 0.35 * size;
     const std::vector<double> depths{-20e-3, -5e-3, 5e-3, 20e-3};
-    std::printf("| method | tilted plane at -20 mm | -5 | 5 | 20 | two planes at -20 mm | -5 | 5 | 20 | seconds |\n");
-    std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
+    std::printf("| method |");
+    for (const char* name : {"point", "uniform", "tilted plane", "two planes"})
+        std::printf(" %s at -20 mm | -5 | 5 | 20 |", name);
+    std::printf(" seconds |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const Way& way : ways()) {
         if (argc > 3 && std::find(argv + 3, argv + argc, way.name) == argv + argc) continue;
         std::printf("| `%s` |", way.name.c_str());
         double seconds = 0;
         int made = 0;
-        for (const auto test : {tilted, occluding})
+        for (const auto test : {point, uniform, tilted, occluding})
             for (const double depth : depths) {
                 const auto [scene, focus] = test(depth, half);
                 Camera camera;

@@ -87,6 +87,7 @@ int bench(const Options& options, const Session& session) {
     for (const std::string& name : scenes) {
         RenderOptions render = options.render;
         render.shading = shading_of(name, options);
+        render.light_spacing = 0;  // or who came first would pay for the light of all
         const auto scene = lit(session, behind(load_scene(session, name, render), 0.05 * render.size), render);
         const std::string title =
             fmt::format("{}, {} triangles, shading '{}'", name, scene->triangles.size(), render.shading);

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "commands.h"
 #include "hogel/direct/scene_hologram.h"
+#include "hogel/hologram/parallax.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -22,6 +25,20 @@ void say_what_was_made(const Options& options, const std::vector<FieldGrid>& gri
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
 }
 
+// Said, not refused: it shows only where things are deep.
+void warn_of_parallax(const Session& session, const LightFieldSource& light_field, double pitch) {
+    const double parallax = neighbouring_parallax(light_field, pitch);
+    if (parallax <= most_parallax) return;
+    const LightFieldGrid& grid = light_field.grid();
+    const auto enough = [&](std::size_t count) {
+        return std::ceil(static_cast<double>(count) * parallax / most_parallax);
+    };
+    session.say(
+        fmt::format("neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap "
+                    "well up to {:.0f}; {}x{} directions would do",
+                    parallax, most_parallax, enough(grid.directions_u), enough(grid.directions_v)));
+}
+
 // The field of a scene by a method that knows no light fields.
 int straight_from_scene(const Options& options, const SceneMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
@@ -38,7 +55,9 @@ int straight_from_scene(const Options& options, const SceneMethod& method, const
                           static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
                          wavelength});
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
-    const auto scene = lit(session, load_scene(session, options.input, options.render), options.render);
+    RenderOptions render = options.render;
+    render.light_spacing = 0;  // in parts of a ray's width, and there are no rays
+    const auto scene = lit(session, load_scene(session, options.input, render), render);
     const auto sinks = create_hologram(options.output, grids, describe_run(session));
     SceneHologramOptions how;
     how.seed = session.seed;
@@ -65,11 +84,12 @@ int hologram(Options options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
-    auto light_field = open_for_hologram(session, options.input, options.render, options.hologram);
-    require_holograms(light_field->grid(), options.hologram);
+    auto faces = open_for_hologram(session, options.input, options.render, options.hologram);
+    require_holograms(grids_of(faces), options.hologram);
     if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
-        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
-    const auto sources = make_holograms(session, *light_field, options.hologram, 1);
+        for (auto& face : faces) face = render_once(session, std::move(face), needs_depth(options.hologram));
+    if (options.hologram.method == "olas") warn_of_parallax(session, *faces.front(), options.hologram.pitch);
+    const auto sources = make_holograms(session, faces, options.hologram, 1);
 
     std::vector<FieldGrid> grids;
     for (const auto& source : sources) grids.push_back(source->grid());
@@ -97,6 +117,7 @@ void add_hologram(CLI::App& app, Session& session) {
     add_hologram_options(command, options->hologram);
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
+    add_hemicube_option(command, options->render);
 }
 
 }  // namespace hogel::cli

@@ -117,7 +117,7 @@ int make(const Options& options, const Session& session) {
     report.pairs = plan_photographs(options, scene, report.light_field);
     std::vector<Camera> cameras;
     for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
-    require_holograms(report.light_field, options.hologram, cameras);
+    require_holograms(std::span(&report.light_field, 1), options.hologram, cameras);
 
     const OutputFolder folder(options.output);
     const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
@@ -128,8 +128,8 @@ int make(const Options& options, const Session& session) {
         copy(*renderer, *sink, stage.progress());
     });
     report.light_field_bytes = static_cast<double>(std::filesystem::file_size(light_field_file));
-    const auto light_field = open_light_field(light_field_file);
-    const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
+    const std::unique_ptr<LightFieldSource> light_field = open_light_field(light_field_file);
+    const auto holograms = make_holograms(session, std::span(&light_field, 1), options.hologram, options.looks);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
     timed(session, report, "photographs by rays", [&](Stage& stage) {

@@ -78,11 +78,10 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
         for (const auto& face : faces) sources.push_back(face.get());
         return photograph(sources, cameras, options.pupil_samples, stage.progress());
     }
-    auto light_field = std::move(faces.front());
-    require_holograms(grid, options.hologram, cameras);
+    require_holograms(grids_of(faces), options.hologram, cameras);
     if (kind == InputKind::scene)
-        light_field = render_once(session, std::move(light_field), needs_depth(options.hologram));
-    const auto holograms = make_holograms(session, *light_field, options.hologram, options.looks);
+        for (auto& face : faces) face = render_once(session, std::move(face), needs_depth(options.hologram));
+    const auto holograms = make_holograms(session, faces, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
     return photograph_colours(stage, holograms, cameras, options.full());
 }
@@ -96,8 +95,6 @@ int photo(const Options& options, const Session& session) {
     require_writable(options.output);
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
-    if (kind == InputKind::scene && options.render.hemicube && !options.geometric)
-        throw Error(ErrorCode::usage, "--hemicube: only a photograph by rays has use for the sides; add --geometric");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     if (geometric && options.camera != defaults.camera)
         throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");

@@ -53,6 +53,7 @@ void add_render(CLI::App& app, Session& session) {
     add_resume_flag(command, options->resume);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    add_frequencies_option(command, options->render);
 }
 
 }  // namespace hogel::cli

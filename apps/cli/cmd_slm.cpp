@@ -15,6 +15,7 @@ namespace {
 const std::map<std::string, Encoding> encodings{{"phase", Encoding::phase},
                                                 {"double-phase", Encoding::double_phase},
                                                 {"gerchberg-saxton", Encoding::gerchberg_saxton},
+                                                {"gradient", Encoding::gradient},
                                                 {"intensity", Encoding::intensity},
                                                 {"bipolar", Encoding::bipolar},
                                                 {"burckhardt", Encoding::burckhardt},
@@ -44,6 +45,7 @@ int slm(const Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
     pattern_options.encoding = encodings.at(options.encoding);
     pattern_options.modulator = modulator_of(options);
+    pattern_options.seed = session.seed;
     require_levels_name(options.output);
     require_writable(options.output);
     if (input_kind(options.input) != InputKind::hologram)
@@ -64,6 +66,8 @@ int slm(const Options& options, const Session& session) {
             levels.data()[i * colours + c] = pattern.levels.data()[i];
         const std::string name = format_length(file.fields[c]->grid().wavelength);
         std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
+        if (is_phase_only(pattern_options.encoding))
+            line += fmt::format(", of its light field {:.2f} %", 100 * pattern.light_field_efficiency);
         if (pattern.reference_angle != 0)
             line += fmt::format(", the hologram's order at {:.3f} degrees",
                                 pattern.reference_angle * 180 / std::numbers::pi);
@@ -95,6 +99,7 @@ void add_slm(CLI::App& app, Session& session) {
                            "phase: the field's phase alone\n"
                            "double-phase: the modulus as the difference of two phases\n"
                            "gerchberg-saxton: phases iterated to show the field's local spectra\n"
+                           "gradient: phases by stochastic gradient descent towards local spectra anywhere\n"
                            "intensity: |F + R|² with a reference beam R\n"
                            "bipolar: 2 Re(F R*), raised to be positive\n"
                            "burckhardt, lee: three or four real components, in columns by turns\n"
@@ -109,8 +114,9 @@ void add_slm(CLI::App& app, Session& session) {
                            "Share of the samples whose modulus may be cut to the largest")
               ->type_name("0..1")
               ->capture_default_str());
-    group(add_count(command, "--window", options->pattern.window, "Gerchberg-Saxton: pixels of a hogel's side"));
-    group(add_count(command, "--iterations", options->pattern.iterations, "Gerchberg-Saxton: how many"));
+    group(add_count(command, "--window", options->pattern.window, "Iterated phases: pixels of a hogel's side"));
+    group(
+        add_count(command, "--iterations", options->pattern.iterations, "Gerchberg-Saxton, gradient: how many steps"));
     std::string devices = "Modulator:";
     for (const Modulator& modulator : modulators())
         devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,

@@ -11,10 +11,13 @@
 #include "hogel/codec/stream.h"
 #include "hogel/direct/scene_hologram.h"
 #include "hogel/optics/photograph.h"
+#include "hogel/render/antialias.h"
+#include "hogel/render/light_spacing.h"
 #include "hogel/render/renderer.h"
 #include "hogel/scene/builtin.h"
 #include "hogel/scene/import.h"
 #include "hogel/shading/bake.h"
+#include "hogel/shading/light_cache.h"
 #include "hogel/shading/shading.h"
 #include "hogel/transform/transform.h"
 
@@ -70,6 +73,7 @@ StereogramOptions stereogram_options(const LightFieldGrid& light_field, const Ho
     stereogram.average = averages.at(options.average);
     stereogram.transform = options.basis.empty() ? std::string(defaults.basis) : options.basis;
     stereogram.tolerance = options.tolerance;
+    stereogram.line_pitch = options.lines;
     return stereogram;
 }
 
@@ -89,6 +93,17 @@ LightFieldGrid RenderOptions::grid() const {
     grid.center_u = u.center;
     grid.center_v = v.center;
     grid.channels = 3;
+    if (frequencies > 0) {
+        // As many frequencies j/d as the field of view holds.
+        const double step = frequencies / grid.pitch;
+        const auto reach = [&](double angle) { return std::floor(std::sin(angle / 2) / step + 1e-9); };
+        const double across = 2 * reach(field_of_view.across) + 1, down = 2 * reach(field_of_view.down) + 1;
+        grid.spacing = Spacing::sines;
+        grid.directions_u = static_cast<std::size_t>(across);
+        grid.directions_v = static_cast<std::size_t>(down);
+        grid.tan_half_u = 0.5 * across * step;
+        grid.tan_half_v = 0.5 * down * step;
+    }
     validate(grid, ErrorCode::usage, "light field");
     return grid;
 }
@@ -112,8 +127,18 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
               ->type_name("NAME")
               ->capture_default_str());
     group(add_count(command, "--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map"));
+    group(command
+              ->add_option("--light-spacing", options.light_spacing,
+                           "Of the points of a surface at which light is worked out, in parts of the width of a ray "
+                           "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
+              ->type_name("F")
+              ->check(CLI::Range(0.0, 16.0).description(""))
+              ->capture_default_str());
     group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
     group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
+    group(add_counts(command, "--samples", options.samples,
+                     "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
+                     "makes 16"));
     group(add_length(command, "--size", options.size, "Width of the hologram"));
     group(add_angles(command, "--fov", options.field_of_view, "Field of view, the full angle; or across and down"));
     group(add_angles(command, "--toward", options.toward,
@@ -143,10 +168,21 @@ void add_hemicube_option(CLI::App* command, RenderOptions& options) {
         ->excludes("--toward");
 }
 
+void add_frequencies_option(CLI::App* command, RenderOptions& options) {
+    add_length(command, "--frequencies", options.frequencies,
+               "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds")
+        ->group("Light field of a scene")
+        ->excludes("--hemicube")
+        ->excludes("--directions")
+        ->excludes("--toward");
+}
+
 void add_hologram_options(CLI::App* command, HologramOptions& options) {
     const auto group = [](CLI::Option* option) { option->group("Hologram"); };
     group(add_wavelengths(command, options.wavelengths));
     group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
+    group(add_length(command, "--lines", options.lines,
+                     "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions"));
     group(command
               ->add_option("--method", options.method,
                            "fourier: one transform a hogel\n"
@@ -253,19 +289,28 @@ std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scen
     if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     Stage stage(session, "lighting");
-    return std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+    auto shaded = std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+    if (options.light_spacing > 0)
+        cache_light(*shaded,
+                    light_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.light_spacing));
+    if (const auto& cache = shaded->light_cache)
+        session.detail(fmt::format("light on surfaces: at most {}; no room for that of {} of {} triangles",
+                                   format_bytes(cache->bytes()), cache->triangles_without_room(),
+                                   shaded->triangles.size()));
+    return shaded;
 }
 
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
                                                    const RenderOptions& options) {
-    return make_renderer(options.algorithm, lit(session, scene, options), options.grid());
+    return make_renderer(options.algorithm, lit(session, scene, options), options.grid(), options.samples_per_ray());
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
                                                                       const RenderOptions& options) {
     const std::shared_ptr<const ShadedScene> shaded = lit(session, scene, options);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
-    for (const LightFieldGrid& grid : options.grids()) faces.push_back(make_renderer(options.algorithm, shaded, grid));
+    for (const LightFieldGrid& grid : options.grids())
+        faces.push_back(make_renderer(options.algorithm, shaded, grid, options.samples_per_ray()));
     return faces;
 }
 
@@ -275,17 +320,20 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
     return render_on_demand(session, load_scene(session, name, options), options);
 }
 
-std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
-                                                    const RenderOptions& render, HologramOptions& hologram) {
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& session, const std::string& name,
+                                                                 const RenderOptions& render,
+                                                                 HologramOptions& hologram) {
     if (methods.at(hologram.method) == Method::basis && input_kind(name) == InputKind::light_field && is_stream(name)) {
         const CodingMethod stored = read_stream_info(name).method;
         if (stored.coder == "fringes" && (hologram.basis.empty() || hologram.basis == stored.transform)) {
             hologram.basis = stored.transform;
             hologram.coefficients = true;
-            return open_coefficients(name);
+            std::vector<std::unique_ptr<LightFieldSource>> coefficients;
+            coefficients.push_back(open_coefficients(name));
+            return coefficients;
         }
     }
-    return open_or_render(session, name, render);
+    return open_or_render_faces(session, name, render);
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
@@ -310,24 +358,33 @@ std::unique_ptr<LightFieldSource> render_once(const Session& session, std::uniqu
     return light_field;
 }
 
-void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options,
+std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces) {
+    std::vector<LightFieldGrid> grids;
+    for (const auto& face : faces) grids.push_back(face->grid());
+    return grids;
+}
+
+void require_holograms(std::span<const LightFieldGrid> faces, const HologramOptions& options,
                        std::span<const Camera> cameras) {
     // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
     const double shortest = *std::ranges::min_element(options.wavelengths);
-    const FieldGrid hologram = stereogram_grid(light_field, stereogram_options(light_field, options, shortest));
+    const FieldGrid hologram = stereogram_grid(faces, stereogram_options(faces.front(), options, shortest));
     require_photographs(hologram, cameras);
     for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
 
-std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
+std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
+                                                         std::span<const std::unique_ptr<LightFieldSource>> faces,
                                                          const HologramOptions& options, std::size_t looks) {
+    std::vector<const LightFieldSource*> sources;
+    for (const auto& face : faces) sources.push_back(face.get());
     std::vector<std::unique_ptr<FieldSource>> holograms;
     for (const double wavelength : options.wavelengths) {
-        StereogramOptions stereogram = stereogram_options(light_field.grid(), options, wavelength);
+        StereogramOptions stereogram = stereogram_options(faces.front()->grid(), options, wavelength);
         stereogram.looks = looks;
         stereogram.seed = session.seed;
-        holograms.push_back(options.coefficients ? make_stereogram_of_coefficients(light_field, stereogram)
-                                                 : make_stereogram(light_field, stereogram));
+        holograms.push_back(options.coefficients ? make_stereogram_of_coefficients(*sources.front(), stereogram)
+                                                 : make_stereogram(sources, stereogram));
     }
     return holograms;
 }

@@ -14,6 +14,7 @@
 #include "hogel/io/files.h"
 #include "hogel/lightfield/light_field.h"
 #include "hogel/optics/photograph.h"
+#include "hogel/render/antialias.h"
 #include "hogel/scene/scene.h"
 #include "hogel/shading/shaded_scene.h"
 #include "session.h"
@@ -25,12 +26,15 @@ struct RenderOptions {
     std::string algorithm{defaults.algorithm};
     std::string shading{defaults.shading};
     std::size_t shadow_map = defaults.shadow_map;
+    double light_spacing = defaults.light_spacing;
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
+    Counts samples{1, 1};  ///< of a ray: along a hogel, along a direction's cell
     double size = defaults.size;
     Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
     Angles toward;
     bool hemicube = false;
+    double frequencies = 0;  ///< wavelength on whose frequency grid the directions lie, metres; 0: in perspective
     bool as_is = false;
     double front = defaults.front;
 
@@ -38,10 +42,13 @@ struct RenderOptions {
     LightFieldGrid grid() const;
     /// Of all faces: the front alone, or all five.
     std::vector<LightFieldGrid> grids() const;
+    SamplesPerRay samples_per_ray() const { return {samples.columns, samples.rows}; }
 };
 void add_render_options(CLI::App* command, RenderOptions& options);
 /// --hemicube, for commands that make use of all faces.
 void add_hemicube_option(CLI::App* command, RenderOptions& options);
+/// --frequencies, for the command that makes light fields.
+void add_frequencies_option(CLI::App* command, RenderOptions& options);
 
 /// How a light field becomes a hologram.
 struct HologramOptions {
@@ -54,6 +61,7 @@ struct HologramOptions {
     double tolerance = 0;
     double spacing = defaults.spacing;
     std::size_t planes = defaults.planes;
+    double lines = 0;           ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
     bool coefficients = false;  ///< whether the light field holds coefficients of `basis` instead of radiances
 };
 void add_hologram_options(CLI::App* command, HologramOptions& options);
@@ -68,7 +76,8 @@ InputKind input_kind(const std::string& name);
 /// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), lit.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
 
-/// A scene with its light.
+/// A scene with its light, which unless light_spacing is 0 is kept on the surfaces for rays of the options' light
+/// field.
 std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options);
 
 /// The light field of a scene, rendered where it is read.
@@ -79,10 +88,11 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options);
 
-/// The same, but coefficients instead where a compressed light field has those of the basis fringes that are asked for,
-/// which the options then say.
-std::unique_ptr<LightFieldSource> open_for_hologram(const Session& session, const std::string& name,
-                                                    const RenderOptions& render, HologramOptions& hologram);
+/// All faces of it, or coefficients instead where a compressed light field has those of the basis fringes that are
+/// asked for, which the options then say.
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& session, const std::string& name,
+                                                                 const RenderOptions& render,
+                                                                 HologramOptions& hologram);
 
 /// The same for all faces, the front first.
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
@@ -98,13 +108,16 @@ bool needs_depth(const HologramOptions& options);
 std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
                                               bool with_depth = false);
 
+std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces);
+
 /// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
 /// photograph them: too coarse a pitch, say. To be asked before the work begins.
-void require_holograms(const LightFieldGrid& light_field, const HologramOptions& options,
+void require_holograms(std::span<const LightFieldGrid> faces, const HologramOptions& options,
                        std::span<const Camera> cameras = {});
 
 /// One hologram a wavelength, made from the light field where it is read.
-std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session, const LightFieldSource& light_field,
+std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
+                                                         std::span<const std::unique_ptr<LightFieldSource>> faces,
                                                          const HologramOptions& options, std::size_t looks);
 
 /// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With options for it by the

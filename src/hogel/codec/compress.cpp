@@ -243,6 +243,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
                            const CompressionOptions& options, const Progress& progress) {
     check(options.target);
     const LightFieldGrid& grid = faces.front()->grid();
+    require_tangents(grid, ErrorCode::usage, "a compressed light field");
     StreamInfo info{grid, {}, options.method, options.metadata, {}, options.layout};
     double pixels = 0;
     for (const LightFieldSource* face : faces) {

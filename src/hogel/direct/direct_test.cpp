@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "hogel/core/error.h"
+#include "hogel/core/parallel.h"
 #include "hogel/core/units.h"
+#include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
 #include "hogel/direct/scene_points_internal.h"
 #include "hogel/optics/photograph.h"
@@ -63,6 +65,16 @@ TEST(TiledPoints, are_the_exact_sum_wherever_the_expansion_holds_and_elsewhere) 
         // A card hides nothing of itself.
         EXPECT_LT(difference(exact, make("points", scene, small, options)), 1e-6);
     }
+}
+
+TEST(FresnelIntegral, by_table_and_series_is_that_of_the_handbook_and_of_its_plain_twin) {
+    // Abramowitz and Stegun, table 7.7.
+    EXPECT_NEAR(fresnel_integral_plain(1).real(), 0.7798934, 1e-7);
+    EXPECT_NEAR(fresnel_integral_plain(1).imag(), 0.4382591, 1e-7);
+    EXPECT_NEAR(fresnel_integral_plain(3).real(), 0.6057208, 1e-7);
+    EXPECT_NEAR(fresnel_integral_plain(3).imag(), 0.4963130, 1e-7);
+    for (double w = -12; w < 12; w += 0.00317)
+        ASSERT_LT(std::abs(fresnel_integral(w) - fresnel_integral_plain(w)), 3e-7) << w;
 }
 
 TEST(LineSource, is_the_sum_of_its_points) {
@@ -186,6 +198,28 @@ TEST(Fresnel, of_a_small_patch_is_the_sum_of_its_points_and_so_is_fraunhofer) {
         EXPECT_NEAR(std::norm(product) / (energy * other), 1, 0.01) << method;
         // √L λ/δ · δ²/(λ r): the sample's whole cell shines.
         EXPECT_NEAR(std::sqrt(energy / other), pitch, 0.01 * pitch);
+    }
+}
+
+// A field is cut into tiles for the threads; what they draw is keyed by the point, never by the order of work.
+TEST(SceneMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_another_seed) {
+    // Far enough for all of them, and small enough for the far field.
+    const ShadedScene scene = card_at(12_mm, 0.03_mm, 1, 0.1);
+    for (const SceneMethod& method : scene_methods()) {
+        SceneHologramOptions options;
+        options.planes = 3;
+        const auto make_with = [&](std::size_t threads) {
+            const ThreadLimit limit(threads);
+            return method.make(scene, small, options, {});
+        };
+        const Field one = make_with(1), three = make_with(3);
+        options.seed = 2;
+        const Field other = make_with(3);
+        double energy = 0;
+        for (const auto& value : one.samples.elements()) energy += std::norm(value);
+        EXPECT_GT(energy, 0) << method.name;
+        EXPECT_TRUE(std::ranges::equal(one.samples.elements(), three.samples.elements())) << method.name;
+        EXPECT_FALSE(std::ranges::equal(one.samples.elements(), other.samples.elements())) << method.name;
     }
 }
 

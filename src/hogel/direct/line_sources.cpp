@@ -3,39 +3,11 @@
 #include <complex>
 #include <numbers>
 
+#include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
 #include "hogel/direct/scene_points_internal.h"
 
 namespace hogel {
-namespace {
-
-using Complex = std::complex<double>;
-
-// ∫₀^w e^{iπt²/2} dt: power series for small w, a continued fraction for the rest. Sources: Abramowitz and Stegun 7.3;
-// the fraction is that of erfc.
-Complex fresnel_integral(double w) {
-    const double x = std::abs(w);
-    Complex value;
-    if (x < 1.6) {
-        // Σ (iπ/2)^n w^{2n+1} / (n! (2n+1))
-        Complex term = x;
-        const Complex factor(0, 0.5 * std::numbers::pi * x * x);
-        for (int n = 0; n < 60; ++n) {
-            value += term / double(2 * n + 1);
-            term *= factor / double(n + 1);
-        }
-    } else {
-        // (1+i)/2 · erf z, z = (1−i)√π x/2; erfc z = e^{−z²}/√π · 1/(z + (1/2)/(z + 1/(z + (3/2)/(z + …))))
-        const Complex z = 0.5 * std::sqrt(std::numbers::pi) * x * Complex(1, -1);
-        Complex fraction = z;
-        for (int n = 60; n > 0; --n) fraction = z + 0.5 * n / fraction;
-        const Complex erfc = std::polar(1.0, 0.5 * std::numbers::pi * x * x) / (std::sqrt(std::numbers::pi) * fraction);
-        value = Complex(0.5, 0.5) * (1.0 - erfc);
-    }
-    return w < 0 ? -value : value;
-}
-
-}  // namespace
 
 std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavelength) {
     const Vec3 along = line.b - line.a;
@@ -47,11 +19,11 @@ std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavele
     const bool behind = line.a.z < 0;
     const double at = foot - slope * distance / sine, path = distance / sine;
     const double scale = sine * std::sqrt(2 / (wavelength * path));
-    const Complex part = fresnel_integral((size - at) * scale) - fresnel_integral(-at * scale);
+    const std::complex<double> part = fresnel_integral((size - at) * scale) - fresnel_integral(-at * scale);
     const double turns = (path + slope * at) / wavelength;
-    const Complex wave = std::polar(line.amplitude * std::sqrt(0.5 * wavelength / path) / sine,
-                                    2 * std::numbers::pi * (turns - std::round(turns))) *
-                         part;
+    const std::complex<double> wave = std::polar(line.amplitude * std::sqrt(0.5 * wavelength / path) / sine,
+                                                 2 * std::numbers::pi * (turns - std::round(turns))) *
+                                      part;
     // In front of the hologram light still runs towards the line.
     return std::polar(1.0, 2 * std::numbers::pi * line.turns) * (behind ? wave : std::conj(wave));
 }

@@ -35,7 +35,7 @@ class BasisSynthesis final : public HogelSynthesis {
           transform_(hogel::transform(pieces_ ? "haar" : options.transform)),
           frequencies_(light_field, samples, options.wavelength, pieces_ ? Between::constant : Between::linear),
           fft_(samples, samples),
-          phases_(direction_phases(frequencies_, light_field, fft_, options)) {
+          phases_(direction_phases(frequencies_, fft_, options)) {
         const double bytes =
             static_cast<double>(light_field.directions() * samples * samples * options.looks) * sizeof(Complex);
         if (bytes > most_bytes)

@@ -9,11 +9,10 @@ PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::s
              static_cast<std::uint32_t>(t)}};
 }
 
-DirectionPhases direction_phases(const FrequencyGrid& frequencies, const LightFieldGrid& light_field, const Fft2& fft,
-                                 const StereogramOptions& options) {
-    const Shape<2> shape{frequencies.samples(), frequencies.samples()};
+DirectionPhases direction_phases(const FrequencyGrid& frequencies, const Fft2& fft, const StereogramOptions& options) {
+    const Shape<2> shape{frequencies.rows(), frequencies.columns()};
     Array<float, 2> moduli(shape);
-    const std::vector<float> uniform(light_field.directions(), 1.0f), ones(moduli.size(), 1.0f);
+    const std::vector<float> uniform(frequencies.rays(), 1.0f), ones(moduli.size(), 1.0f);
     frequencies.amplitudes(uniform, moduli.elements());
     DirectionPhases all;
     for (std::size_t look = 0; look < options.looks; ++look) {

@@ -16,7 +16,6 @@ PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::s
 /// Phases that all hogels share, for each look those of the frequencies of a hogel's Fourier transform, as unit
 /// numbers. Random, or where the options say so designed for a flat fringe.
 using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
-DirectionPhases direction_phases(const FrequencyGrid& frequencies, const LightFieldGrid& light_field, const Fft2& fft,
-                                 const StereogramOptions& options);
+DirectionPhases direction_phases(const FrequencyGrid& frequencies, const Fft2& fft, const StereogramOptions& options);
 
 }  // namespace hogel

@@ -11,12 +11,16 @@ using Complex = std::complex<float>;
 
 class FourierSynthesis final : public HogelSynthesis {
   public:
-    FourierSynthesis(const LightFieldGrid& light_field, std::size_t samples, const StereogramOptions& options)
-        : options_(options), frequencies_(light_field, samples, options.wavelength), fft_(samples, samples) {
-        if (options.phases != Phases::random) directions_ = direction_phases(frequencies_, light_field, fft_, options);
+    /// @param lines  lines of each hogel, with horizontal parallax only; 0: a square with both
+    FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const StereogramOptions& options)
+        : options_(options),
+          frequencies_(std::move(frequencies)),
+          lines_(lines),
+          fft_(frequencies_.rows(), frequencies_.columns()) {
+        if (options.phases != Phases::random) directions_ = direction_phases(frequencies_, fft_, options);
     }
 
-    std::size_t prepared_size() const override { return frequencies_.samples() * frequencies_.samples(); }
+    std::size_t prepared_size() const override { return frequencies_.coefficients(); }
 
     void prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const override {
         if (options_.average == Average::radiance) return frequencies_.amplitudes(radiances, prepared);
@@ -27,26 +31,46 @@ class FourierSynthesis final : public HogelSynthesis {
 
     // Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.
     void synthesise(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> hogel) const override {
-        if (directions_.empty())
-            spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, hogel.elements());
-        else
-            for (std::size_t i = 0; i < moduli.size(); ++i)
-                hogel.data()[i] = moduli[i] * directions_[place.look].data()[i];
-        fft_.backward(hogel);
+        if (lines_ == 0) return transform(moduli, place, hogel);
+        // Lines do not know of each other.
+        for (std::size_t line = 0; line < lines_; ++line)
+            transform(moduli, {place.s, place.t * lines_ + line, place.look},
+                      {&hogel(line, 0), {1, frequencies_.columns()}});
     }
 
   private:
+    void transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values) const {
+        if (directions_.empty())
+            spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, values.elements());
+        else
+            for (std::size_t i = 0; i < moduli.size(); ++i)
+                values.data()[i] = moduli[i] * directions_[place.look].data()[i];
+        fft_.backward(values);
+    }
+
     StereogramOptions options_;
     FrequencyGrid frequencies_;
+    std::size_t lines_;
     Fft2 fft_;
     DirectionPhases directions_;  // empty where every hogel has phases of its own
 };
 
 }  // namespace
 
-std::unique_ptr<HogelSynthesis> make_fourier_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                        const StereogramOptions& options) {
-    return std::make_unique<FourierSynthesis>(light_field, samples, options);
+    return std::make_unique<FourierSynthesis>(faces.size() == 1
+                                                  ? FrequencyGrid(faces.front(), samples, options.wavelength)
+                                                  : FrequencyGrid(faces, samples, options.wavelength),
+                                              0, options);
+}
+
+std::unique_ptr<HogelSynthesis> make_line_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                    std::size_t lines, const StereogramOptions& options) {
+    return std::make_unique<FourierSynthesis>(
+        FrequencyGrid::of_line(light_field, samples, light_field.pitch / static_cast<double>(lines),
+                               options.wavelength),
+        lines, options);
 }
 
 }  // namespace hogel

@@ -63,34 +63,64 @@ Average average_of_pieces(double low, double high, std::size_t count) {
 }  // namespace
 
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength, Between between)
-    : samples_(samples), row_length_(light_field.directions_u) {
+    : FrequencyGrid(light_field, samples, samples, wavelength / light_field.pitch, wavelength, between) {}
+
+FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength)
+    : rows_(samples), columns_(samples), rays_(0), row_length_(0) {
+    for (const LightFieldGrid& face : faces) rays_ += face.directions();
+    scattered_ = scatter_lobes(faces, samples, wavelength);
+}
+
+FrequencyGrid FrequencyGrid::of_line(const LightFieldGrid& light_field, std::size_t samples, double line_pitch,
+                                     double wavelength) {
+    return {light_field, 1, samples, wavelength / line_pitch, wavelength, Between::linear};
+}
+
+FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
+                             double wavelength, Between between)
+    : rows_(rows), columns_(columns), rays_(light_field.directions()), row_length_(light_field.directions_u) {
     const double step = wavelength / light_field.pitch;  // between frequencies, as direction sines
-    const auto n = static_cast<std::ptrdiff_t>(samples);
-    const auto mean = between == Between::linear ? average_of_lines : average_of_pieces;
+    const auto width = static_cast<std::ptrdiff_t>(columns), height = static_cast<std::ptrdiff_t>(rows);
+    const bool sines = light_field.spacing == Spacing::sines;
+    const auto mean = between == Between::constant || is_frequency_grid(light_field, wavelength) ? average_of_pieces
+                                                                                                 : average_of_lines;
     // The sine −n/2 of an even grid would be its own mirror image, so the grid ends one before it.
-    const std::ptrdiff_t reach = (n - 1) / 2;
-    for (std::ptrdiff_t jy = -reach; jy <= reach; ++jy)
-        for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
+    const std::ptrdiff_t reach_x = (width - 1) / 2, reach_y = (height - 1) / 2;
+    for (std::ptrdiff_t jy = -reach_y; jy <= reach_y; ++jy)
+        for (std::ptrdiff_t jx = -reach_x; jx <= reach_x; ++jx) {
             const double sx = step * static_cast<double>(jx), sy = step * static_cast<double>(jy);
             const double cos2 = 1 - sx * sx - sy * sy;
             if (cos2 <= 0) continue;
             const double cosine = std::sqrt(cos2);
-            const double U = -sx / cosine, V = -sy / cosine;
+            const double U = -sx / (sines ? 1 : cosine), V = -sy / (sines ? 1 : cosine);
             // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
-            const double wu = 0.5 * step * (1 + U * U) / cosine, wv = 0.5 * step * (1 + V * V) / cosine;
+            const double wu = 0.5 * step * (sines ? 1 : (1 + U * U) / cosine);
+            const double wv = 0.5 * step * (sines ? 1 : (1 + V * V) / cosine);
             const Average u = mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
-            const Average v = mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
+            // A line has one row of directions, whatever is above and below.
+            const Average v = rows == 1
+                                  ? Average{0, {1.0f}}
+                                  : mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
             if (u.weights.empty() || v.weights.empty()) continue;
             // Rows run down while y runs up, so a row of the DFT is −j_y.
-            const std::size_t row = static_cast<std::size_t>((n - jy) % n),
-                              column = static_cast<std::size_t>((n + jx) % n);
-            lobes_.push_back({static_cast<std::uint32_t>(row * samples + column), static_cast<std::uint32_t>(u.first),
+            const auto row = static_cast<std::size_t>((height - jy) % height),
+                       column = static_cast<std::size_t>((width + jx) % width);
+            lobes_.push_back({static_cast<std::uint32_t>(row * columns + column), static_cast<std::uint32_t>(u.first),
                               static_cast<std::uint32_t>(v.first), static_cast<std::uint32_t>(u.weights.size()),
                               static_cast<std::uint32_t>(v.weights.size()), static_cast<std::uint32_t>(weights_.size()),
-                              static_cast<float>(step * step / cosine)});
+                              static_cast<float>(step * step_up / cosine)});
             weights_.insert(weights_.end(), u.weights.begin(), u.weights.end());
             weights_.insert(weights_.end(), v.weights.begin(), v.weights.end());
         }
+}
+
+bool is_frequency_grid(const LightFieldGrid& light_field, double wavelength) {
+    const auto fits = [&](double step, double middle) {
+        return std::abs(step * light_field.pitch / wavelength - 1) < 1e-6 &&
+               std::abs(middle - std::round(middle)) < 1e-6;
+    };
+    return light_field.spacing == Spacing::sines && fits(light_field.step_u(), light_field.column(0)) &&
+           fits(light_field.step_v(), light_field.row(0));
 }
 
 void FrequencyGrid::amplitudes(std::span<const float> radiance, std::span<float> moduli) const {
@@ -108,8 +138,8 @@ void FrequencyGrid::amplitudes_of_roots(View<const float, 2> roots, View<float, 
 
 // Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
 void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {
-    const std::size_t rays = values.extent(1);
-    Array<float, 2> beside({rays, hogels_at_once}), averages({lobes_.size(), hogels_at_once});
+    const std::size_t rays = values.extent(1), count = scattered_.lobes.size() + lobes_.size();
+    Array<float, 2> beside({rays, hogels_at_once}), averages({count, hogels_at_once});
     std::fill(moduli.data(), moduli.data() + moduli.size(), 0.0f);
     for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
         const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
@@ -117,14 +147,19 @@ void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<flo
             const float* from = &values(first + h, 0);
             for (std::size_t i = 0; i < rays; ++i) beside.data()[i * hogels_at_once + h] = from[i];
         }
-        average_lobes(lobes_, weights_.data(), beside.data(), row_length_, of_roots, averages.data());
+        if (lobes_.empty())
+            average_scattered(scattered_, beside, of_roots, averages);
+        else
+            average_lobes(lobes_, weights_.data(), beside.data(), row_length_, of_roots, averages.data());
         for (std::size_t h = 0; h < hogels; ++h) {
             float* to = &moduli(first + h, 0);
             const float* from = averages.data() + h;
-            for (const Lobe& lobe : lobes_) {
-                to[lobe.coefficient] = *from;
+            const auto put = [&](std::uint32_t coefficient) {
+                to[coefficient] = *from;
                 from += hogels_at_once;
-            }
+            };
+            for (const Lobe& lobe : lobes_) put(lobe.coefficient);
+            for (const ScatteredLobes::Lobe& lobe : scattered_.lobes) put(lobe.coefficient);
         }
     }
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "hogel/hologram/scattered_lobes.h"
 #include "hogel/lightfield/light_field.h"
 
 namespace hogel {
@@ -16,7 +17,8 @@ enum class Between {
 };
 
 /// Resamples the directions of one hogel from the light field's uniform U, V to the frequency grid j/d of the hogel's
-/// Fourier transform ([K] 4.1, Lucente's grid), as amplitudes.
+/// Fourier transform ([K] 4.1, Lucente's grid), as amplitudes. A light field that is sampled on that grid already is
+/// taken as it is.
 ///
 /// The wave of frequency (f_x, f_y) = (j_x, j_y)/d is the ray (U,V) = −λ(f_x, f_y)/√(1 − λ²|f|²). It lights a lobe of
 /// width 1/d in frequency, so it carries the mean of the (by default bilinearly interpolated) light field over that
@@ -26,6 +28,15 @@ class FrequencyGrid {
     /// @param samples   n_Δ, samples along a side of the hogel and frequencies along a side of the grid
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength,
                   Between between = Between::linear);
+
+    /// Of several faces of a hemicube. The rays of a hogel are then those of all faces, one after the other.
+    FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
+
+    /// Of one line of a hologram with horizontal parallax only, whose light field has one row of directions:
+    /// frequencies along x alone. A line takes the place of `line_pitch` in the amplitude: √(λ/d · λ/line_pitch), so
+    /// that lines whose phases do not know of each other have the same radiance in all directions up and down.
+    static FrequencyGrid of_line(const LightFieldGrid& light_field, std::size_t samples, double line_pitch,
+                                 double wavelength);
 
     /// Turns the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a backward
     /// FFT wants them ([j_y mod n][j_x mod n], rows running down): (λ/d) √(L cos θ) / cos θ.
@@ -41,7 +52,10 @@ class FrequencyGrid {
     /// lobe.
     void amplitudes_of_roots(View<const float, 2> roots, View<float, 2> moduli) const;
 
-    std::size_t samples() const { return samples_; }
+    std::size_t columns() const { return columns_; }  ///< frequencies along a row, n_Δ
+    std::size_t rows() const { return rows_; }        ///< as many, or one for a line
+    std::size_t coefficients() const { return rows_ * columns_; }
+    std::size_t rays() const { return rays_; }  ///< of a hogel, of all faces
 
     // A DFT coefficient that carries light: the directions that it averages and their weights, as an outer product.
     struct Lobe {
@@ -53,12 +67,19 @@ class FrequencyGrid {
     };
 
   private:
+    FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
+                  double wavelength, Between between);
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
 
-    std::size_t samples_;
-    std::size_t row_length_;  // n_U
+    std::size_t rows_, columns_;
+    std::size_t rays_;
+    std::size_t row_length_;    // n_U
+    ScatteredLobes scattered_;  // where there are several faces, instead of what follows
     std::vector<Lobe> lobes_;
     std::vector<float> weights_;
 };
+
+/// Whether a light field's directions are those of the hogels' Fourier transform at this wavelength.
+bool is_frequency_grid(const LightFieldGrid& light_field, double wavelength);
 
 }  // namespace hogel

@@ -31,9 +31,14 @@ class HogelSynthesis {
                             View<std::complex<float>, 2> hogel) const = 0;
 };
 
-/// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2).
-std::unique_ptr<HogelSynthesis> make_fourier_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+/// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2). The rays of a
+/// hogel are those of all faces, one face after the other.
+std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                        const StereogramOptions& options);
+
+/// The same with horizontal parallax only: each of a hogel's lines for itself, by one FFT along it, [K] (3.23).
+std::unique_ptr<HogelSynthesis> make_line_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                    std::size_t lines, const StereogramOptions& options);
 
 /// What a synthesis gets as the values of a light field's rays.
 enum class Values {

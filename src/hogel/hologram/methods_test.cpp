@@ -7,6 +7,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/units.h"
+#include "hogel/hologram/parallax.h"
 #include "hogel/hologram/points.h"
 #include "hogel/hologram/stereogram.h"
 #include "hogel/lightfield/photograph.h"
@@ -229,7 +230,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, EveryWay,
                                          Way{Method::fourier, Phases::designed}, Way{Method::fourier, Phases::added},
                                          Way{Method::fourier, Phases::added_exactly},
                                          Way{Method::overlap_add, Phases::random},
-                                         Way{Method::overlap_add, Phases::fixed}));
+                                         Way{Method::overlap_add, Phases::fixed}, Way{Method::basis, Phases::fixed},
+                                         Way{Method::basis, Phases::designed}));
 
 // Those that send light everywhere, as a diffuse surface does.
 class DiffuseWay : public EveryWay {
@@ -277,6 +279,38 @@ TEST_P(DiffuseWay, photographs_a_card_before_a_plane_as_rays_do) {
         for (std::size_t x = 0; x < 8; ++x)
             EXPECT_NEAR(waves.pixels.data()[x], rays.pixels.data()[x], 0.05 + 0.1 * rays.pixels.data()[x])
                 << focus << " " << x;
+    }
+}
+
+TEST(OverlapAdd, parallax_of_neighbouring_directions_is_known_beforehand) {
+    const LightFieldGrid grid{40, 30, 6.4_um, 9, 9, 0.045, 0.036, 1};
+    const Card cards[] = {{-3e-3, -1, 0, -1, 1}, {2e-3}};
+    const LightField light_field = light_field_of(grid, cards);
+    // 3 mm · 0.09/9 at 6.4 µm.
+    EXPECT_NEAR(neighbouring_parallax(light_field, 6.4_um), 3e-3 * 0.01 / 6.4e-6, 1e-6);
+    EXPECT_EQ(neighbouring_parallax(LightField(grid), 6.4_um), 0);
+}
+
+// A fan of directions to one side, as of an off-axis camera: as bright as the same fan straight ahead.
+TEST(OverlapAdd, photographs_a_plane_as_bright_as_it_is_along_a_fan_to_one_side) {
+    for (const double center : {0.15, -0.1}) {
+        LightFieldGrid grid{120, 120, 6_um, 11, 11, 0.05, 0.05, 1};
+        grid.center_u = center;
+        for (const double depth : {0.4e-3, 1.5e-3, -1.5e-3}) {
+            const Card card{depth};
+            const LightField light_field = light_field_of(grid, {&card, 1});
+            Camera camera;
+            camera.eye = {-center * 50_mm, 0, 50_mm};
+            camera.pupil = 2_mm;
+            camera.focus_depth = depth;
+            camera.picture = {10, 10, 40_um, 40_um, 0, 0};
+            const auto hologram =
+                make_stereogram(light_field, options_for(Method::overlap_add, Phases::random, 1.5_um));
+            const Image image = photograph(*hologram, std::span(&camera, 1))[0];
+            double mean = 0;
+            for (float value : image.pixels.elements()) mean += value / 100;
+            EXPECT_NEAR(mean, 1, 0.16) << center << " " << depth;
+        }
     }
 }
 

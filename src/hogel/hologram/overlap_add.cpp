@@ -123,32 +123,43 @@ class OverlapAdd final : public FieldSource {
         const LightFieldGrid& rays = light_field_.grid();
         const double extent = static_cast<double>(side_) * grid_.plane.pitch_x;
         depth_step_ = 1.25 * extent * extent / grid_.wavelength / (brightness_steps - 1);
-        const double steepest = std::max(rays.tan_half_u, rays.tan_half_v);
-        const double farthest = steepest * depth_step_ * (brightness_steps - 1) / grid_.plane.pitch_x;
+        const double widest = std::max(rays.tan_half_u, rays.tan_half_v);
+        const double farthest = widest * depth_step_ * (brightness_steps - 1) / grid_.plane.pitch_x;
         const Fft2 spectrum(1, good_fft_size(4 * side_ + 4 * static_cast<std::size_t>(farthest)));
         for (std::size_t i = 0; i < brightness_steps; ++i) {
             const double depth = depth_step_ * static_cast<double>(i);
-            const double u = one_dimension(depth, rays.tan_half_u, spectrum);
-            const double v = rays.tan_half_v == rays.tan_half_u ? u : one_dimension(depth, rays.tan_half_v, spectrum);
+            const Fan across{rays.center_u, rays.tan_half_u}, down{rays.center_v, rays.tan_half_v};
+            const double u = one_dimension(depth, across, spectrum);
+            const double v = down == across ? u : one_dimension(depth, down, spectrum);
             brightness_.push_back(static_cast<float>(u * v));
         }
     }
 
-    double one_dimension(double depth, double tan_half, const Fft2& fft) const {
+    // Directions along one axis: the middle and half of their range of U or V.
+    struct Fan {
+        double center, half;
+        friend bool operator==(const Fan&, const Fan&) = default;
+    };
+
+    double one_dimension(double depth, const Fan& fan, const Fft2& fft) const {
         const double pitch = grid_.plane.pitch_x, step = grid_.wavelength / (static_cast<double>(side_) * pitch);
         const double hop = static_cast<double>(hop_) * pitch;
         Array<Complex, 2> sum({1, fft.width()});
         const auto length = static_cast<std::ptrdiff_t>(fft.width());
         const auto reach = static_cast<std::ptrdiff_t>((side_ - 1) / 2);
-        double lit = 0;
+        // Counted from the fan's middle, so that a fan to one side does not reach farther than one straight ahead.
+        const double middle_hops = std::round(-fan.center * depth / hop);
+        double lit = 0, middle = 0;
         for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
             const double sine = step * static_cast<double>(j);
             if (std::abs(sine) >= 1) continue;
             const double U = -sine / std::sqrt(1 - sine * sine);
-            if (std::abs(U) > tan_half) continue;
+            if (std::abs(U - fan.center) > fan.half) continue;
             lit += 1;
+            middle += static_cast<double>(j);
             const double hops = std::round(-U * depth / hop), path = std::hypot(depth, hops * hop) - depth;
-            const auto first = static_cast<std::ptrdiff_t>(hops) * static_cast<std::ptrdiff_t>(hop_) + length;
+            const auto first =
+                static_cast<std::ptrdiff_t>(hops - middle_hops) * static_cast<std::ptrdiff_t>(hop_) + length;
             for (std::size_t p = 0; p < side_; ++p) {
                 const double x = static_cast<double>(p) - 0.5 * static_cast<double>(side_ - 1);
                 const double turns = static_cast<double>(j) * x / static_cast<double>(side_) + path / grid_.wavelength;
@@ -157,12 +168,15 @@ class OverlapAdd final : public FieldSource {
             }
         }
         fft.forward(sum);
-        // The fan reaches up to lit/2 of the window's frequencies on either side; its middle counts most.
+        if (lit == 0) return 0;
+        // The fan reaches up to lit/2 of the window's frequencies on either side of its middle, which counts most.
+        middle *= static_cast<double>(length) / (lit * static_cast<double>(side_));
         const double half = 0.5 * lit * static_cast<double>(length) / static_cast<double>(side_);
         double energy = 0, expected = 0;
         for (std::ptrdiff_t f = -length / 2; f < length / 2; ++f) {
-            if (std::abs(static_cast<double>(f)) >= half) continue;
-            const double weight = std::pow(std::cos(0.5 * std::numbers::pi * static_cast<double>(f) / half), 2);
+            const double away = static_cast<double>(f) - middle;
+            if (std::abs(away) >= half) continue;
+            const double weight = std::pow(std::cos(0.5 * std::numbers::pi * away / half), 2);
             energy += weight * std::norm(sum.data()[(f + length) % length]) / static_cast<double>(length);
             expected += weight * static_cast<double>(hop_ * side_) / static_cast<double>(length);
         }

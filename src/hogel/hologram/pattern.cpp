@@ -9,6 +9,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/core/units.h"
 #include "hogel/hologram/pattern_internal.h"
+#include "hogel/math/fft.h"
 
 namespace hogel {
 namespace {
@@ -79,6 +80,7 @@ float turns_of(Complex value) {
 
 Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     if (options.encoding == Encoding::gerchberg_saxton) return iterate_phases(field, options, progress);
+    if (options.encoding == Encoding::gradient) return descend_phases(field, options, progress);
     Array<float, 2> turns(field.shape());
     for (std::size_t y = 0; y < field.extent(0); ++y)
         for (std::size_t x = 0; x < field.extent(1); ++x) {
@@ -120,10 +122,36 @@ double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> 
     return std::norm(product) / (energy * static_cast<double>(field.size()));
 }
 
+// The share of it that makes the moduli of the field's local spectra: in each square (Σ|A||B|)²/Σ|B|² of A's energy.
+double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
+    side = std::min({side, field.extent(0), field.extent(1)});
+    const Fft2 fft(side, side);
+    Array<Complex, 2> shown({side, side}), wanted({side, side});
+    double light = 0, all = 0;
+    for (std::size_t y0 = 0; y0 + side <= field.extent(0); y0 += side)
+        for (std::size_t x0 = 0; x0 + side <= field.extent(1); x0 += side) {
+            for (std::size_t y = 0; y < side; ++y) {
+                std::copy_n(&transmitted(y0 + y, x0), side, &shown(y, 0));
+                std::copy_n(&field(y0 + y, x0), side, &wanted(y, 0));
+            }
+            fft.forward(shown);
+            fft.forward(wanted);
+            double product = 0, energy = 0;
+            for (std::size_t f = 0; f < shown.size(); ++f) {
+                product += std::abs(shown.data()[f]) * std::abs(wanted.data()[f]);
+                energy += std::norm(wanted.data()[f]);
+                all += std::norm(shown.data()[f]);
+            }
+            if (energy > 0) light += product * product / energy;
+        }
+    return all > 0 ? light / all : 0;
+}
+
 }  // namespace
 
 bool is_phase_only(Encoding encoding) {
-    return encoding == Encoding::phase || encoding == Encoding::double_phase || encoding == Encoding::gerchberg_saxton;
+    return encoding == Encoding::phase || encoding == Encoding::double_phase ||
+           encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
 }
 
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
@@ -137,7 +165,9 @@ Pattern encode_pattern(const FieldSource& source, const PatternOptions& options,
                          ? encode_phase(field, options, progress)
                          : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
     pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases);
-    pattern.efficiency = efficiency_of(transmission(pattern, options.encoding), field, carrier);
+    const Array<Complex, 2> transmitted = transmission(pattern, options.encoding);
+    pattern.efficiency = efficiency_of(transmitted, field, carrier);
+    if (phases) pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
     return pattern;
 }
 

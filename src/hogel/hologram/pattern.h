@@ -30,11 +30,12 @@ enum class Encoding {
     phase,             ///< phase: the field's own, its modulus forgotten (kinoform)
     double_phase,      ///< phase: the modulus as two phases φ ± acos|F| on a checkerboard (Hsueh and Sawchuk 1978)
     gerchberg_saxton,  ///< phase: alternating projections between the modulator and the field's local spectra
-    intensity,         ///< amplitude: |F + R|² with a plane reference wave R
-    bipolar,           ///< amplitude: 2 Re(F R*), raised to be positive
-    burckhardt,        ///< amplitude: three real components, 120° apart, in columns by turns (Burckhardt 1970)
-    lee,               ///< amplitude: four real components, 90° apart, in columns by turns (Lee 1970)
-    binary,            ///< amplitude: one where Re(F R*) > 0, nought elsewhere
+    gradient,    ///< phase: stochastic gradient descent towards the field's local spectra, wherever they are taken
+    intensity,   ///< amplitude: |F + R|² with a plane reference wave R
+    bipolar,     ///< amplitude: 2 Re(F R*), raised to be positive
+    burckhardt,  ///< amplitude: three real components, 120° apart, in columns by turns (Burckhardt 1970)
+    lee,         ///< amplitude: four real components, 90° apart, in columns by turns (Lee 1970)
+    binary,      ///< amplitude: one where Re(F R*) > 0, nought elsewhere
 };
 
 bool is_phase_only(Encoding encoding);
@@ -45,8 +46,9 @@ struct PatternOptions {
     double reference_angle =
         0;  ///< radians in the plane of x and z, for the encodings with R; 0: in the middle of what will do
     double clip = 0.001;          ///< share of the samples whose modulus may be cut to the largest that is shown
-    std::size_t window = 32;      ///< side in pixels of the squares whose spectra Gerchberg–Saxton keeps: a hogel
-    std::size_t iterations = 40;  ///< of Gerchberg–Saxton
+    std::size_t window = 32;      ///< side in pixels of the squares whose spectra iterated phases keep: a hogel
+    std::size_t iterations = 40;  ///< of Gerchberg–Saxton, or steps of the descent
+    std::uint64_t seed = 1;       ///< of the descent, which draws where its squares lie
 };
 
 /// What a modulator shows for one wavelength.
@@ -54,6 +56,9 @@ struct Pattern {
     Array<float, 2> values;         ///< turns of phase [0, 1), or amplitudes [0, 1], before rounding to levels; [y][x]
     Array<std::uint8_t, 2> levels;  ///< 0 .. 255, in steps of the modulator's levels: for phases 256 would be 2π
     double efficiency = 0;  ///< share of the light on the modulator that goes into the wave F, as rounded to levels
+    /// Phases: the share of the light on the modulator that makes the moduli of the field's local spectra, in squares
+    /// of the window's side. What only a light field is judged by: the phases between directions are free.
+    double light_field_efficiency = 0;
     double reference_angle = 0;  ///< of R, or of the order that the columns by turns diffract into; 0 without
 };
 

@@ -20,4 +20,11 @@ Array<float, 2> encode_amplitude(View<const std::complex<float>, 2> field, const
 Array<float, 2> iterate_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                const Progress& progress);
 
+/// The same by stochastic gradient descent: Encoding::gradient.
+Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
+                               const Progress& progress);
+
+/// Throws Error(usage) unless squares of this side fit the modulator.
+void require_squares_fit(View<const std::complex<float>, 2> field, std::size_t side);
+
 }  // namespace hogel

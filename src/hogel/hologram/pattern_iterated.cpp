@@ -29,13 +29,18 @@ std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
 
 }  // namespace
 
+void require_squares_fit(View<const Complex, 2> field, std::size_t side) {
+    const std::size_t most = std::min(field.extent(0), field.extent(1));
+    if (side < 2 || side > most)
+        throw Error(ErrorCode::usage, fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do",
+                                                  side, field.extent(1), field.extent(0), most));
+}
+
 // Each square for itself, back and forth between unit modulus and the moduli of the field's own spectrum there, which
 // are what its light field shows: Gerchberg and Saxton, Optik 35, 1972.
 Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
-    if (side < 2 || side > std::min(width, height))
-        throw Error(ErrorCode::usage, fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do",
-                                                  side, width, height, std::min(width, height)));
+    require_squares_fit(field, side);
     const std::vector<std::size_t> columns = squares_along(side, width), rows = squares_along(side, height);
     const Fft2 fft(side, side);
     Array<float, 2> turns(field.shape());

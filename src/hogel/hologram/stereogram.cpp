@@ -7,6 +7,7 @@
 #include <list>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 
 #include "hogel/core/units.h"
 #include "hogel/hologram/hogel_synthesis_internal.h"
@@ -31,30 +32,39 @@ struct Prepared {
     Array<float, 3> values;
 };
 
+std::vector<LightFieldGrid> grids_of(std::span<const LightFieldSource* const> faces) {
+    std::vector<LightFieldGrid> grids;
+    for (const LightFieldSource* face : faces) grids.push_back(face->grid());
+    return grids;
+}
+
 // Hogels side by side.
 class Stereogram final : public FieldSource {
   public:
-    Stereogram(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options,
+    Stereogram(std::span<const LightFieldSource* const> faces, const FieldGrid& grid, const StereogramOptions& options,
                Values values)
-        : light_field_(light_field),
+        : faces_(faces.begin(), faces.end()),
           options_(options),
           grid_(grid),
-          n_(samples_per_hogel(light_field.grid(), options)) {
-        synthesis_ = options.method == Method::basis ? make_basis_synthesis(light_field.grid(), n_, options, values)
-                     : by_ray(options)               ? make_phase_added_synthesis(light_field.grid(), n_, options)
-                                                     : make_fourier_synthesis(light_field.grid(), n_, options);
+          columns_(grid.plane.width / front().hogels_s),
+          rows_(grid.plane.height / front().hogels_t) {
+        for (const LightFieldSource* face : faces) rays_ += face->grid().directions();
+        synthesis_ = options.method == Method::basis ? make_basis_synthesis(front(), columns_, options, values)
+                     : by_ray(options)               ? make_phase_added_synthesis(front(), columns_, options)
+                     : options.line_pitch > 0        ? make_line_synthesis(front(), columns_, rows_, options)
+                                                     : make_fourier_synthesis(grids_of(faces), columns_, options);
     }
 
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return options_.looks; }
-    std::size_t alignment() const override { return n_; }
+    std::size_t alignment() const override { return std::lcm(columns_, rows_); }
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
         if (region.samples() == 0) return;
-        HogelRange hogels{region.x0 / n_, region.y0 / n_, 0, 0};
-        hogels.ns = (region.x0 + region.width - 1) / n_ + 1 - hogels.s0;
-        hogels.nt = (region.y0 + region.height - 1) / n_ + 1 - hogels.t0;
-        Array<Complex, 2> square({n_, n_});
+        HogelRange hogels{region.x0 / columns_, region.y0 / rows_, 0, 0};
+        hogels.ns = (region.x0 + region.width - 1) / columns_ + 1 - hogels.s0;
+        hogels.nt = (region.y0 + region.height - 1) / rows_ + 1 - hogels.t0;
+        Array<Complex, 2> square({rows_, columns_});
         if (options_.looks > 1) {
             const std::shared_ptr<const Prepared> prepared = prepare(hogels);
             for (std::size_t t = 0; t < hogels.nt; ++t)
@@ -62,13 +72,13 @@ class Stereogram final : public FieldSource {
             return;
         }
         // What one look alone needs stays in the cache, a few hogels at a time.
-        const LightFieldTile tile = read_rays(hogels);
+        const std::vector<LightFieldTile> tiles = read_rays(hogels);
         Array<float, 2> prepared({std::min(hogels_together, hogels.ns), synthesis_->prepared_size()});
         for (std::size_t t = 0; t < hogels.nt; ++t)
             for (std::size_t s = 0; s < hogels.ns; s += hogels_together) {
                 const std::size_t count = std::min(hogels_together, hogels.ns - s);
                 const View<float, 2> some(prepared.data(), {count, synthesis_->prepared_size()});
-                prepare(tile, t, s, some);
+                prepare(tiles, t, s, some);
                 write_row(some, {hogels.s0 + s, hogels.t0 + t, look}, region, square, out);
             }
     }
@@ -76,15 +86,29 @@ class Stereogram final : public FieldSource {
   private:
     static constexpr std::size_t hogels_together = 16;
 
-    LightFieldTile read_rays(const HogelRange& hogels) const {
-        LightFieldTile tile(light_field_.grid(), hogels, needs_depth(options_));
-        light_field_.read(tile);
-        return tile;
+    const LightFieldGrid& front() const { return faces_.front()->grid(); }
+
+    // A tile of each face.
+    std::vector<LightFieldTile> read_rays(const HogelRange& hogels) const {
+        std::vector<LightFieldTile> tiles;
+        for (const LightFieldSource* face : faces_)
+            face->read(tiles.emplace_back(face->grid(), hogels, needs_depth(options_)));
+        return tiles;
     }
 
-    // Hogels s, s+1, ... of row t of a tile, which lie one after the other.
-    void prepare(const LightFieldTile& tile, std::size_t t, std::size_t s, View<float, 2> prepared) const {
-        const Shape<2> rays{prepared.extent(0), light_field_.grid().directions()};
+    // Hogels s, s+1, ... of row t of the tiles, in each of which they lie one after the other.
+    void prepare(std::span<const LightFieldTile> tiles, std::size_t t, std::size_t s, View<float, 2> prepared) const {
+        const Shape<2> rays{prepared.extent(0), rays_};
+        const LightFieldTile& tile = tiles.front();
+        if (tiles.size() > 1) {
+            Array<float, 2> together(rays);
+            for (std::size_t hogel = 0; hogel < rays[0]; ++hogel) {
+                float* to = &together(hogel, 0);
+                for (const LightFieldTile& face : tiles)
+                    to = std::ranges::copy(face.radiance.view()[options_.channel][t][s + hogel].elements(), to).out;
+            }
+            return synthesis_->prepare(together, {}, prepared);
+        }
         synthesis_->prepare(
             {&tile.radiance(options_.channel, t, s, 0, 0), rays},
             tile.depth.size() > 0 ? View<const float, 2>(&tile.depth(t, s, 0, 0), rays) : View<const float, 2>(),
@@ -94,14 +118,15 @@ class Stereogram final : public FieldSource {
     // The parts of hogels in a row, the first of them at `place`, that the region asks for.
     void write_row(View<const float, 2> prepared, HogelPlace place, const Region& region, View<Complex, 2> square,
                    View<Complex, 2> out) const {
-        const std::size_t y0 = std::max(place.t * n_, region.y0),
-                          y1 = std::min((place.t + 1) * n_, region.y0 + region.height);
+        const std::size_t y0 = std::max(place.t * rows_, region.y0),
+                          y1 = std::min((place.t + 1) * rows_, region.y0 + region.height);
         for (std::size_t i = 0; i < prepared.extent(0); ++i, ++place.s) {
             synthesis_->synthesise(prepared[i].elements(), place, square);
-            const std::size_t x0 = std::max(place.s * n_, region.x0),
-                              x1 = std::min((place.s + 1) * n_, region.x0 + region.width);
+            const std::size_t x0 = std::max(place.s * columns_, region.x0),
+                              x1 = std::min((place.s + 1) * columns_, region.x0 + region.width);
             for (std::size_t y = y0; y < y1; ++y)
-                std::copy_n(&square(y - place.t * n_, x0 - place.s * n_), x1 - x0, &out(y - region.y0, x0 - region.x0));
+                std::copy_n(&square(y - place.t * rows_, x0 - place.s * columns_), x1 - x0,
+                            &out(y - region.y0, x0 - region.x0));
         }
     }
 
@@ -111,11 +136,11 @@ class Stereogram final : public FieldSource {
             for (const auto& entry : recent_)
                 if (entry->range == hogels) return entry;
         }
-        const LightFieldTile tile = read_rays(hogels);
+        const std::vector<LightFieldTile> tiles = read_rays(hogels);
         auto prepared = std::make_shared<Prepared>();
         prepared->range = hogels;
         prepared->values = Array<float, 3>({hogels.nt, hogels.ns, synthesis_->prepared_size()});
-        for (std::size_t t = 0; t < hogels.nt; ++t) prepare(tile, t, 0, prepared->values[t]);
+        for (std::size_t t = 0; t < hogels.nt; ++t) prepare(tiles, t, 0, prepared->values[t]);
         const std::lock_guard lock(recent_mutex_);
         recent_.push_front(prepared);
         if (recent_.size() > most_recent) recent_.pop_back();
@@ -125,10 +150,11 @@ class Stereogram final : public FieldSource {
     // Readers take the looks of a region one after the other, each in a thread of its own.
     static constexpr std::size_t most_recent = 64;
 
-    const LightFieldSource& light_field_;
+    std::vector<const LightFieldSource*> faces_;  // the front first
     StereogramOptions options_;
     FieldGrid grid_;
-    std::size_t n_;
+    std::size_t columns_, rows_;  // samples of a hogel
+    std::size_t rays_ = 0;        // of a hogel, of all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;
@@ -148,25 +174,14 @@ void require_enough_directions(const LightFieldGrid& light_field, const Stereogr
                     enough(light_field.tan_half_v)));
 }
 
-}  // namespace
-
-FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOptions& options) {
-    validate(light_field, ErrorCode::usage, "light field");
-    if (light_field.face != Face::front)
-        throw Error(ErrorCode::usage, fmt::format("a stereogram is made of the front face of a light field, not of the "
-                                                  "{} face",
-                                                  name(light_field.face)));
-    if (!(options.pitch > 0) || !(options.wavelength > 0))
-        throw Error(ErrorCode::usage, "a stereogram needs a positive pitch and wavelength");
-    if (options.channel >= light_field.channels)
-        throw Error(ErrorCode::usage, fmt::format("the light field has {} channels, so there is no channel {}",
-                                                  light_field.channels, options.channel));
-    const std::size_t n = samples_per_hogel(light_field, options);
-    const double pitch = light_field.pitch / static_cast<double>(n);
+void require_diffraction(const LightFieldGrid& light_field, const StereogramOptions& options, double pitch) {
     // The steepest frequencies on the axes; the corners of the field of view are cut by the light field's own square.
-    const double tangent = std::max(std::abs(light_field.center_u) + light_field.tan_half_u,
-                                    std::abs(light_field.center_v) + light_field.tan_half_v);
-    const double needed = tangent / std::sqrt(1 + tangent * tangent), possible = options.wavelength / (2 * pitch);
+    const double edge = std::max(std::abs(light_field.center_u) + light_field.tan_half_u,
+                                 std::abs(light_field.center_v) + light_field.tan_half_v);
+    // The outermost cells of a frequency grid are those of its outermost frequencies.
+    const double needed = light_field.spacing == Spacing::sines ? std::min(1.0, edge - 0.5 * light_field.step_u())
+                                                                : edge / std::sqrt(1 + edge * edge);
+    const double possible = options.wavelength / (2 * pitch);
     if (needed > possible)
         throw Error(
             ErrorCode::usage,
@@ -174,17 +189,66 @@ FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOpt
                 "a pitch of {} diffracts {} no farther than {:.2f} degrees, but the light field reaches {:.2f}; "
                 "a pitch of {} or less would do",
                 format_length(pitch), format_length(options.wavelength),
-                std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
-                std::atan(tangent) * 180 / std::numbers::pi, format_length(options.wavelength / (2 * needed))));
+                std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi, std::asin(needed) * 180 / std::numbers::pi,
+                format_length(options.wavelength / (2 * needed))));
+}
+
+// How many lines a hogel holds of a hologram with horizontal parallax only.
+std::size_t lines_per_hogel(const LightFieldGrid& light_field, const StereogramOptions& options) {
+    if (options.method != Method::fourier || options.phases != Phases::random)
+        throw Error(ErrorCode::usage,
+                    "lines of a hologram with horizontal parallax only know nothing of each other; expected the method "
+                    "fourier with random phases");
+    if (light_field.directions_v != 1)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a hologram with horizontal parallax only is made of one row of directions, but the "
+                                "light field has {}; {}x1 directions would do",
+                                light_field.directions_v, light_field.directions_u));
+    return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / options.line_pitch)));
+}
+
+}  // namespace
+
+FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOptions& options) {
+    return stereogram_grid(std::span(&light_field, 1), options);
+}
+
+FieldGrid stereogram_grid(std::span<const LightFieldGrid> faces, const StereogramOptions& options) {
+    const LightFieldGrid& front = faces.front();
+    for (const LightFieldGrid& face : faces) {
+        validate(face, ErrorCode::usage, "light field");
+        if (!same_hogels(face, front))
+            throw Error(ErrorCode::usage, fmt::format("the {} face has other hogels or channels than the {} face",
+                                                      name(face.face), name(front.face)));
+    }
+    if (front.face != Face::front)
+        throw Error(ErrorCode::usage, fmt::format("a stereogram begins with the front face of a light field, not with "
+                                                  "the {} face",
+                                                  name(front.face)));
+    if (!(options.pitch > 0) || !(options.wavelength > 0) || !(options.line_pitch >= 0))
+        throw Error(ErrorCode::usage, "a stereogram needs a positive pitch and wavelength");
+    if (options.channel >= front.channels)
+        throw Error(ErrorCode::usage, fmt::format("the light field has {} channels, so there is no channel {}",
+                                                  front.channels, options.channel));
     if (options.method == Method::overlap_add && (by_ray(options) || options.phases == Phases::designed))
         throw Error(ErrorCode::usage,
                     "overlapping windows carry the phases of the scene's points, which are random or fixed (none)");
     if (options.method == Method::basis && (by_ray(options) || options.phases == Phases::random))
         throw Error(ErrorCode::usage,
                     "basis fringes are the same in all hogels, so their phases are fixed or designed");
-    if (by_ray(options)) require_enough_directions(light_field, options);
+    const bool front_alone = options.method != Method::fourier || by_ray(options) || options.line_pitch > 0;
+    if (faces.size() > 1 && front_alone)
+        throw Error(ErrorCode::usage,
+                    "of a hemicube's sides only the method fourier knows, with random, fixed or designed phases; "
+                    "others expect a light field of one face");
+    if (needs_depth(options)) require_tangents(front, ErrorCode::usage, "a hologram with phases by depth");
+    const std::size_t n = samples_per_hogel(front, options);
+    const double pitch = front.pitch / static_cast<double>(n);
+    if (faces.size() == 1) require_diffraction(front, options, pitch);
+    const std::size_t rows = options.line_pitch > 0 ? lines_per_hogel(front, options) : n;
+    if (by_ray(options)) require_enough_directions(front, options);
     FieldGrid grid;
-    grid.plane = {light_field.hogels_s * n, light_field.hogels_t * n, pitch, pitch, 0, 0};
+    grid.plane = {front.hogels_s * n, front.hogels_t * rows, pitch, front.pitch / static_cast<double>(rows), 0, 0};
     grid.wavelength = options.wavelength;
     validate(grid, ErrorCode::usage, "stereogram");
     return grid;
@@ -193,19 +257,26 @@ FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOpt
 bool needs_depth(const StereogramOptions& options) { return options.method == Method::overlap_add || by_ray(options); }
 
 std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field, const StereogramOptions& options) {
-    const FieldGrid grid = stereogram_grid(light_field.grid(), options);
-    if (needs_depth(options) && !light_field.has_depth())
+    const LightFieldSource* const only = &light_field;
+    return make_stereogram({&only, 1}, options);
+}
+
+std::unique_ptr<FieldSource> make_stereogram(std::span<const LightFieldSource* const> faces,
+                                             const StereogramOptions& options) {
+    const FieldGrid grid = stereogram_grid(grids_of(faces), options);
+    if (needs_depth(options) && !faces.front()->has_depth())
         throw Error(ErrorCode::usage,
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
-    if (options.method == Method::overlap_add) return make_overlap_add(light_field, grid, options);
-    return std::make_unique<Stereogram>(light_field, grid, options, Values::radiance);
+    if (options.method == Method::overlap_add) return make_overlap_add(*faces.front(), grid, options);
+    return std::make_unique<Stereogram>(faces, grid, options, Values::radiance);
 }
 
 std::unique_ptr<FieldSource> make_stereogram_of_coefficients(const LightFieldSource& coefficients,
                                                              const StereogramOptions& options) {
     const FieldGrid grid = stereogram_grid(coefficients.grid(), options);
     if (options.method != Method::basis) throw Error(ErrorCode::usage, "only basis fringes are made of coefficients");
-    return std::make_unique<Stereogram>(coefficients, grid, options, Values::coefficients);
+    const LightFieldSource* const only = &coefficients;
+    return std::make_unique<Stereogram>(std::span(&only, 1), grid, options, Values::coefficients);
 }
 
 }  // namespace hogel

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "hogel/lightfield/light_field.h"
@@ -45,6 +46,11 @@ struct StereogramOptions {
     std::string transform = "cdf97";
     /// Method basis: the smallest coefficients are left out, as many as carry about this share of a hogel's amplitude.
     double tolerance = 0;
+    /// Method fourier with random phases: the hologram has horizontal parallax only, [K] 3.5 and (3.23). It consists of
+    /// lines this far apart, metres, rounded so that a hogel holds whole lines; 0: it has both parallaxes. The light
+    /// field then has one row of directions, and every line shows it in all directions up and down that the lines'
+    /// distance diffracts to.
+    double line_pitch = 0;
 };
 
 /// The grid of samples that a stereogram of this light field has: n_Δ = round(d/Δ) samples a hogel in each direction.
@@ -53,6 +59,11 @@ struct StereogramOptions {
 /// would do; and for a method that does not have these phases (basis: only those that all hogels share).
 FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOptions& options);
 
+/// The same of the faces of a hemicube, the front first, which method fourier knows what to do with unless it adds
+/// phases. Such a light field has all directions; the hologram shows those that its pitch diffracts to, and no other.
+/// Throws Error(usage) for other methods, and where hogels or channels differ.
+FieldGrid stereogram_grid(std::span<const LightFieldGrid> faces, const StereogramOptions& options);
+
 /// Whether this needs the depth of every ray: added phases and overlapping windows do.
 bool needs_depth(const StereogramOptions& options);
 
@@ -60,6 +71,10 @@ bool needs_depth(const StereogramOptions& options);
 /// The light field must outlive the result. Throws Error(usage) where stereogram_grid does, and where depth is needed
 /// that the light field does not have.
 std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field, const StereogramOptions& options);
+
+/// The same of all faces of a hemicube, or of a front alone.
+std::unique_ptr<FieldSource> make_stereogram(std::span<const LightFieldSource* const> faces,
+                                             const StereogramOptions& options);
 
 /// The stereogram of a light field that is known by coefficients, by method basis. Only those that are not zero cost
 /// anything. The values of the source are not radiances but for each hogel and channel the coefficients of √L, an array

@@ -163,6 +163,18 @@ TEST_F(Files, every_range_of_a_light_field_file_is_the_slice) {
     }
 }
 
+TEST_F(Files, directions_spaced_by_sines_come_back_as_such) {
+    LightFieldGrid grid = grid_of(2, 2, 3, 5, 1);
+    grid.spacing = Spacing::sines;
+    LightFieldGrid tangents = grid;
+    tangents.spacing = Spacing::tangents;
+    for (const LightFieldGrid& one : {grid, tangents}) {
+        const LightField field = random_light_field(one, false);
+        copy(field, *create_light_field(path_, one, {SampleType::single, false, {}}));
+        EXPECT_EQ(open_light_field(path_)->grid(), one);
+    }
+}
+
 TEST_F(Files, the_faces_of_a_hemicube_come_back_from_one_file) {
     const std::vector<LightFieldGrid> grids = hemicube(grid_of(3, 2, 6, 4, 3));
     for (const bool with_depth : {false, true}) {

@@ -102,6 +102,11 @@ class LightFieldWriter final : public LightFieldSink {
     std::atomic<std::size_t> hogels_{0};
 };
 
+// The attribute that says how far directions go also says in what they are uniform.
+std::string half_name(Spacing spacing, char axis) {
+    return fmt::format("{}_half_{}", spacing == Spacing::sines ? "sine" : "tan", axis);
+}
+
 hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
     return {{"axis_order", "c,t,s,v,u"},
             {"face", std::string(name(grid.face))},
@@ -111,8 +116,8 @@ hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
             {"hogel_pitch_m", grid.pitch},
             {"directions_u", std::uint64_t{grid.directions_u}},
             {"directions_v", std::uint64_t{grid.directions_v}},
-            {"tan_half_u", grid.tan_half_u},
-            {"tan_half_v", grid.tan_half_v},
+            {half_name(grid.spacing, 'u'), grid.tan_half_u},
+            {half_name(grid.spacing, 'v'), grid.tan_half_v},
             {"center_u", grid.center_u},
             {"center_v", grid.center_v}};
 }
@@ -139,8 +144,9 @@ LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path
     grid.pitch = number("hogel_pitch_m");
     grid.directions_u = count("directions_u");
     grid.directions_v = count("directions_v");
-    grid.tan_half_u = number("tan_half_u");
-    grid.tan_half_v = number("tan_half_v");
+    if (hdf5::has_attribute(radiance.id(), half_name(Spacing::sines, 'u').c_str(), path)) grid.spacing = Spacing::sines;
+    grid.tan_half_u = number(half_name(grid.spacing, 'u').c_str());
+    grid.tan_half_v = number(half_name(grid.spacing, 'v').c_str());
     grid.center_u = middle("center_u");
     grid.center_v = middle("center_v");
     grid.face = face;

@@ -28,11 +28,15 @@ FileKind kind_by_extension(const std::filesystem::path& path) {
 }
 
 // The angle between the first and the last of the directions.
-double degrees_across(double center, double tan_half) {
-    return (std::atan(center + tan_half) - std::atan(center - tan_half)) * 180 / std::numbers::pi;
+double degrees_across(Spacing spacing, double center, double half) {
+    const auto angle = [&](double at) {
+        return spacing == Spacing::sines ? std::asin(std::clamp(at, -1.0, 1.0)) : std::atan(at);
+    };
+    return (angle(center + half) - angle(center - half)) * 180 / std::numbers::pi;
 }
 
 void describe(const LightFieldGrid& grid, FileSummary& summary) {
+    const bool sines = grid.spacing == Spacing::sines;
     summary.numbers.insert(summary.numbers.end(),
                            {{"hogels_s", static_cast<double>(grid.hogels_s)},
                             {"hogels_t", static_cast<double>(grid.hogels_t)},
@@ -41,12 +45,12 @@ void describe(const LightFieldGrid& grid, FileSummary& summary) {
                             {"height_m", static_cast<double>(grid.hogels_t) * grid.pitch},
                             {"directions_u", static_cast<double>(grid.directions_u)},
                             {"directions_v", static_cast<double>(grid.directions_v)},
-                            {"tan_half_u", grid.tan_half_u},
-                            {"tan_half_v", grid.tan_half_v},
+                            {sines ? "sine_half_u" : "tan_half_u", grid.tan_half_u},
+                            {sines ? "sine_half_v" : "tan_half_v", grid.tan_half_v},
                             {"center_u", grid.center_u},
                             {"center_v", grid.center_v},
-                            {"field_of_view_u_deg", degrees_across(grid.center_u, grid.tan_half_u)},
-                            {"field_of_view_v_deg", degrees_across(grid.center_v, grid.tan_half_v)},
+                            {"field_of_view_u_deg", degrees_across(grid.spacing, grid.center_u, grid.tan_half_u)},
+                            {"field_of_view_v_deg", degrees_across(grid.spacing, grid.center_v, grid.tan_half_v)},
                             {"channels", static_cast<double>(grid.channels)}});
 }
 

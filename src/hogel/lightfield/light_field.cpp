@@ -70,6 +70,10 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
     require_finite(grid.center_u, code, what, "center_u");
     require_finite(grid.center_v, code, what, "center_v");
     require_in_front_half(grid, code, what);
+    if (grid.spacing == Spacing::sines && grid.face != Face::front)
+        throw Error(code, fmt::format("{}: the directions of the {} face are spaced by sines, but only those of the "
+                                      "front can be",
+                                      what, name(grid.face)));
     require_positive(grid.step_u(), code, what, "the step between directions in u");
     require_positive(grid.step_v(), code, what, "the step between directions in v");
     require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
@@ -83,10 +87,25 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
                               what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
 }
 
+void require_tangents(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
+    if (grid.spacing == Spacing::sines)
+        throw Error(code, fmt::format("{} needs directions in perspective, uniform in tangents; these are uniform in "
+                                      "sines, on the frequency grid of a hologram",
+                                      what));
+}
+
+Vec3 LightFieldGrid::along(double U, double V) const {
+    if (spacing == Spacing::tangents) return from_face(face, {U, V, 1});
+    const double cos2 = 1 - U * U - V * V;
+    const double cosine = std::sqrt(std::max(cos2, 0.0));
+    return cos2 > 0 ? Vec3{U / cosine, V / cosine, 1} : Vec3{0, 0, 0};
+}
+
 bool LightFieldGrid::sees(Vec3 way) const {
     const Vec3 q = to_face(face, way);
     if (!(q.z > 0)) return false;
-    const double k = column(q.x / q.z), l = row(q.y / q.z);
+    const double forward = spacing == Spacing::sines ? length(q) : q.z;
+    const double k = column(q.x / forward), l = row(q.y / forward);
     return k >= -0.5 && k <= static_cast<double>(directions_u) - 0.5 && l >= -0.5 &&
            l <= static_cast<double>(directions_v) - 0.5;
 }

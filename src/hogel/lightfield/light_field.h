@@ -10,9 +10,16 @@
 
 namespace hogel {
 
+/// In what a light field's directions are uniform.
+enum class Spacing {
+    tangents,  ///< U and V, as in a picture in perspective
+    sines,     ///< U and V over √(1 + U² + V²), as the frequencies of one wavelength's plane waves are: [K] 4.1
+};
+
 /// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, section 1). A ray crosses the hologram
 /// plane at the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Perspective directions: uniform in U
-/// and V. On a side of a hemicube U and V are those of the face's own picture: right/forward and up/forward.
+/// and V. On a side of a hemicube U and V are those of the face's own picture: right/forward and up/forward. Where
+/// directions are spaced by sines, all that is said of U and V below is said of their sines.
 struct LightFieldGrid {
     std::size_t hogels_s = 0, hogels_t = 0;          ///< S columns, T rows of hogels
     double pitch = 0;                                ///< d, metres between hogels
@@ -21,6 +28,7 @@ struct LightFieldGrid {
     std::size_t channels = 3;                        ///< 1, or 3 for R, G, B
     double center_u = 0, center_v = 0;               ///< middle of the directions
     Face face = Face::front;                         ///< in whose picture directions are uniform
+    Spacing spacing = Spacing::tangents;             ///< sines: the front alone
 
     double s(double i) const { return (i + 0.5 - 0.5 * static_cast<double>(hogels_s)) * pitch; }
     double t(double j) const { return (0.5 * static_cast<double>(hogels_t) - j - 0.5) * pitch; }
@@ -33,8 +41,9 @@ struct LightFieldGrid {
         return (U - center_u) / step_u() + (0.5 * static_cast<double>(directions_u) - 0.5);
     }
     double row(double V) const { return (0.5 * static_cast<double>(directions_v) - 0.5) - (V - center_v) / step_v(); }
-    /// The way along the ray (U, V) as (x, y, ζ), one step forward as the face looks: (U, V, 1) for the front.
-    Vec3 along(double U, double V) const { return from_face(face, {U, V, 1}); }
+    /// The way along the ray (U, V) as (x, y, ζ), one step forward as the face looks: (U, V, 1) for the front;
+    /// nought where sines are those of no ray.
+    Vec3 along(double U, double V) const;
     /// Whether the way (x, y, ζ) from a hogel is one of the directions, or in the cell around one.
     bool sees(Vec3 way) const;
     std::size_t directions() const { return directions_u * directions_v; }
@@ -46,6 +55,9 @@ struct LightFieldGrid {
 /// Throws Error(code) naming `what` and the member that is wrong: nothing to sample, not finite, not positive, or more
 /// samples than can be addressed.
 void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
+
+/// Throws Error(code) where directions are spaced by sines, which `what` cannot do.
+void require_tangents(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Whether two light fields have the same hogels in the same places, and as many channels.
 bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);

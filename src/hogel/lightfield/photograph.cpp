@@ -104,8 +104,9 @@ class Exposure {
                 const double U = (grid.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
                 const Vec3 way = to_face(grid.face, {U, V, 1});
                 if (!(way.z > 0) || shown_before(face, {U, V, 1})) continue;
-                const Between u(grid.column(way.x / way.z), grid.directions_u);
-                const Between v(grid.row(way.y / way.z), grid.directions_v);
+                const double forward = grid.spacing == Spacing::sines ? length(way) : way.z;
+                const Between u(grid.column(way.x / forward), grid.directions_u);
+                const Between v(grid.row(way.y / forward), grid.directions_v);
                 if (u.outside || v.outside) continue;
                 const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
                 for (std::size_t c = 0; c < grid.channels; ++c) {

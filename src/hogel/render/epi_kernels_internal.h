@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "hogel/render/epi_clusters_internal.h"
 
@@ -72,6 +73,11 @@ void shade_plain(const EpipolarPlane& plane, std::span<const StripEnds> strips, 
                  const ShadedPlane& out);
 void shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
            const ShadedPlane& out);
+
+/// The instruction sets of this processor that the vector kernels are built for, and a way to use but one of them, or
+/// with 0 the best again: for tests. Not while kernels run.
+std::vector<std::int64_t> kernel_targets();
+void use_kernel_target(std::int64_t target);
 
 /// How far along a strip whose points are seen in c0 and c1 column n lies, from 0 to 1. Single precision decided that
 /// the sample is covered, which double precision need not confirm.

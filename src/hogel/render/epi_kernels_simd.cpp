@@ -312,5 +312,12 @@ void shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const 
     HWY_DYNAMIC_DISPATCH(Shade)(plane, strips, background, out);
 }
 
+std::vector<std::int64_t> kernel_targets() { return hwy::SupportedAndGeneratedTargets(); }
+
+void use_kernel_target(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 }  // namespace hogel
 #endif

@@ -69,7 +69,7 @@ TEST(Occlusion, an_empty_plane_hides_nothing) {
     EXPECT_FALSE(occlusion.hides(far, drawn.plane));
 }
 
-TEST(Occlusion, cells_hold_the_farthest_depth_in_both_kernels) {
+TEST(Occlusion, cells_hold_the_farthest_depth_in_all_kernels) {
     std::mt19937 random(2);
     for (std::size_t columns : {1, 7, 8, 9, 24})
         for (std::size_t directions = 1; directions < 70; ++directions) {
@@ -77,10 +77,15 @@ TEST(Occlusion, cells_hold_the_farthest_depth_in_both_kernels) {
             for (std::uint64_t& word : drawn.words)
                 if (random() % 200 != 0) word = std::uint64_t{random() % 1000} << 32 | random();
             const std::size_t across = (directions + 15) / 16, size = (columns + 7) / 8 * across;
-            std::vector<std::uint32_t> fast(size), plain(size);
-            farthest(drawn.plane, fast);
+            std::vector<std::uint32_t> plain(size);
             farthest_plain(drawn.plane, plain);
-            ASSERT_EQ(fast, plain) << columns << " " << directions;
+            for (const std::int64_t target : kernel_targets()) {
+                std::vector<std::uint32_t> fast(size);
+                use_kernel_target(target);
+                farthest(drawn.plane, fast);
+                use_kernel_target(0);
+                ASSERT_EQ(fast, plain) << target << " " << columns << " " << directions;
+            }
             for (std::size_t i = 0; i < drawn.words.size(); ++i)
                 ASSERT_GE(plain[i / directions / 8 * across + i % directions / 16], drawn.words[i] >> 32);
         }

@@ -72,7 +72,8 @@ class RaytraceRenderer final : public LightFieldSource {
             for (std::size_t u = 0; u < nu; ++u) {
                 const RayHit& hit = hits[v * nu + u];
                 VisiblePoint point;
-                if (hit.triangle != RayHit::miss)
+                const bool is_ray = directions[v * nu + u].z != 0;  // a frequency grid has corners beyond all rays
+                if (is_ray && hit.triangle != RayHit::miss)
                     point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2,
                              -directions[v * nu + u].z * (near + hit.distance)};
                 store(tile, *scene_, grid_, point, t, s, v0 + v, u0 + u);

@@ -37,6 +37,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
                                                 const LightFieldGrid& grid) {
     validate(grid, ErrorCode::usage, "light field to render");
     if (name == "raytrace") return make_raytrace_renderer(std::move(scene), grid);
+    require_tangents(grid, ErrorCode::usage, fmt::format("the renderer '{}' (but not raytrace)", name));
     if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
     if (name == "simplex") return make_simplex_renderer(std::move(scene), grid);
     if (name == "simplex-strip") return make_simplex_strip_renderer(std::move(scene), grid);

@@ -20,6 +20,8 @@ struct Material {
     float roughness = 1;                              ///< of the lobe: its width is about the square of this
     Rgb emission{0, 0, 0};                            ///< radiance that it sends out by itself
     std::shared_ptr<const Image> base_color_texture;  ///< linear, repeats; null without one
+
+    bool is_glossy() const { return reflectance > 0 || metallic > 0; }
 };
 
 struct TextureCoordinate {

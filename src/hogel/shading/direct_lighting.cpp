@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting_internal.h"
 #include "hogel/shading/reflection.h"
@@ -19,30 +21,49 @@ class DirectLighting final : public SampleLighting {
         }
     }
 
-    Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
-                 const Sight& sight) const override {
+    // The light that arrives, and on glossy surfaces what of it the lobe may take and how far each lamp gets there.
+    Size size_of_light(std::size_t mesh) const override {
+        const Surface& surface = surfaces_[mesh];
+        if (surface.given) return {};
+        return surface.material.is_glossy() ? Size{6, lights_.size()} : Size{3, 0};
+    }
+
+    void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
+                  std::span<float> light) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const Surface& surface = surfaces_[triangle.mesh];
-        if (surface.given) return texture * interpolate(scene.radiance, triangle.vertices, weights);
+        if (surface.given) return;
+        std::ranges::fill(light, 0.0f);
+        const bool glossy = surface.material.is_glossy();
         const SurfacePoint point(scene, triangle.vertices, weights);
-        const auto& [a, b, c] = triangle.vertices;
-        const Vec3 sum =
-            double{weights[0]} * normals_[a] + double{weights[1]} * normals_[b] + double{weights[2]} * normals_[c];
-        const double size = length(sum);
-        const Vec3 normal = size > 0 ? sum / size : sum;
-        const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
-        const Reflection reflection(surface.material, color, dot(normal, sight.to_viewer));
-        Rgb light = texture * surface.material.emission + ambient_ * reflection.in_uniform_light();
+        const Vec3 normal = normal_at(triangle, weights);
+        LightUnderLobe sum;
         for (std::size_t i = 0; i < lights_.size(); ++i) {
             const Illumination from = illuminate(lights_[i], point.position);
             const double cosine = dot(normal, from.to_light);
             if (!(cosine > 0)) continue;
             const float lit = maps_[i].lit(point.position, point.flat_normal);
-            if (lit > 0)
-                light += lit * static_cast<float>(from.falloff) *
-                         (lights_[i].intensity * reflection.towards(normal, sight.to_viewer, from.to_light, cosine));
+            if (!(lit > 0)) continue;
+            sum.add(surface.material, lit * static_cast<float>(from.falloff) * lights_[i].intensity, cosine);
+            if (glossy) light[6 + i] = lit;
         }
-        return light;
+        put(sum.arriving, light.first<3>());
+        if (glossy) put(sum.for_lobe, light.subspan<3, 3>());
+    }
+
+    Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
+                 std::span<const float> light, Rgb texture, const Sight& sight) const override {
+        const ShadedScene::Triangle& triangle = scene.triangles[index];
+        const Surface& surface = surfaces_[triangle.mesh];
+        if (surface.given) return texture * interpolate(scene.radiance, triangle.vertices, weights);
+        const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
+        const Rgb emission = texture * surface.material.emission, arriving = rgb(light.first<3>());
+        if (!surface.material.is_glossy()) return emission + color * (ambient_ + arriving);
+        const Vec3 normal = normal_at(triangle, weights);
+        const Reflection reflection(surface.material, color, dot(normal, sight.to_viewer));
+        return emission + ambient_ * reflection.in_uniform_light() +
+               reflection.diffuse({arriving, rgb(light.subspan<3, 3>())}) +
+               gloss(scene, triangle, weights, light.subspan(6), normal, reflection, sight);
     }
 
   private:
@@ -50,6 +71,38 @@ class DirectLighting final : public SampleLighting {
         Material material;
         bool given;
     };
+
+    static Rgb rgb(std::span<const float, 3> values) { return {values[0], values[1], values[2]}; }
+    static void put(Rgb value, std::span<float, 3> values) {
+        values[0] = value.r;
+        values[1] = value.g;
+        values[2] = value.b;
+    }
+
+    Vec3 normal_at(const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights) const {
+        const auto& [a, b, c] = triangle.vertices;
+        const Vec3 sum =
+            double{weights[0]} * normals_[a] + double{weights[1]} * normals_[b] + double{weights[2]} * normals_[c];
+        const double size = length(sum);
+        return size > 0 ? sum / size : sum;
+    }
+
+    // What the lobe shows of each lamp; `lit` says how far it gets here.
+    Rgb gloss(const ShadedScene& scene, const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights,
+              std::span<const float> lit, Vec3 normal, const Reflection& reflection, const Sight& sight) const {
+        Rgb sum{0, 0, 0};
+        if (!(dot(normal, sight.to_viewer) > 0)) return sum;
+        const Vec3 position = SurfacePoint(scene, triangle.vertices, weights).position;
+        for (std::size_t i = 0; i < lights_.size(); ++i) {
+            if (!(lit[i] > 0)) continue;
+            const Illumination from = illuminate(lights_[i], position);
+            const double cosine = dot(normal, from.to_light);
+            if (cosine > 0)
+                sum += lit[i] * static_cast<float>(from.falloff) *
+                       (lights_[i].intensity * reflection.lobe(normal, sight.to_viewer, from.to_light, cosine));
+        }
+        return sum;
+    }
 
     std::vector<Light> lights_;
     std::vector<ShadowMap> maps_;

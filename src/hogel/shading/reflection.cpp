@@ -126,34 +126,62 @@ LobeAlbedo mean_lobe_albedo(double roughness) {
     return mixed(table().mean[k], table().mean[k + 1], weight);
 }
 
+namespace {
+
+double clamped_roughness(const Material& material) {
+    return std::clamp(double{material.roughness}, least_roughness, 1.0);
+}
+
+void add_light(LightUnderLobe& sum, bool glossy, double roughness, Rgb irradiance, double cos_light) {
+    const double reflected = cos_light * std::numbers::inv_pi;
+    if (!glossy) {
+        sum.arriving += static_cast<float>(reflected) * irradiance;
+        return;
+    }
+    const LobeAlbedo lobe = lobe_albedo(cos_light, roughness);
+    sum.arriving += static_cast<float>(reflected * (1 - lobe.offset)) * irradiance;
+    sum.for_lobe += static_cast<float>(reflected * lobe.scale) * irradiance;
+}
+
+}  // namespace
+
+void LightUnderLobe::add(const Material& material, Rgb irradiance, double cos_light) {
+    add_light(*this, material.is_glossy(), clamped_roughness(material), irradiance, cos_light);
+}
+
 Reflection::Reflection(const Material& material, Rgb color, double cos_view)
-    : diffuse_((1 - material.metallic) * color), cos_view_(cos_view) {
-    if (!(material.reflectance > 0 || material.metallic > 0)) return;
-    glossy_ = true;
+    : glossy_(material.is_glossy()), diffuse_((1 - material.metallic) * color), cos_view_(cos_view) {
+    if (!glossy_) return;
     const float plain = (1 - material.metallic) * material.reflectance;
     lobe_ = Rgb{plain, plain, plain} + material.metallic * color;
     most_ = std::max({lobe_.r, lobe_.g, lobe_.b});
-    roughness_ = std::clamp(double{material.roughness}, least_roughness, 1.0);
+    roughness_ = clamped_roughness(material);
     const LobeAlbedo here = lobe_albedo(std::abs(cos_view), roughness_), mean = mean_lobe_albedo(roughness_);
     left_by_lobe_ = (1 - (most_ * here.scale + here.offset)) / (1 - (most_ * mean.scale + mean.offset));
 }
 
-Rgb Reflection::towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const {
-    if (!(cos_light > 0)) return {0, 0, 0};
-    if (!glossy_) return static_cast<float>(cos_light * std::numbers::inv_pi) * diffuse_;
-    const LobeAlbedo lit = lobe_albedo(cos_light, roughness_);
-    const double left = left_by_lobe_ * (1 - (most_ * lit.scale + lit.offset));
-    Rgb sum = static_cast<float>(left * cos_light * std::numbers::inv_pi) * diffuse_;
-    if (!(cos_view_ > 0)) return sum;
+Rgb Reflection::diffuse(const LightUnderLobe& light) const {
+    const auto most = static_cast<float>(most_);
+    return static_cast<float>(left_by_lobe_) * (diffuse_ * (light.arriving + -most * light.for_lobe));
+}
+
+Rgb Reflection::lobe(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const {
+    if (!glossy_ || !(cos_view_ > 0) || !(cos_light > 0)) return {0, 0, 0};
     const Vec3 between = to_light + to_viewer;
     const double size = length(between);
-    if (!(size > 0)) return sum;
+    if (!(size > 0)) return {0, 0, 0};
     const double alpha = roughness_ * roughness_, grazing = schlick(dot(to_viewer, between) / size);
     const double peak =
         distribution(dot(normal, between) / size, alpha) * visibility(cos_light, cos_view_, alpha) * cos_light;
     const auto less = static_cast<float>(peak * (1 - grazing)), more = static_cast<float>(peak * grazing);
-    sum += less * lobe_ + Rgb{more, more, more};
-    return sum;
+    return less * lobe_ + Rgb{more, more, more};
+}
+
+Rgb Reflection::towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const {
+    if (!(cos_light > 0)) return {0, 0, 0};
+    LightUnderLobe light;
+    add_light(light, glossy_, roughness_, {1, 1, 1}, cos_light);
+    return diffuse(light) + lobe(normal, to_viewer, to_light, cos_light);
 }
 
 Rgb Reflection::in_uniform_light() const {

@@ -4,6 +4,15 @@
 
 namespace hogel {
 
+/// What of the light on a point may be reflected diffusely, whoever looks: Σ E n·l/π less what the lobe takes on its
+/// way in, which is in part a multiple of the lobe's reflectance: arriving − reflectance · for_lobe.
+struct LightUnderLobe {
+    Rgb arriving{0, 0, 0}, for_lobe{0, 0, 0};
+
+    /// A light of this irradiance at normal incidence, from where n·l is cos_light > 0.
+    void add(const Material& material, Rgb irradiance, double cos_light);
+};
+
 /// How a point of a surface reflects: a diffuse part and a glossy lobe (GGX microfacets) that together reflect no more
 /// than they receive, and the same both ways.
 ///
@@ -18,6 +27,9 @@ class Reflection {
     /// @param cos_view  n·v; the diffuse part looks the same from behind (n·v < 0), the lobe is seen from in front only
     Reflection(const Material& material, Rgb color, double cos_view);
 
+    /// The two parts of it: the lobe, for one direction, and the diffuse part, for any sum of lights.
+    Rgb lobe(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const;
+    Rgb diffuse(const LightUnderLobe& light) const;
     /// The radiance towards the viewer for irradiance 1 at normal incidence from the unit direction l: the distribution
     /// function times n·l. n is the unit normal, v the unit direction to the viewer.
     Rgb towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hogel/shading/light_cache.h"
 #include "hogel/trace/ray_caster.h"
 
 namespace hogel {
@@ -30,6 +31,18 @@ Rgb texture_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, 
     return texture.sample({b0 * ta.u + b1 * tb.u + b2 * tc.u, b0 * ta.v + b1 * tb.v + b2 * tc.v}, width);
 }
 
+// What a ray sees of the light that falls on a point, from the cache or worked out here.
+Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
+                 const Sight& sight) {
+    const std::size_t size = scene.lighting->size_of_light(scene.triangles[index].mesh).sum();
+    thread_local std::vector<float> room;
+    if (room.size() < size) room.resize(size);
+    const std::span<float> light(room.data(), size);
+    if (!scene.light_cache || !scene.light_cache->read(scene, index, weights, light))
+        scene.lighting->light_on(scene, index, weights, light);
+    return scene.lighting->radiance(scene, index, weights, light, texture, sight);
+}
+
 }  // namespace
 
 RayCaster all_triangles(const ShadedScene& scene) {
@@ -43,7 +56,7 @@ Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1,
     const ShadedScene::Triangle& triangle = scene.triangles[index];
     const bool textured = triangle.texture != ShadedScene::no_texture;
     const Rgb texture = textured ? texture_at(scene, triangle, b0, b1, b2, sight) : Rgb{1, 1, 1};
-    if (scene.lighting) return scene.lighting->radiance(scene, index, {b0, b1, b2}, texture, sight);
+    if (scene.lighting) return lit_radiance(scene, index, {b0, b1, b2}, texture, sight);
     const auto [a, b, c] = triangle.vertices;
     const Rgb radiance = b0 * scene.radiance[a] + b1 * scene.radiance[b] + b2 * scene.radiance[c];
     return textured ? radiance * texture : radiance;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "hogel/scene/scene.h"
@@ -11,6 +12,7 @@
 
 namespace hogel {
 
+class LightCache;
 class RayCaster;
 struct ShadedScene;
 
@@ -21,14 +23,28 @@ struct Sight {
 };
 
 /// Lighting that is worked out for each sample: a pure function of what a ray hits and where it comes from, so that
-/// samples do not depend on the order or the tile in which they are asked for.
+/// samples do not depend on the order or the tile in which they are asked for. It comes in two steps: the light that
+/// falls on a point of a surface, which is dear and the same for all rays that see the point; and what a ray sees of
+/// it.
 class SampleLighting {
   public:
+    /// Numbers that say what light falls on a point: some of any size from 0 up, then some between 0 and 1.
+    struct Size {
+        std::size_t any = 0, shares = 0;
+        std::size_t sum() const { return any + shares; }
+    };
+
     virtual ~SampleLighting() = default;
-    /// The radiance towards the viewer at the point of triangle `index` with these weights of its vertices. `texture`
-    /// multiplies the base colour and the emission.
-    virtual Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
-                         const Sight& sight) const = 0;
+    /// How many numbers the light on a mesh takes; none where its vertices say it all.
+    virtual Size size_of_light(std::size_t mesh) const = 0;
+    /// The light on the point of triangle `index` with these weights of its vertices, `size_of_light` numbers. They may
+    /// be interpolated between points of one triangle.
+    virtual void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
+                          std::span<float> light) const = 0;
+    /// The radiance towards the viewer of the point under that light. `texture` multiplies the base colour and the
+    /// emission.
+    virtual Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
+                         std::span<const float> light, Rgb texture, const Sight& sight) const = 0;
 };
 
 /// A scene ready for any renderer: one list of triangles, and their light. Without `lighting` the radiance at a point
@@ -49,6 +65,8 @@ struct ShadedScene {
     std::vector<Texture> textures;
     Rgb background;
     std::shared_ptr<const SampleLighting> lighting;  ///< null where `radiance` says it all
+    std::shared_ptr<LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null: worked out
+                                              ///< for each ray
 
     /// Whether interpolating the vertices' radiance is not all there is to this triangle.
     bool needs_samples(std::size_t index) const { return lighting || triangles[index].texture != no_texture; }

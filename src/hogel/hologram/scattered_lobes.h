@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hogel/lightfield/light_field.h"
+
+namespace hogel {
+
+/// The lobes of a hogel's frequencies that take their light from the rays of several faces of a hemicube. A lobe is the
+/// mean over points of its cell in frequency, two or more for each ray that it covers; each point is looked up, with
+/// bilinear interpolation, in the first face that has its direction. Points of no face, and those where the cell ends
+/// at the plane of the hologram, are dark.
+struct ScatteredLobes {
+    struct Lobe {
+        std::uint32_t coefficient;   // of the DFT: [j_y mod n][j_x mod n], rows running down
+        std::uint32_t first, count;  // of its rays and weights
+        float scale;                 // (λ/d)² / cos θ, applied under the root
+    };
+    std::vector<Lobe> lobes;
+    std::vector<std::uint32_t> rays;  // face after face, [v][u] in each
+    std::vector<float> weights;
+};
+
+ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
+
+/// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]), or where the values are roots already √scale · Σ.
+void average_scattered(const ScatteredLobes& lobes, View<const float, 2> values, bool of_roots, View<float, 2> out);
+
+}  // namespace hogel

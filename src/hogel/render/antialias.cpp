@@ -1,0 +1,120 @@
+#include "hogel/render/antialias.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "hogel/core/error.h"
+#include "hogel/render/renderer.h"
+
+namespace hogel {
+namespace {
+
+class Averaged final : public LightFieldSource {
+  public:
+    Averaged(std::unique_ptr<LightFieldSource> fine, const LightFieldGrid& grid, const SamplesPerRay& samples)
+        : fine_(std::move(fine)), grid_(grid), samples_(samples) {
+        const HogelRange suits = fine_->preferred_tile();
+        block_ = {0, 0, std::clamp<std::size_t>(suits.ns / samples.hogel, 1, grid.hogels_s),
+                  std::clamp<std::size_t>(suits.nt / samples.hogel, 1, grid.hogels_t)};
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return fine_->has_depth(); }
+    HogelRange preferred_tile() const override { return block_; }
+
+    void read(LightFieldTile& tile) const override {
+        const HogelRange& range = tile.range;
+        for (std::size_t t = 0; t < range.nt; t += block_.nt)
+            for (std::size_t s = 0; s < range.ns; s += block_.ns)
+                read_block(tile, s, t, std::min(block_.ns, range.ns - s), std::min(block_.nt, range.nt - t));
+    }
+
+  private:
+    // Hogels (s, t) and on of a tile.
+    void read_block(LightFieldTile& tile, std::size_t s, std::size_t t, std::size_t ns, std::size_t nt) const {
+        const std::size_t n = samples_.hogel;
+        const HogelRange& range = tile.range;
+        LightFieldTile fine(fine_->grid(), {n * (range.s0 + s), n * (range.t0 + t), n * ns, n * nt},
+                            tile.depth.size() > 0);
+        fine_->read(fine);
+        const double each = 1 / static_cast<double>(samples_.count());
+        std::vector<double> sums(grid_.directions_u);
+        for (std::size_t j = 0; j < nt; ++j)
+            for (std::size_t i = 0; i < ns; ++i)
+                for (std::size_t v = 0; v < grid_.directions_v; ++v) {
+                    for (std::size_t c = 0; c < grid_.channels; ++c) {
+                        // In double precision, where the sum of so many floats that are all the same is exact.
+                        std::ranges::fill(sums, 0.0);
+                        for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
+                            add(&fine.radiance(c, fine_t, fine_s, fine_v, 0), sums);
+                        });
+                        float* out = &tile.radiance(c, t + j, s + i, v, 0);
+                        for (std::size_t u = 0; u < sums.size(); ++u) out[u] = static_cast<float>(sums[u] * each);
+                    }
+                    if (tile.depth.size() == 0) continue;
+                    float* out = &tile.depth(t + j, s + i, v, 0);
+                    std::fill_n(out, grid_.directions_u, std::numeric_limits<float>::infinity());
+                    for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
+                        const float* in = &fine.depth(fine_t, fine_s, fine_v, 0);
+                        for (std::size_t k = 0; k < grid_.directions_u * samples_.direction; ++k)
+                            out[k / samples_.direction] = std::min(out[k / samples_.direction], in[k]);
+                    });
+                }
+    }
+
+    // The rows of fine samples in the cells of hogel (j, i) and row v of its directions, always in this order.
+    template <class Visit>
+    void for_rows(std::size_t j, std::size_t i, std::size_t v, const Visit& visit) const {
+        for (std::size_t fine_t = j * samples_.hogel; fine_t < (j + 1) * samples_.hogel; ++fine_t)
+            for (std::size_t fine_s = i * samples_.hogel; fine_s < (i + 1) * samples_.hogel; ++fine_s)
+                for (std::size_t fine_v = v * samples_.direction; fine_v < (v + 1) * samples_.direction; ++fine_v)
+                    visit(fine_t, fine_s, fine_v);
+    }
+
+    void add(const float* fine, std::vector<double>& sums) const {
+        for (double& sum : sums)
+            for (std::size_t k = 0; k < samples_.direction; ++k) sum += double{*fine++};
+    }
+
+    std::unique_ptr<LightFieldSource> fine_;
+    LightFieldGrid grid_;
+    SamplesPerRay samples_;
+    HogelRange block_;
+};
+
+}  // namespace
+
+LightFieldGrid finer(const LightFieldGrid& grid, const SamplesPerRay& samples) {
+    constexpr std::size_t most = 64;
+    if (samples.hogel < 1 || samples.direction < 1 || samples.hogel > most || samples.direction > most)
+        throw Error(ErrorCode::usage, fmt::format("{}x{} samples a ray; expected 1 to {} along a hogel and along a "
+                                                  "direction's cell",
+                                                  samples.hogel, samples.direction, most));
+    LightFieldGrid fine = grid;
+    fine.hogels_s *= samples.hogel;
+    fine.hogels_t *= samples.hogel;
+    fine.pitch /= static_cast<double>(samples.hogel);
+    fine.directions_u *= samples.direction;
+    fine.directions_v *= samples.direction;
+    validate(fine, ErrorCode::usage, "samples of the rays of a light field");
+    return fine;
+}
+
+std::unique_ptr<LightFieldSource> average(std::unique_ptr<LightFieldSource> fine, const LightFieldGrid& grid,
+                                          const SamplesPerRay& samples) {
+    if (fine->grid() != finer(grid, samples))
+        throw Error(ErrorCode::usage, "a light field to average has another sampling than its samples need");
+    return std::make_unique<Averaged>(std::move(fine), grid, samples);
+}
+
+std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
+                                                const LightFieldGrid& grid, const SamplesPerRay& samples) {
+    validate(grid, ErrorCode::usage, "light field to render");
+    auto fine = make_renderer(name, std::move(scene), finer(grid, samples));
+    return samples.count() == 1 ? std::move(fine) : average(std::move(fine), grid, samples);
+}
+
+}  // namespace hogel
