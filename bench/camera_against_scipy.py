@@ -4,7 +4,8 @@
 usage: camera_against_scipy.py HOGEL      HOGEL: the program, built for release
 
 scipy's side is written from the equations alone, in double precision: pad, transform, multiply by e^(2 pi i f_z z), transform
-back. Where LightPipes or odak are installed, the field goes to the other plane by them too. Printed: how alike the results are, and the processor time of both (hogel's with reading and writing its files).
+back. Where LightPipes or odak are installed, the field goes to the other plane by them too. Printed: how alike the results are,
+and the processor time of both (hogel's with reading and writing its files).
 """
 import os
 import resource
@@ -102,7 +103,8 @@ def main():
             start = time.process_time()
             theirs = other(padded(field, 5 * SAMPLES // 2)[0], 2e-3)[inside, inside]
             seconds = time.process_time() - start
-            print(f"  {other.__name__}: correlation {alike(theirs, np.load('there.npy').astype(complex)):.6f}, {seconds:.2f} s")
+            same = alike(theirs, np.load("there.npy").astype(complex))
+            print(f"  {other.__name__}: correlation {same:.6f}, {seconds:.2f} s")
         except ImportError as error:
             print(f"  {other.__name__}: left out, {error}")
 
