@@ -4,7 +4,8 @@
 usage: camera_against_scipy.py HOGEL      HOGEL: the program, built for release
 
 scipy's side is written from the equations alone, in double precision: pad, transform, multiply by e^(2 pi i f_z z), transform
-back. Printed: how alike the results are, and the processor time of both (hogel's with reading and writing its files).
+back. Where LightPipes or odak are installed, the field goes to the other plane by them too. Printed: how alike the results are,
+and the processor time of both (hogel's with reading and writing its files).
 """
 import os
 import resource
@@ -60,6 +61,25 @@ def read_picture(path):
     return np.where(display <= 0.04045, display / 12.92, ((display + 0.055) / 1.055) ** 2.4).ravel()
 
 
+def by_lightpipes(window, z):
+    import LightPipes
+
+    field = LightPipes.Begin(window.shape[0] * PITCH, WAVELENGTH, window.shape[0])
+    field.field = window
+    return LightPipes.Forvard(field, z).field
+
+
+def by_odak(window, z):
+    import odak.learn.wave
+    import torch
+
+    kind, padding = "Bandlimited Angular Spectrum", [False, False, False]
+    wave = torch.from_numpy(window.astype(np.complex64))
+    number = odak.learn.wave.wavenumber(WAVELENGTH)
+    there = odak.learn.wave.propagate_beam(wave, number, z, PITCH, WAVELENGTH, kind, zero_padding=padding)
+    return there.squeeze().numpy()
+
+
 def main():
     random = np.random.default_rng(1)
     noise = random.standard_normal((2, SAMPLES, SAMPLES))
@@ -78,6 +98,15 @@ def main():
     there = elsewhere(window, 2e-3)[inside, inside]
     print(f"2 mm on: correlation {alike(there, np.load('there.npy').astype(complex)):.6f}, "
           f"hogel {seconds:.2f} s, scipy {time.process_time() - start:.2f} s")
+    for other in [by_lightpipes, by_odak]:
+        try:
+            start = time.process_time()
+            theirs = other(padded(field, 5 * SAMPLES // 2)[0], 2e-3)[inside, inside]
+            seconds = time.process_time() - start
+            same = alike(theirs, np.load("there.npy").astype(complex))
+            print(f"  {other.__name__}: correlation {same:.6f}, {seconds:.2f} s")
+        except ImportError as error:
+            print(f"  {other.__name__}: left out, {error}")
 
     eye, pupil, pixels = 60e-3, 2e-3, 64
     for camera in ["narrow", "full"]:

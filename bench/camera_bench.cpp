@@ -2,7 +2,8 @@
 //   camera_bench [samples across=6144] [threads=1] [rounds=3]
 // Printed: how fast the narrow band takes a hologram in; what a new focus then takes at 1024 x 1024 pixels, from a film
 // of about as many samples; and how long a field of 2048 x 2048 samples takes to another plane, against the bare
-// transforms of the same size there and back. The best of some rounds: wall time, and in brackets processor time.
+// transforms of the same size there and back; and what the full camera takes for a photograph of 4096 x 4096 samples,
+// against the bare transforms that it needs. The best of some rounds: wall time, and in brackets processor time.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -84,6 +85,41 @@ void plane_to_plane(std::size_t rounds) {
                 whole.wall, whole.processor, bare.wall, bare.processor);
 }
 
+// The transforms of a full photograph: the hologram's rows in its window and the band's columns; from them to the lens,
+// from its opening to plane waves, and from these to the plane in focus.
+void full_camera(std::size_t rounds) {
+    const Field field = noise(4096);
+    const Grid& plane = field.grid().plane;
+    const double wavelength = field.grid().wavelength, room = 1.1;
+    Camera camera;
+    camera.pupil = 6_mm;
+    camera.focus_depth = -3_mm;
+    camera.picture = {400, 400, plane.size_x() / 400, plane.size_y() / 400, 0, 0};
+    const Seconds whole = best_of(rounds, [&] { photograph_fully(field, {&camera, 1}); });
+
+    const double pupil = room * camera.pupil;
+    const Grid window = padded(plane, plane.size_x() + pupil, plane.size_y() + pupil);
+    const Band band =
+        band_between(Rectangle(plane), Rectangle(Grid{1, 1, pupil, pupil, 0, 0}), camera.eye.z, wavelength);
+    const auto columns = std::size_t((band.high_x - band.low_x) * window.size_x());
+    const double film = std::max(room * double(columns), 3 * pupil / (wavelength * camera.eye.z) * window.size_x());
+    const std::size_t side = good_fft_size(std::size_t(film) + 16);
+    Array<std::complex<float>, 1> line({std::max(window.width, side)});
+    const auto lines = [&](std::size_t samples, std::size_t count) {
+        const Fft1 fft(samples);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::ranges::fill(line.elements(), std::complex<float>(1));
+            fft.forward(line.data());
+        }
+    };
+    const Seconds bare = best_of(rounds, [&] {
+        lines(window.width, plane.height + columns);
+        lines(side, 2 * (columns + side) + 2 * side);
+    });
+    std::printf("full photograph of 4096 x 4096 samples: %.2f s (%.2f), its transforms alone: %.2f s (%.2f)\n",
+                whole.wall, whole.processor, bare.wall, bare.processor);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -95,4 +131,5 @@ int main(int argc, char** argv) {
     narrow_band(number(1, 6144), rounds);
     new_focus(rounds);
     plane_to_plane(rounds);
+    full_camera(rounds);
 }

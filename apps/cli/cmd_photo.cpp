@@ -27,10 +27,13 @@ struct Options {
     std::string camera{defaults.camera};
     bool geometric = false, wave = false;
 
-    // Where the full camera may put what does not fit into memory: beside the picture.
-    std::optional<std::filesystem::path> scratch() const {
+    double film_distance = 0;
+
+    // The full camera may put beside the picture what does not fit into memory.
+    std::optional<FullCameraOptions> full() const {
         if (camera != "full") return {};
-        return std::filesystem::absolute(output).parent_path();
+        return FullCameraOptions{
+            {.memory = Scratch().memory, .folder = std::filesystem::absolute(output).parent_path()}, film_distance};
     }
 };
 
@@ -52,7 +55,7 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
     for (const auto& field : file.fields)
         for (const Camera& camera : cameras) require_light_towards(field->grid(), camera);
     Stage stage(session, "wave photograph");
-    std::vector<Image> pictures = photograph_colours(stage, file.fields, cameras, options.scratch());
+    std::vector<Image> pictures = photograph_colours(stage, file.fields, cameras, options.full());
     const auto black = [](const Image& picture) {
         return std::ranges::all_of(picture.pixels.elements(), [](float value) { return value == 0; });
     };
@@ -81,7 +84,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
                                      needs_depth(options.hologram));
     const auto holograms = make_holograms(session, faces, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
-    return photograph_colours(stage, holograms, cameras, options.scratch());
+    return photograph_colours(stage, holograms, cameras, options.full());
 }
 
 int photo(const Options& options, const Session& session) {
@@ -96,6 +99,8 @@ int photo(const Options& options, const Session& session) {
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     if (geometric && options.camera != defaults.camera)
         throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
+    if (options.film_distance != 0 && options.camera != "full")
+        throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");
     std::vector<Image> pictures = kind == InputKind::hologram
                                       ? photographs_of_hologram(options, session)
                                       : photographs_of_light_field(options, session, kind, geometric);
@@ -139,6 +144,8 @@ void add_photo_options(CLI::App* command, Options& options) {
               ->type_name("narrow|full")
               ->check(CLI::IsMember({"narrow", "full"}).description(""))
               ->capture_default_str());
+    group(add_length(command, "--film-distance", options.film_distance,
+                     "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens"));
     CLI::Option* geometric =
         command->add_flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
     group(geometric);

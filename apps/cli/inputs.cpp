@@ -403,15 +403,13 @@ std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
 }
 
 std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
-                                      std::span<const Camera> cameras,
-                                      const std::optional<std::filesystem::path>& full) {
+                                      std::span<const Camera> cameras, const std::optional<FullCameraOptions>& full) {
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
     for (std::size_t c = 0; c < colours; ++c) {
         const Progress progress = stage.progress(c, colours);
-        const std::vector<Image> seen =
-            full ? photograph_fully(*holograms[c], cameras, progress, {.memory = Scratch().memory, .folder = *full})
-                 : photograph(*holograms[c], cameras, progress);
+        const std::vector<Image> seen = full ? photograph_fully(*holograms[c], cameras, progress, *full)
+                                             : photograph(*holograms[c], cameras, progress);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
             for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)

@@ -13,6 +13,7 @@
 #include "hogel/image/image.h"
 #include "hogel/io/files.h"
 #include "hogel/lightfield/light_field.h"
+#include "hogel/optics/photograph.h"
 #include "hogel/render/antialias.h"
 #include "hogel/scene/scene.h"
 #include "hogel/shading/shaded_scene.h"
@@ -120,11 +121,11 @@ std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
                                                          std::span<const std::unique_ptr<LightFieldSource>> faces,
                                                          const HologramOptions& options, std::size_t looks);
 
-/// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With a folder for scratch
-/// files by the full chain of plane waves, otherwise by the narrow band.
+/// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With options for it by the
+/// full chain of plane waves, otherwise by the narrow band.
 std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
                                       std::span<const Camera> cameras,
-                                      const std::optional<std::filesystem::path>& full = {});
+                                      const std::optional<FullCameraOptions>& full = {});
 
 /// A camera that frames a hologram of this size with so many pixels across.
 Camera camera_for(double width, double height, std::size_t resolution);

@@ -12,7 +12,8 @@
 namespace hogel {
 namespace {
 
-// An eye as the cameras need it: its widest pupil, and what spreads farthest on a film.
+// An eye as the cameras need it: its widest pupil and the focus farthest off in one camera, which bounds the memory;
+// and what spreads farthest on a film.
 struct Eye {
     Camera widest;
     double blur;
@@ -27,8 +28,13 @@ std::vector<Eye> eyes_of(std::span<const Camera> cameras) {
             eyes.push_back({camera, defocus_blur(camera)});
             continue;
         }
-        if (camera.pupil > same->widest.pupil) same->widest = camera;
-        same->blur = std::max(same->blur, defocus_blur(camera));
+        same->widest.pupil = std::max(same->widest.pupil, camera.pupil);
+        if (defocus_blur(camera) <= same->blur) continue;
+        same->blur = defocus_blur(camera);
+        same->widest.focus_depth = camera.focus_depth;
+        same->widest.focus_slope_x = camera.focus_slope_x;
+        same->widest.focus_slope_y = camera.focus_slope_y;
+        same->widest.picture = camera.picture;
     }
     return eyes;
 }

@@ -76,6 +76,12 @@ TEST(Capture, what_was_not_captured_is_refused) {
     EXPECT_TRUE(refused([](Camera& camera) { camera.pupil = 3.1e-3; }));
     EXPECT_TRUE(refused([](Camera& camera) { camera.focus_depth = 3e-3; }));
     EXPECT_THROW(capture(field, cameras, {}, {.memory = 1000}), Error);
+    // A focus far off takes a larger film, whichever camera asks for it.
+    std::vector<Camera> far(2, cameras[0]);
+    far[1].focus_depth = -0.95 * far[1].eye.z;
+    far[1].pupil = 0.9 * far[0].pupil;
+    capture(field, std::span(far).first(1), {}, {.memory = 3 << 20});
+    EXPECT_THROW(capture(field, far, {}, {.memory = 3 << 20}), Error);
 }
 
 }  // namespace

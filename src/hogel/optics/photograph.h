@@ -36,13 +36,22 @@ void require_photographs(const FieldGrid& hologram, std::span<const Camera> came
 /// belongs elsewhere: right for a field that is known to have just these directions, and else a mistake.
 void require_light_towards(const FieldGrid& hologram, const Camera& camera);
 
+/// What the full camera can be told besides its cameras.
+struct FullCameraOptions {
+    Scratch scratch;
+    /// Metres from a thin lens ([K] 6.12) to a film parallel to it, with the focal length that the lens equation asks
+    /// for: what spherical aberration, coma and astigmatism such a lens has, the picture shows. 0: a perfect lens.
+    double film_distance = 0;
+};
+
 /// The same by the chain of [K] 6, with no approximation but that the hologram is a window of its own: plane waves to
 /// the lens, of the directions between the hologram and the pupil alone, by which the copies that sampling makes stay
-/// out; the opening; and from it back to the plane in focus, which is what a perfect lens shows on its film. Cost:
-/// transforms of the hologram with room for the pupil around it. Memory: what `scratch` allows, the rest in a file.
-/// Throws Error(usage) for an eye in directions to which the hologram's samples send no light.
+/// out; the opening; and from it back to the plane in focus, which is what a perfect lens shows on its film; or through
+/// a thin lens on to the film itself. Cost: transforms of the hologram with room for the pupil around it; a tilted
+/// plane in focus takes as much room again. Memory: what `scratch` allows, the rest in a file. Throws Error(usage) for
+/// an eye in directions to which the hologram's samples send no light, and a tilted plane in focus with a thin lens.
 std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
-                                    const Progress& progress = {}, const Scratch& scratch = {});
+                                    const Progress& progress = {}, const FullCameraOptions& options = {});
 
 /// The same by direct summation: every sample of the hologram to every point of the pupil, every point of the pupil to
 /// every pixel, no approximation but the scalar one. Cost: hologram samples × pupil points; for tests and small

@@ -1,14 +1,19 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/units.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/elements.h"
 #include "hogel/optics/film_interpolation_internal.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/optics/photograph_plan_internal.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/optics/tilt.h"
 
 namespace hogel {
 namespace {
@@ -19,8 +24,15 @@ constexpr double edge_room = 1.1;
 struct Chain {
     const FieldSource& hologram;
     std::size_t look;
-    const Scratch& scratch;
+    const FullCameraOptions& options;
 };
+
+bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
+
+std::array<Vec3, 4> corners(const Grid& plane) {
+    const Rectangle all(plane);
+    return {{{all.left, all.bottom, 0}, {all.right, all.bottom, 0}, {all.left, all.top, 0}, {all.right, all.top, 0}}};
+}
 
 // A square around an eye's pupil.
 Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pupil, eye.x, eye.y}); }
@@ -39,51 +51,121 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
     const Grid& plane = chain.hologram.grid().plane;
     const Vec3 lens = cameras[eye.members.front()].eye;
     const double pupil = edge_room * eye.pupil;
-    // What a focus behind the hologram spreads over must not come in again at the other side of the window.
-    double spread = 1;
-    for (std::size_t i : eye.members) spread = std::max(spread, 1 + cameras[i].focus_depth / lens.z);
+    // What a focus behind the hologram spreads over, or a picture larger than it, must not come in again at the other
+    // side of the window. A plane that is tilted afterwards has as much room again.
+    double spread = std::max(1.0, chain.options.film_distance / lens.z);
+    for (std::size_t i : eye.members)
+        for (const Vec3& corner : corners(plane))
+            spread = std::max(spread, (is_tilted(cameras[i]) ? 2 : 1) * focus_ratio(cameras[i], corner.x, corner.y));
     const Grid window = padded(plane, spread * (plane.size_x() + pupil), spread * (plane.size_y() + pupil));
     const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, chain.hologram.grid().wavelength);
-    Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.scratch, progress);
+    Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress);
     propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + pupil),
                       0.5 * (plane.size_y() + pupil)});
     return waves;
 }
 
-// What a perfect lens makes of the wave in its opening: the wave that would come from the plane in focus, were there
-// nothing else. So light goes back to that plane, through nothing; the film shows it as large as the film is.
+// The wave that makes the picture, and where in it a point in focus lies: at the window's centre plus `scale` times
+// what lies between the point and `origin` along the axes.
 struct Focused {
     Wave wave;
     double pupil_area;
+    Vec3 origin;
+    Orientation axes;
+    double scale = 1;
 };
 
-Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram, const Scratch& scratch) {
-    const double wavelength = at_lens.wavelength, R = camera.eye.z, m = 1 + camera.focus_depth / R;
+// The point in focus on the line of sight through a point of the hologram plane.
+Vec3 in_focus(const Camera& camera, double x, double y) {
+    return camera.eye + focus_ratio(camera, x, y) * (Vec3{x, y, 0} - camera.eye);
+}
+
+// The axes of the plane in focus, z = −focus_depth − slope_x x − slope_y y.
+Orientation stand(const Camera& camera) {
+    const Vec3 x = normalize(Vec3{1, 0, -camera.focus_slope_x}), up{0, 1, -camera.focus_slope_y};
+    return {x, normalize(up - dot(up, x) * x)};
+}
+
+// The wave on the plane in focus, from that on a parallel plane which it crosses in the middle.
+Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& hologram, Vec3 origin,
+                     const Orientation& axes, const Scratch& scratch) {
+    // The size of the picture on it, and the directions from there to the pupil.
+    double half_x = 0, half_y = 0, nearest = camera.eye.z - origin.z;
+    Band band{1e30, -1e30, 1e30, -1e30};
+    const double pupil = edge_room * camera.pupil;
+    for (const Vec3& corner : corners(hologram)) {
+        const Vec3 p = in_focus(camera, corner.x, corner.y);
+        nearest = std::min(nearest, camera.eye.z - p.z);
+        half_x = std::max(half_x, std::abs(dot(p - origin, axes.x)));
+        half_y = std::max(half_y, std::abs(dot(p - origin, axes.y)));
+        for (const Vec3& edge : corners({1, 1, pupil, pupil, camera.eye.x, camera.eye.y})) {
+            const Vec3 way = normalize(Vec3{edge.x, edge.y, camera.eye.z} - p) / waves.wavelength;
+            const double fx = dot(way, axes.x), fy = dot(way, axes.y);
+            band = {std::min(band.low_x, fx), std::max(band.high_x, fx), std::min(band.low_y, fy),
+                    std::max(band.high_y, fy)};
+        }
+    }
+    // Of what is out of focus there the light spreads over more.
+    const double size_x = 4 * half_x + pupil, size_y = 4 * half_y + pupil;
+    const auto samples = [&](double size, double low, double high) {
+        return film_samples(static_cast<std::size_t>(std::ceil(size * (high - low))), size, camera.pupil, nearest,
+                            waves.wavelength);
+    };
+    const std::size_t width = samples(size_x, band.low_x, band.high_x);
+    const std::size_t height = samples(size_y, band.low_y, band.high_y);
+    const Grid window{width, height, size_x / static_cast<double>(width), size_y / static_cast<double>(height), 0, 0};
+    return wave_of(tilt(waves, axes, window, band, scratch), width, height, scratch);
+}
+
+// What a perfect lens makes of the wave in its opening: the wave that would come from the plane in focus, were there
+// nothing else. So light goes back to that plane, through nothing; the film shows it as large as the film is. A thin
+// lens instead bends the light towards a film behind it, for good or ill.
+Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
+                      const FullCameraOptions& options) {
+    const double wavelength = at_lens.wavelength, R = camera.eye.z;
+    const double m = focus_ratio(camera, hologram.center_x, hologram.center_y), b = options.film_distance;
+    const double focal_length = b > 0 ? 1 / (1 / (m * R) + 1 / b) : 0;
     const Grid& window = at_lens.window;
-    const std::size_t width = film_samples(at_lens.width(), window.size_x(), camera.pupil, R, wavelength);
-    const std::size_t height = film_samples(at_lens.height(), window.size_y(), camera.pupil, R, wavelength);
+    const auto samples = [&](std::size_t columns, double size) {
+        if (b == 0) return film_samples(columns, size, camera.pupil, R, wavelength);
+        // The lens bends by so much more than what comes to it.
+        const auto bent = static_cast<std::size_t>(size * edge_room * camera.pupil / (wavelength * focal_length));
+        return film_samples(columns + bent, size, camera.pupil, b, wavelength);
+    };
+    const std::size_t width = samples(at_lens.width(), window.size_x());
+    const std::size_t height = samples(at_lens.height(), window.size_y());
     double area = 0;
     Spectrum behind = [&] {
-        Wave lens = wave_of(at_lens, width, height, scratch);
+        Wave lens = wave_of(at_lens, width, height, options.scratch);
         area = circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil);
+        if (b > 0) thin_lens(lens, camera.eye.x, camera.eye.y, edge_room * camera.pupil, focal_length);
         const Grid& plane = lens.grid().plane;
         const Band whole{lens.carrier_x - 0.5 / plane.pitch_x, lens.carrier_x + 0.5 / plane.pitch_x,
                          lens.carrier_y - 0.5 / plane.pitch_y, lens.carrier_y + 0.5 / plane.pitch_y};
-        return spectrum_of(lens, plane, whole, scratch);
+        return spectrum_of(lens, plane, whole, options.scratch);
     }();
-    const double pupil = edge_room * camera.pupil;
-    propagate(behind, {-m * R, -m * (camera.eye.x - hologram.center_x), -m * (camera.eye.y - hologram.center_y),
-                       0.5 * m * (hologram.size_x() + pupil), 0.5 * m * (hologram.size_y() + pupil)});
-    return {wave_of(behind, width, height, scratch), area};
+    // How far, and how much larger than the hologram the picture there is.
+    const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
+    const double pupil = edge_room * camera.pupil * (b > 0 ? 1 / larger : 1);
+    propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
+                       distance / R * (camera.eye.y - hologram.center_y), 0.5 * larger * (hologram.size_x() + pupil),
+                       0.5 * larger * (hologram.size_y() + pupil)});
+    const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
+    if (is_tilted(camera)) {
+        const Orientation axes = stand(camera);
+        return {on_tilted_plane(behind, camera, hologram, origin, axes, options.scratch), area, origin, axes};
+    }
+    return {wave_of(behind, width, height, options.scratch), area, origin, {}, b > 0 ? -b / (m * R) : 1};
 }
 
 // Adds the picture, as radiance: see docs/notation.md, section 4.
 void expose(const Focused& focused, const Camera& camera, const Rectangle& shown, double weight, Image& image) {
     const Grid& picture = camera.picture;
     const Grid& plane = focused.wave.grid().plane;
-    const double R = camera.eye.z, m = 1 + camera.focus_depth / R;
+    const double R = camera.eye.z, m = focus_ratio(camera, picture.center_x, picture.center_y);
+    const double larger = m * std::abs(focused.scale);
     const auto points = [&](double pixel, double sample) {
-        return static_cast<std::size_t>(std::max(2.0, std::ceil(pixel * m / sample)));
+        return static_cast<std::size_t>(std::max(2.0, std::ceil(pixel * larger / sample)));
     };
     const std::size_t sub_x = points(picture.pitch_x, plane.pitch_x), sub_y = points(picture.pitch_y, plane.pitch_y);
     const View<const std::complex<float>, 2> samples = focused.wave.samples.view();
@@ -98,11 +180,12 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                     const double y = picture.y(static_cast<double>(row) +
                                                (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
                     if (!shown.holds(x, y)) continue;
-                    const Vec3 way = m * (Vec3{x, y, 0} - camera.eye);
-                    const double value = cubic_at(samples.extent(0), samples.extent(1), plane.row(camera.eye.y + way.y),
-                                                  plane.column(camera.eye.x + way.x), intensity);
-                    const double r = length(way);
-                    sum += value * r * r * r / (m * R * focused.pupil_area);
+                    const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
+                    const double value = cubic_at(samples.extent(0), samples.extent(1),
+                                                  plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                                  plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity);
+                    const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
+                    sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
                 }
             image.pixels(row, column, 0) += static_cast<float>(weight * sum / static_cast<double>(sub_x * sub_y));
         }
@@ -112,13 +195,21 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
 }  // namespace
 
 std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
-                                    const Progress& progress, const Scratch& scratch) {
+                                    const Progress& progress, const FullCameraOptions& options) {
+    const double film = options.film_distance;
+    if (!std::isfinite(film) || film < 0)
+        throw Error(ErrorCode::usage, fmt::format("a film {} m behind its lens: it must be positive and finite", film));
     std::vector<std::size_t> all;
     std::vector<Image> images;
     for (const Camera& camera : cameras) {
         require_light_towards(hologram.grid(), camera);
-        if (camera.focus_slope_x != 0 || camera.focus_slope_y != 0)
-            throw Error(ErrorCode::usage, "the full camera's film is parallel to the hologram; it cannot be tilted");
+        if (film > 0 && film < camera.pupil)
+            throw Error(ErrorCode::usage,
+                        fmt::format("a film {} behind a thin lens of {}: nearer than the lens is wide",
+                                    format_length(film), format_length(camera.pupil)));
+        if (film > 0 && is_tilted(camera))
+            throw Error(ErrorCode::usage,
+                        "behind a thin lens the film is parallel to the hologram; it cannot be tilted");
         all.push_back(all.size());
         images.emplace_back(camera.picture.width, camera.picture.height, 1);
     }
@@ -131,9 +222,9 @@ std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const
             const auto tell = [&](double fraction) {
                 return !progress || progress((static_cast<double>(done) + 0.5 * fraction) / parts);
             };
-            const Spectrum waves = wave_at_lens({hologram, look, scratch}, cameras, eye, tell);
+            const Spectrum waves = wave_at_lens({hologram, look, options}, cameras, eye, tell);
             for (std::size_t i : eye.members)
-                expose(wave_in_focus(waves, cameras[i], plane, scratch), cameras[i], Rectangle(plane),
+                expose(wave_in_focus(waves, cameras[i], plane, options), cameras[i], Rectangle(plane),
                        1 / static_cast<double>(hologram.looks()), images[i]);
             report(progress, static_cast<double>(++done) / parts);
         }

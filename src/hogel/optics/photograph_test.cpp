@@ -163,6 +163,57 @@ TEST(Photograph, by_the_full_chain_is_the_same_picture) {
     }
 }
 
+// A plane in focus that is tilted is one plane wave for another in the full chain, and a phase of the pupil that
+// depends on the direction in the narrow band.
+TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
+    const FieldGrid grid{{700, 640, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
+    Field field(grid);
+    std::mt19937 random(9);
+    std::normal_distribution<float> normal;
+    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    for (const Vec3 eye : {Vec3{0, 0, 50_mm}, Vec3{12_mm, -4_mm, 50_mm}}) {
+        Camera camera;
+        camera.eye = eye;
+        camera.pupil = 3_mm;
+        camera.focus_depth = 0.3_mm;
+        camera.focus_slope_x = 1.5;
+        camera.focus_slope_y = -0.8;
+        camera.picture = {40, 36, 14_um, 14_um, 0.1_mm, -0.1_mm};
+        const Image narrow = photograph(field, std::span(&camera, 1))[0],
+                    full = photograph_fully(field, std::span(&camera, 1))[0];
+        EXPECT_GT(correlation(narrow, full), 0.999) << eye.x;
+        EXPECT_NEAR(sum(narrow) / sum(full), 1, 1e-2) << eye.x;
+        camera.focus_slope_y = 0.8;
+        EXPECT_LT(correlation(photograph_fully(field, std::span(&camera, 1))[0], full), 0.99) << eye.x;
+    }
+}
+
+// A thin lens and a film behind it make the picture that a perfect lens makes, where the pupil is so narrow that a
+// parabola is a sphere, whatever the film's distance; and another one through a wide pupil.
+TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
+    const FieldGrid grid{{280, 250, 1.5_um, 1.5_um, 50_um, 0}, 633_nm};
+    Field field(grid);
+    std::mt19937 random(10);
+    std::normal_distribution<float> normal;
+    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    const auto alike = [&](double pupil, double focus, double film_distance) {
+        Camera camera;
+        camera.eye = {0.2_mm, -0.1_mm, 10_mm};
+        camera.pupil = pupil;
+        camera.focus_depth = focus;
+        camera.picture = {40, 36, 10_um, 10_um, 50_um, 0};
+        const Image perfect = photograph_fully(field, std::span(&camera, 1))[0];
+        const Image thin = photograph_fully(field, std::span(&camera, 1), {}, {{}, film_distance})[0];
+        // A blurred point sends some of its light beside the film.
+        EXPECT_NEAR(sum(thin) / sum(perfect), 1, pupil < 1_mm ? 1e-2 : 3e-2) << pupil << " " << film_distance;
+        return correlation(perfect, thin);
+    };
+    EXPECT_GT(alike(0.3_mm, 0, 4_mm), 0.998);
+    EXPECT_GT(alike(0.3_mm, 0.6_mm, 10_mm), 0.998);
+    EXPECT_GT(alike(0.3_mm, -0.6_mm, 16_mm), 0.998);
+    EXPECT_LT(alike(2.4_mm, 0, 10_mm), 0.98);
+}
+
 // With little memory a hologram is photographed window by window and a camera at a time: the same picture, but for what
 // light falls far from its place.
 TEST(Photograph, in_windows_is_the_same_picture) {
