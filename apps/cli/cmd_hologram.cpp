@@ -86,8 +86,9 @@ int hologram(Options options, const Session& session) {
     require_writable(options.output);
     auto faces = open_for_hologram(session, options.input, options.render, options.hologram);
     require_holograms(grids_of(faces), options.hologram);
-    if (kind == InputKind::scene && options.hologram.wavelengths.size() > 1)
-        for (auto& face : faces) face = render_once(session, std::move(face), needs_depth(options.hologram));
+    if (kind == InputKind::scene)
+        faces = render_for_holograms(session, std::move(faces), options.hologram.wavelengths.size(),
+                                     needs_depth(options.hologram));
     if (options.hologram.method == "olas") warn_of_parallax(session, *faces.front(), options.hologram.pitch);
     const auto sources = make_holograms(session, faces, options.hologram, 1);
 

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "hogel/core/parallel.h"
 #include "hogel/lightfield/photograph.h"
+#include "hogel/optics/photograph.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "report.h"
@@ -21,7 +22,7 @@ struct Options {
     double eye_distance = defaults.eye_distance;
     double pupil = defaults.pupil;
     std::size_t resolution = defaults.resolution;
-    std::size_t looks = defaults.looks;
+    std::size_t looks = 0;  // none given: enough_looks
     std::size_t pupil_samples = defaults.pupil_samples;
     bool store_hologram = false;
 };
@@ -72,6 +73,18 @@ std::vector<PhotographPair> plan_photographs(const Options& options, const Scene
     return pairs;
 }
 
+// As many looks as make speckle as fine as the usual camera's usual number does. A wide pupil sees finer speckle, of
+// which the pixels average more by themselves.
+std::size_t enough_looks(const Camera& camera) {
+    const auto cells_in_pixel = [](const Camera& any) {
+        const double cell = resolution_cell(any, defaults.green);
+        return std::max(1.0, any.picture.pitch_x * any.picture.pitch_y / (cell * cell));
+    };
+    const double usual = cells_in_pixel(camera_for(defaults.size, defaults.size, defaults.resolution));
+    const double looks = static_cast<double>(defaults.looks) * usual / cells_in_pixel(camera);
+    return static_cast<std::size_t>(std::clamp(std::ceil(looks), 1.0, static_cast<double>(defaults.looks)));
+}
+
 // Runs a stage of the work, tells how long it took, and keeps the time for the report.
 template <class Work>
 void timed(const Session& session, Report& report, const std::string& name, Work work) {
@@ -107,7 +120,6 @@ int make(const Options& options, const Session& session) {
     report.scene = options.scene;
     report.algorithm = options.render.algorithm;
     report.light_field = options.render.grid();
-    report.looks = options.looks;
     report.pupil_samples = options.pupil_samples;
     report.threads = thread_count();
     report.run = describe_run(session);
@@ -115,6 +127,7 @@ int make(const Options& options, const Session& session) {
     const Scene scene = load_scene(session, options.scene, options.render);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
+    report.looks = options.looks > 0 ? options.looks : enough_looks(report.pairs.front().camera);
     std::vector<Camera> cameras;
     for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
     require_holograms(std::span(&report.light_field, 1), options.hologram, cameras);
@@ -129,7 +142,7 @@ int make(const Options& options, const Session& session) {
     });
     report.light_field_bytes = static_cast<double>(std::filesystem::file_size(light_field_file));
     const std::unique_ptr<LightFieldSource> light_field = open_light_field(light_field_file);
-    const auto holograms = make_holograms(session, std::span(&light_field, 1), options.hologram, options.looks);
+    const auto holograms = make_holograms(session, std::span(&light_field, 1), options.hologram, report.looks);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
     timed(session, report, "photographs by rays", [&](Stage& stage) {
@@ -175,7 +188,9 @@ void add_make(CLI::App& app, Session& session) {
     camera(add_length(command, "--eye-distance", options->eye_distance, "Of the lens from the hologram's plane"));
     camera(add_length(command, "--pupil", options->pupil, "Diameter of the lens"));
     camera(add_count(command, "--resolution", options->resolution, "Pixels across a photograph"));
-    camera(add_count(command, "--looks", options->looks, "Photographs averaged against speckle"));
+    camera(add_count(command, "--looks", options->looks,
+                     "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
+               ->default_str(fmt::format("up to {}", defaults.looks)));
     camera(
         add_count(command, "--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays"));
     add_render_options(command, options->render);

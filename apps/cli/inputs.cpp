@@ -10,6 +10,7 @@
 
 #include "hogel/codec/stream.h"
 #include "hogel/direct/scene_hologram.h"
+#include "hogel/lightfield/keep_tiles.h"
 #include "hogel/optics/photograph.h"
 #include "hogel/render/antialias.h"
 #include "hogel/render/light_spacing.h"
@@ -26,6 +27,8 @@ namespace {
 
 // A light field up to this size is kept in memory rather than rendered again for each colour.
 constexpr double kept_bytes = 2e9;
+// Of a larger one rows of hogels are kept up to this, while the squares that they hold are made into holograms.
+constexpr double kept_tile_bytes = 1e9;
 
 bool is_builtin(const std::string& name) {
     return name == church_radiance_scene.name ||
@@ -349,13 +352,23 @@ bool needs_depth(const HologramOptions& options) {
     return needs_depth(stereogram);
 }
 
-std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
-                                              bool with_depth) {
-    if (renderer->grid().samples() * sizeof(float) > kept_bytes) return renderer;
+std::vector<std::unique_ptr<LightFieldSource>> render_for_holograms(
+    const Session& session, std::vector<std::unique_ptr<LightFieldSource>> faces, std::size_t colours,
+    bool with_depth) {
+    double samples = 0;
+    for (const auto& face : faces) samples += face->grid().samples();
+    if (colours == 1 || samples * sizeof(float) > kept_bytes) {
+        for (auto& face : faces)
+            face = keep_tiles(std::move(face), kept_tile_bytes / static_cast<double>(faces.size()), with_depth);
+        return faces;
+    }
     Stage stage(session, "rendering");
-    auto light_field = std::make_unique<LightField>(renderer->grid(), with_depth);
-    copy(*renderer, *light_field, stage.progress());
-    return light_field;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        auto light_field = std::make_unique<LightField>(faces[i]->grid(), with_depth);
+        copy(*faces[i], *light_field, stage.progress(i, faces.size()));
+        faces[i] = std::move(light_field);
+    }
+    return faces;
 }
 
 std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces) {

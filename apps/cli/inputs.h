@@ -103,10 +103,11 @@ std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Sessio
 /// Whether holograms like this need the depth of every ray.
 bool needs_depth(const HologramOptions& options);
 
-/// A light field that will be read once a colour: renders it now and keeps it, where it fits into a modest part of
-/// memory, with its depths if asked.
-std::unique_ptr<LightFieldSource> render_once(const Session& session, std::unique_ptr<LightFieldSource> renderer,
-                                              bool with_depth = false);
+/// Faces of a light field that holograms will read, once a colour, in tiles of their own: rendered in tiles that suit
+/// the renderer, and kept, whole and before, where there are several colours and they fit into a modest part of memory.
+/// With their depths if asked.
+std::vector<std::unique_ptr<LightFieldSource>> render_for_holograms(
+    const Session& session, std::vector<std::unique_ptr<LightFieldSource>> faces, std::size_t colours, bool with_depth);
 
 std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces);
 

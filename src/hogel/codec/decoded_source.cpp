@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <future>
-#include <list>
-#include <mutex>
 
 #include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/recent_results.h"
 
 namespace hogel {
 namespace {
@@ -35,7 +32,7 @@ class DecodedStream {
         : reader_(path),
           coders_(coders_of(reader_)),
           coefficients_(coefficients),
-          kept_(std::max<std::size_t>(1, memory / tile_bytes(reader_))) {
+          recent_(memory / tile_bytes(reader_)) {
         if (!coefficients) return;
         if (!coders_.front()->directional())
             throw Error(ErrorCode::bad_input,
@@ -56,7 +53,7 @@ class DecodedStream {
         // A tile asked for alone is decoded into its place.
         const std::size_t first = r.t0 / size.nt * tiling.across() + r.s0 / size.ns;
         const bool whole = tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
-        if (tiling[first] == r && whole && kept_ < tiling.count()) return decode({part, first}, tile);
+        if (tiling[first] == r && whole && recent_.kept() < tiling.count()) return decode({part, first}, tile);
         for (std::size_t t = r.t0 / size.nt; t * size.nt < r.t0 + r.nt; ++t)
             for (std::size_t s = r.s0 / size.ns; s * size.ns < r.s0 + r.ns; ++s)
                 copy_common(*decoded({part, t * tiling.across() + s}), place, tile);
@@ -95,47 +92,19 @@ class DecodedStream {
         }
     }
 
-    // The tile from the cache, or decoded by the first who asks while the others wait.
     Decoded decoded(Index index) const {
-        std::promise<Decoded> promise;
-        {
-            std::unique_lock lock(mutex_);
-            const auto found = std::ranges::find(cache_, index, &Entry::index);
-            if (found != cache_.end()) {
-                cache_.splice(cache_.begin(), cache_, found);
-                const std::shared_future<Decoded> tile = found->tile;
-                lock.unlock();
-                return tile.get();
-            }
-            cache_.push_front({index, promise.get_future().share()});
-            if (cache_.size() > kept_) cache_.pop_back();
-        }
-        try {
+        return recent_.get(index, [&] {
             auto tile =
                 std::make_shared<LightFieldTile>(reader_.parts()[index.part], reader_.tiling()[index.tile], false);
-            // A thread that waits inside must not begin to read something else, which may wait for this very tile.
-            isolate([&] { decode(index, *tile); });
-            promise.set_value(tile);
+            decode(index, *tile);
             return tile;
-        } catch (...) {
-            promise.set_exception(std::current_exception());
-            const std::lock_guard lock(mutex_);
-            std::erase_if(cache_, [&](const Entry& entry) { return entry.index == index; });
-            throw;
-        }
+        });
     }
-
-    struct Entry {
-        Index index;
-        std::shared_future<Decoded> tile;
-    };
 
     StreamReader reader_;
     std::vector<std::unique_ptr<TileCoder>> coders_;  // of each part
     bool coefficients_;
-    std::size_t kept_;
-    mutable std::mutex mutex_;
-    mutable std::list<Entry> cache_;  // the one used last first
+    mutable RecentResults<Index, LightFieldTile> recent_;
 };
 
 // One face of a stream.
