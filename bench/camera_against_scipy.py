@@ -47,9 +47,12 @@ def alike(a, b):
     return np.abs(np.vdot(a, b)) / np.sqrt(np.vdot(a, a).real * np.vdot(b, b).real)
 
 
+HOGEL = os.path.abspath(sys.argv[1])
+
+
 def hogel(*words):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.argv[1], *words, "--threads", "1", "-q"], check=True)
+    subprocess.run([HOGEL, *words, "--threads", "1", "-q"], check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 

@@ -6,9 +6,9 @@
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { join, resolve } from 'node:path';
 
-const [hogelProgram] = process.argv.slice(2);
+const hogelProgram = resolve(process.argv[2]);
 const folder = mkdtempSync(join(tmpdir(), 'sums'));
 const N = 128, pitch = 2e-6, wavelength = 532e-9, k = 2 * Math.PI / wavelength;
 const place = (i, count, step) => (i + 0.5 - count / 2) * step;

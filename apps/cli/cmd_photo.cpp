@@ -44,6 +44,19 @@ double parse_exposure(const std::string& text) {
     return exposure;
 }
 
+// What the film shows of the light: its intensity, or its phase.
+std::vector<Image> develop(Stage& stage, std::span<const std::unique_ptr<FieldSource>> fields,
+                           std::span<const Camera> cameras, const Options& options) {
+    if (options.display != "phase") return photograph_colours(stage, fields, cameras, options.full());
+    if (fields.size() != 1)
+        throw Error(ErrorCode::usage,
+                    fmt::format("--display phase: a phase is that of one wavelength, but there are {}", fields.size()));
+    std::vector<Image> pictures;
+    for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras, stage.progress(), *options.full()))
+        pictures.push_back(phases(wave));
+    return pictures;
+}
+
 std::vector<Image> photographs_of_hologram(const Options& options, const Session& session) {
     const HologramFile file = open_fields(options.input, options.field, session.command, options.hologram.pitch,
                                           options.hologram.wavelengths);
@@ -55,7 +68,7 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
     for (const auto& field : file.fields)
         for (const Camera& camera : cameras) require_light_towards(field->grid(), camera);
     Stage stage(session, "wave photograph");
-    std::vector<Image> pictures = photograph_colours(stage, file.fields, cameras, options.full());
+    std::vector<Image> pictures = develop(stage, file.fields, cameras, options);
     const auto black = [](const Image& picture) {
         return std::ranges::all_of(picture.pixels.elements(), [](float value) { return value == 0; });
     };
@@ -84,7 +97,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
                                      needs_depth(options.hologram));
     const auto holograms = make_holograms(session, faces, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
-    return photograph_colours(stage, holograms, cameras, options.full());
+    return develop(stage, holograms, cameras, options);
 }
 
 int photo(const Options& options, const Session& session) {
@@ -101,6 +114,9 @@ int photo(const Options& options, const Session& session) {
         throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
     if (options.film_distance != 0 && options.camera != "full")
         throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");
+    if (options.display == "phase" && (options.camera != "full" || options.film_distance != 0))
+        throw Error(ErrorCode::usage,
+                    "--display phase: is that of the full camera with a perfect lens; add --camera full");
     std::vector<Image> pictures = kind == InputKind::hologram
                                       ? photographs_of_hologram(options, session)
                                       : photographs_of_light_field(options, session, kind, geometric);
@@ -108,6 +124,8 @@ int photo(const Options& options, const Session& session) {
     double exposure = given;
     if (options.display == "log") {
         for (Image& picture : pictures) picture = logarithmic(picture);
+        exposure = 1;
+    } else if (options.display == "phase") {
         exposure = 1;
     } else if (given == 0) {
         exposure = automatic_exposure(pictures.front());
@@ -133,9 +151,13 @@ void add_photo_options(CLI::App* command, Options& options) {
     group(command->add_option("--exposure", options.exposure, "What linear values are multiplied by in PNG, or auto")
               ->type_name("NUMBER|auto")
               ->capture_default_str());
-    group(command->add_option("--display", options.display, "Linear light, or four decades of it from black to white")
-              ->type_name("intensity|log")
-              ->check(CLI::IsMember({"intensity", "log"}).description(""))
+    group(command
+              ->add_option("--display", options.display,
+                           "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
+                           "through the middle of "
+                           "the lens, from -pi to pi")
+              ->type_name("intensity|log|phase")
+              ->check(CLI::IsMember({"intensity", "log", "phase"}).description(""))
               ->capture_default_str());
     group(command
               ->add_option("--camera", options.camera,

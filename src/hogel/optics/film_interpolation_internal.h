@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <type_traits>
 #include <vector>
 
 #include "hogel/core/array.h"
@@ -53,15 +54,17 @@ class InterpolationTable {
 };
 
 /// Catmull and Rom's cubic through four neighbours of value(0 … count − 1) at a place between: intensities come with
-/// two samples to their finest wave, for which straight lines would be too coarse. Nothing outside.
+/// two samples to their finest wave, for which straight lines would be too coarse. Nothing outside. Values may be
+/// complex.
 template <class Value>
-float cubic_at(std::size_t count, double place, const Value& value) {
+auto cubic_at(std::size_t count, double place, const Value& value) {
+    using Result = std::decay_t<decltype(value(0))>;
     const double whole = std::floor(place);
-    if (!(whole >= 1 && whole + 2 < static_cast<double>(count))) return 0;
+    if (!(whole >= 1 && whole + 2 < static_cast<double>(count))) return Result{};
     const auto i = static_cast<std::size_t>(whole);
     const auto x = static_cast<float>(place - whole);
-    const float a = value(i - 1), b = value(i), c = value(i + 1), d = value(i + 2);
-    return b + 0.5f * x * ((c - a) + x * ((2 * a - 5 * b + 4 * c - d) + x * (3 * (b - c) + d - a)));
+    const Result a = value(i - 1), b = value(i), c = value(i + 1), d = value(i + 2);
+    return b + 0.5f * x * ((c - a) + x * ((2.0f * a - 5.0f * b + 4.0f * c - d) + x * (3.0f * (b - c) + d - a)));
 }
 
 /// The same in two dimensions, of value(row, column), and never negative.

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "hogel/core/array.h"
 #include "hogel/core/large_array.h"
 #include "hogel/image/camera.h"
 #include "hogel/image/image.h"
@@ -52,6 +54,15 @@ struct FullCameraOptions {
 /// an eye in directions to which the hologram's samples send no light, and a tilted plane in focus with a thin lens.
 std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
                                     const Progress& progress = {}, const FullCameraOptions& options = {});
+
+/// The waves whose intensities photograph_fully() shows, of one look and through a perfect lens: [y][x] at the points
+/// in focus behind the pixels' centres, zero beside the hologram. Phases are relative to the spherical waves that go
+/// from those points to the middle of the pupil, so light through the middle of the pupil alone has one phase. Not
+/// scaled. Errors as there, and Error(usage) for a film distance.
+std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
+                                                          std::span<const Camera> cameras,
+                                                          const Progress& progress = {},
+                                                          const FullCameraOptions& options = {});
 
 /// The same by direct summation: every sample of the hologram to every point of the pupil, every point of the pupil to
 /// every pixel, no approximation but the scalar one. Cost: hologram samples × pupil points; for tests and small

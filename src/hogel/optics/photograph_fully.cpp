@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
@@ -192,15 +195,46 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
     });
 }
 
-}  // namespace
+// e^{2πi cycles}.
+std::complex<float> turned(double cycles) {
+    return std::polar(1.0f, static_cast<float>(2 * std::numbers::pi * (cycles - std::floor(cycles))));
+}
 
-std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
-                                    const Progress& progress, const FullCameraOptions& options) {
-    const double film = options.film_distance;
+// The wave at the points in focus behind the pixels' centres, see waves_in_focus().
+Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera, const Rectangle& shown) {
+    const Grid& picture = camera.picture;
+    const Wave& wave = focused.wave;
+    const Grid& plane = wave.grid().plane;
+    const View<const std::complex<float>, 2> samples = wave.samples.view();
+    // Without its carrier the wave varies slowly enough to be interpolated.
+    std::vector<std::complex<float>> across(plane.width), up(plane.height);
+    for (std::size_t i = 0; i < plane.width; ++i)
+        across[i] = turned(-wave.carrier_x * (plane.x(static_cast<double>(i)) - plane.center_x));
+    for (std::size_t j = 0; j < plane.height; ++j)
+        up[j] = turned(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
+    Array<std::complex<float>, 2> result({picture.height, picture.width});
+    parallel_for(picture.height, [&](std::size_t row) {
+        for (std::size_t column = 0; column < picture.width; ++column) {
+            const double x = picture.x(static_cast<double>(column)), y = picture.y(static_cast<double>(row));
+            if (!shown.holds(x, y)) continue;
+            const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
+            const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
+            const std::complex<float> slow =
+                cubic_at(samples.extent(0), plane.row(plane.center_y + above), [&](std::size_t j) {
+                    return up[j] * cubic_at(samples.extent(1), plane.column(plane.center_x + right),
+                                            [&](std::size_t i) { return across[i] * samples(j, i); });
+                });
+            const double cycles =
+                wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
+            result(row, column) = slow * turned(cycles);
+        }
+    });
+    return result;
+}
+
+void require_full(const FieldSource& hologram, std::span<const Camera> cameras, double film) {
     if (!std::isfinite(film) || film < 0)
         throw Error(ErrorCode::usage, fmt::format("a film {} m behind its lens: it must be positive and finite", film));
-    std::vector<std::size_t> all;
-    std::vector<Image> images;
     for (const Camera& camera : cameras) {
         require_light_towards(hologram.grid(), camera);
         if (film > 0 && film < camera.pupil)
@@ -210,25 +244,57 @@ std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const
         if (film > 0 && is_tilted(camera))
             throw Error(ErrorCode::usage,
                         "behind a thin lens the film is parallel to the hologram; it cannot be tilted");
-        all.push_back(all.size());
-        images.emplace_back(camera.picture.width, camera.picture.height, 1);
     }
+}
+
+// Calls visit(i, wave) with the wave that makes each camera's picture.
+template <class Visit>
+void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
+    std::vector<std::size_t> all(cameras.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
     const std::vector<SharedEye> eyes = group_by_eye(cameras, all);
-    const double parts = static_cast<double>(eyes.size() * hologram.looks());
-    const Grid& plane = hologram.grid().plane;
-    std::size_t done = 0;
-    for (std::size_t look = 0; look < hologram.looks(); ++look)
-        for (const SharedEye& eye : eyes) {
-            const auto tell = [&](double fraction) {
-                return !progress || progress((static_cast<double>(done) + 0.5 * fraction) / parts);
-            };
-            const Spectrum waves = wave_at_lens({hologram, look, options}, cameras, eye, tell);
-            for (std::size_t i : eye.members)
-                expose(wave_in_focus(waves, cameras[i], plane, options), cameras[i], Rectangle(plane),
-                       1 / static_cast<double>(hologram.looks()), images[i]);
-            report(progress, static_cast<double>(++done) / parts);
-        }
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        const auto part = [&](double fraction) {
+            return (static_cast<double>(e) + fraction) / static_cast<double>(eyes.size());
+        };
+        const auto tell = [&](double fraction) { return !progress || progress(part(0.5 * fraction)); };
+        const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], tell);
+        for (std::size_t i : eyes[e].members)
+            visit(i, wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options));
+        report(progress, part(1));
+    }
+}
+
+}  // namespace
+
+std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
+                                    const Progress& progress, const FullCameraOptions& options) {
+    require_full(hologram, cameras, options.film_distance);
+    std::vector<Image> images;
+    for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
+    const auto looks = static_cast<double>(hologram.looks());
+    for (std::size_t look = 0; look < hologram.looks(); ++look) {
+        const auto tell = [&](double fraction) {
+            return !progress || progress((static_cast<double>(look) + fraction) / looks);
+        };
+        focus_all({hologram, look, options}, cameras, tell, [&](std::size_t i, const Focused& focused) {
+            expose(focused, cameras[i], Rectangle(hologram.grid().plane), 1 / looks, images[i]);
+        });
+    }
     return images;
+}
+
+std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
+                                                          std::span<const Camera> cameras, const Progress& progress,
+                                                          const FullCameraOptions& options) {
+    if (options.film_distance != 0)
+        throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
+    require_full(hologram, cameras, 0);
+    std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
+    focus_all({hologram, look, options}, cameras, progress, [&](std::size_t i, const Focused& focused) {
+        waves[i] = wave_at_pixels(focused, cameras[i], Rectangle(hologram.grid().plane));
+    });
+    return waves;
 }
 
 }  // namespace hogel

@@ -163,6 +163,36 @@ TEST(Photograph, by_the_full_chain_is_the_same_picture) {
     }
 }
 
+// The waves behind the full chain's picture: their squares are its speckle, and of the wave that comes from a point the
+// phase is that of the light's way, once around for each wavelength, wherever the point lies.
+TEST(Photograph, waves_in_focus_have_the_phases_of_their_ways) {
+    Camera camera;
+    camera.eye = {6_mm, -3_mm, 60_mm};
+    camera.pupil = 3_mm;
+    camera.focus_depth = 1_mm;
+    camera.picture = {31, 31, 4_um, 4_um, 0, 0};
+    // From the point in focus behind the picture's middle, or farther along the line of sight.
+    const auto through = [&](double farther) {
+        const Vec3 point = (61.0 / 60 + farther / length(camera.eye)) * (Vec3{} - camera.eye) + camera.eye;
+        const Field field = spherical_wave({{600, 600, 0.8_um, 0.8_um, 0, 0}, 633_nm}, point);
+        return waves_in_focus(field, 0, std::span(&camera, 1))[0];
+    };
+    const auto here = through(0), quarter = through(0.25 * 633_nm);
+    EXPECT_NEAR(std::arg(quarter(15, 15) / here(15, 15)), std::numbers::pi / 2, 0.05);
+    // In its focus a spot has one phase, up to the first dark ring.
+    const double cell = resolution_cell(camera, 633_nm);
+    for (std::size_t row = 0; row < 31; ++row)
+        for (std::size_t column = 0; column < 31; ++column) {
+            const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
+            if (std::hypot(x, y) > 0.6 * cell) continue;
+            EXPECT_LT(std::abs(std::arg(here(row, column) / here(15, 15))), 0.2) << row << ' ' << column;
+        }
+    FullCameraOptions film;
+    film.film_distance = 10_mm;
+    Field any({{64, 64, 0.8_um, 0.8_um, 0, 0}, 633_nm});
+    EXPECT_THROW(waves_in_focus(any, 0, std::span(&camera, 1), {}, film), Error);
+}
+
 // A plane in focus that is tilted is one plane wave for another in the full chain, and a phase of the pupil that
 // depends on the direction in the narrow band.
 TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {

@@ -109,6 +109,9 @@ TEST(Scene, what_is_wrong_is_named) {
     scene = cube();
     scene.meshes[0].normals.resize(7);
     EXPECT_NE(complaint(scene).find("7 normals; expected 8"), std::string::npos);
+    scene.meshes[0].normals.assign(8, {0, 0, 1});
+    scene.meshes[0].normals[2].z = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(complaint(scene).find("normals of vertex 2"), std::string::npos);
     scene = cube();
     scene.meshes[0].colors.assign(8, {1, 1, std::numeric_limits<float>::infinity()});
     EXPECT_NE(complaint(scene).find("colors of vertex 0"), std::string::npos);
