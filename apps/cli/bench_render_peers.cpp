@@ -87,7 +87,7 @@ Race race(const Session& session, const std::string& algorithm, const std::vecto
         try {
             const double held = forget_most_memory();
             Lane lane;
-            lane.peer = info.make(scene, grid);
+            lane.peer = info.make(*scene, grid);
             lane.hogels = rows.some(affordable_hogels(*lane.peer, rows, limits.seconds));
             lane.peer->render(lane.hogels);
             lane.racer = {.name = info.name,

@@ -16,8 +16,8 @@ namespace {
 template <std::size_t side>
 class EmbreePeer final : public RenderPeer {
   public:
-    EmbreePeer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : grid_(grid), background_(scene->background), scale_(1 / (grid.pitch * static_cast<double>(grid.hogels_s))) {
+    EmbreePeer(const ShadedScene& scene, const LightFieldGrid& grid)
+        : grid_(grid), background_(scene.background), scale_(1 / (grid.pitch * static_cast<double>(grid.hogels_s))) {
         device_ = rtcNewDevice(nullptr);
         if (!device_) throw Error(ErrorCode::internal, "no Embree device");
         scene_ = rtcNewScene(device_);
@@ -25,18 +25,18 @@ class EmbreePeer final : public RenderPeer {
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene->positions.size()));
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene.positions.size()));
         auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene->triangles.size()));
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene.triangles.size()));
         if (!vertices || !indices) throw Error(ErrorCode::internal, "Embree has no room for the scene");
-        for (const Vec3& p : scene->positions)
+        for (const Vec3& p : scene.positions)
             for (const double x : {p.x, p.y, -p.z}) *vertices++ = static_cast<float>(scale_ * x);
-        colours_.reserve(scene->triangles.size());
-        for (const ShadedScene::Triangle& triangle : scene->triangles) {
+        colours_.reserve(scene.triangles.size());
+        for (const ShadedScene::Triangle& triangle : scene.triangles) {
             indices = std::copy(triangle.vertices.begin(), triangle.vertices.end(), indices);
             const auto& [a, b, c] = triangle.vertices;
-            const Rgb first = scene->radiance[a];
-            colours_.push_back({first, scene->radiance[b] + -1.0f * first, scene->radiance[c] + -1.0f * first});
+            const Rgb first = scene.radiance[a];
+            colours_.push_back({first, scene.radiance[b] + -1.0f * first, scene.radiance[c] + -1.0f * first});
         }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
@@ -134,10 +134,9 @@ class EmbreePeer final : public RenderPeer {
 
 }  // namespace
 
-std::unique_ptr<RenderPeer> make_embree_peer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid,
-                                             std::size_t side) {
-    if (side == 4) return std::make_unique<EmbreePeer<4>>(std::move(scene), grid);
-    return std::make_unique<EmbreePeer<16>>(std::move(scene), grid);
+std::unique_ptr<RenderPeer> make_embree_peer(const ShadedScene& scene, const LightFieldGrid& grid, std::size_t side) {
+    if (side == 4) return std::make_unique<EmbreePeer<4>>(scene, grid);
+    return std::make_unique<EmbreePeer<16>>(scene, grid);
 }
 
 }  // namespace hogel::cli

@@ -8,7 +8,7 @@
 
 namespace hogel::cli {
 
-std::unique_ptr<RenderPeer> make_llvmpipe_peer(std::shared_ptr<const ShadedScene>, const LightFieldGrid&, std::size_t) {
+std::unique_ptr<RenderPeer> make_llvmpipe_peer(const ShadedScene&, const LightFieldGrid&, std::size_t) {
     throw Error(ErrorCode::not_built_in, "built without EGL and OpenGL (see the section [peers] of packages.txt)");
 }
 
@@ -234,6 +234,7 @@ class Context {
                        geometry_.indices.data(), GL_STATIC_DRAW);
         constexpr GLsizei stride = 6 * sizeof(float);
         gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, nullptr);
+        // OpenGL takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
         gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, stride, reinterpret_cast<const void*>(3 * sizeof(float)));
         gl_.EnableVertexAttribArray(0);
         gl_.EnableVertexAttribArray(1);
@@ -340,9 +341,9 @@ class LlvmpipePeer final : public RenderPeer {
 
 }  // namespace
 
-std::unique_ptr<RenderPeer> make_llvmpipe_peer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid,
+std::unique_ptr<RenderPeer> make_llvmpipe_peer(const ShadedScene& scene, const LightFieldGrid& grid,
                                                std::size_t views) {
-    return std::make_unique<LlvmpipePeer>(*scene, grid, views);
+    return std::make_unique<LlvmpipePeer>(scene, grid, views);
 }
 
 }  // namespace hogel::cli

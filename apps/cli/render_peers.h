@@ -30,18 +30,16 @@ class RenderPeer {
 
 /// Embree with coherent rays from one hogel: squares of `side` directions at a time, whose rays travel together; 16
 /// for streams of 256 rays, 4 for packets of 16. The tree is built with the best quality that Embree has.
-std::unique_ptr<RenderPeer> make_embree_peer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid,
-                                             std::size_t side);
+std::unique_ptr<RenderPeer> make_embree_peer(const ShadedScene& scene, const LightFieldGrid& grid, std::size_t side);
 
 /// Mesa's software rasteriser, by OpenGL without a window, with `views` hogels at once: instances of one draw call,
 /// each into a layer of its own of 8 bits a channel, and then read back. The scene must lie behind the hologram, on the
 /// grid's front face. Throws Error(not_built_in) where Mesa or its header files were not there.
-std::unique_ptr<RenderPeer> make_llvmpipe_peer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid,
-                                               std::size_t views);
+std::unique_ptr<RenderPeer> make_llvmpipe_peer(const ShadedScene& scene, const LightFieldGrid& grid, std::size_t views);
 
 struct RenderPeerInfo {
     std::string name;
-    std::unique_ptr<RenderPeer> (*make)(std::shared_ptr<const ShadedScene>, const LightFieldGrid&);
+    std::unique_ptr<RenderPeer> (*make)(const ShadedScene&, const LightFieldGrid&);
 };
 /// All of them, by name.
 const std::vector<RenderPeerInfo>& render_peers();

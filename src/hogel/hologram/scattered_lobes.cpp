@@ -60,8 +60,9 @@ ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t 
             const auto points = static_cast<int>(std::min(most_points, std::ceil(2 * rays)));
             std::map<std::uint32_t, double> sum;
             for (int p = 0; p < points * points; ++p) {
-                const double x = sx + step * ((p % points + 0.5) / points - 0.5);
-                const double y = sy + step * ((p / points + 0.5) / points - 0.5);
+                const int across = p % points, down = p / points;
+                const double x = sx + step * ((across + 0.5) / points - 0.5);
+                const double y = sy + step * ((down + 0.5) / points - 0.5);
                 if (x * x + y * y >= 1) continue;
                 const Vec3 way{x, y, std::sqrt(1 - x * x - y * y)};
                 std::size_t first = 0;
