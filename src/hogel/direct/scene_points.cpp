@@ -55,7 +55,8 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
             for (std::uint32_t column = 0; column < 2 * (n - row) - 1; ++column) {
                 // Even columns stand upright, odd ones on their heads.
                 const double third = column % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
-                const double u = (column / 2 + third) / cut, v = (row + third) / cut;
+                const std::uint32_t pair = column / 2;
+                const double u = (pair + third) / cut, v = (row + third) / cut;
                 const float radiance = channel_of(radiance_at(scene, i, static_cast<float>(1 - u - v),
                                                               static_cast<float>(u), static_cast<float>(v), sight),
                                                   options.channel);

@@ -18,8 +18,8 @@ class UnitRoots {
     }
     /// @param turns  of a magnitude below 2³⁰
     std::complex<float> operator()(double turns) const {
-        const auto step = static_cast<std::int64_t>((turns + whole_turns) * steps + 0.5);
-        return roots_[static_cast<std::size_t>(step) % steps];
+        const double nearest = (turns + whole_turns) * steps + 0.5;
+        return roots_[static_cast<std::size_t>(static_cast<std::int64_t>(nearest)) % steps];
     }
 
   private:

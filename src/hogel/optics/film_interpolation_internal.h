@@ -32,7 +32,8 @@ class InterpolationTable {
     std::complex<float> at(const std::complex<float>* line, std::size_t count, double place) const {
         const double whole = std::floor(place);
         const auto first = static_cast<std::ptrdiff_t>(whole) - 4;
-        const float* w = &weights_[static_cast<std::size_t>((place - whole) * phases + 0.5) * 2 * taps];
+        const double nearest = (place - whole) * phases + 0.5;
+        const float* w = &weights_[static_cast<std::size_t>(nearest) * 2 * taps];
         if (first >= 0 && first + taps <= static_cast<std::ptrdiff_t>(count)) {
             const auto* z = reinterpret_cast<const float*>(line + first);
             float sum[4] = {0, 0, 0, 0};

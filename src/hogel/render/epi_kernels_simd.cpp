@@ -295,8 +295,9 @@ HWY_INLINE void shade_block(const EpipolarPlane& plane, std::span<const StripEnd
             // Large triangles: all lanes at once, by the operations of the plain kernel in its order.
             const StripEnds& strip = strips[words[j] & 0xffffffff];
             const double Kj = K + static_cast<double>(j);
-            const auto part = hn::Combine(d, parts_of_strip(strip, n, Kj + static_cast<double>(lanes / 2)),
-                                          parts_of_strip(strip, n, Kj));
+            const std::size_t half = lanes / 2;
+            const auto part =
+                hn::Combine(d, parts_of_strip(strip, n, Kj + static_cast<double>(half)), parts_of_strip(strip, n, Kj));
             for (int i = 0; i < 4; ++i)
                 values[i] =
                     hn::Add(hn::Set(d, strip.value0[i]), hn::Mul(part, hn::Set(d, strip.value1[i] - strip.value0[i])));
