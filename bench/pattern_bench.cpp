@@ -92,16 +92,7 @@ int main(int argc, char** argv) {
     Image complex;
     for (std::uint64_t look = 1; look <= looks; ++look) add(complex, take(stereogram(look)));
     report("the complex field", complex, truth, 1, 1, 0);
-    const std::pair<const char*, Encoding> encodings[] = {{"phase", Encoding::phase},
-                                                          {"double-phase", Encoding::double_phase},
-                                                          {"gerchberg-saxton", Encoding::gerchberg_saxton},
-                                                          {"gradient", Encoding::gradient},
-                                                          {"intensity", Encoding::intensity},
-                                                          {"bipolar", Encoding::bipolar},
-                                                          {"burckhardt", Encoding::burckhardt},
-                                                          {"lee", Encoding::lee},
-                                                          {"binary", Encoding::binary}};
-    for (const auto& [name, encoding] : encodings) {
+    for (const auto& [name, encoding] : encodings()) {
         try {
             Image sum;
             double efficiency = 0, light = 0, seconds = 0;
@@ -125,9 +116,9 @@ int main(int argc, char** argv) {
                             std::polar(1.0, 2 * std::numbers::pi * std::fmod(frequency * double(x), 1.0)));
                 add(sum, take(field));
             }
-            report(name, sum, truth, efficiency, light, seconds);
+            report(name.c_str(), sum, truth, efficiency, light, seconds);
         } catch (const Error& error) {
-            std::printf("| `%s` | refused: %s |\n", name, error.what());
+            std::printf("| `%s` | refused: %s |\n", name.c_str(), error.what());
         }
     }
 }

@@ -43,26 +43,23 @@ Curve relative(const std::string& name, const std::vector<std::pair<double, doub
 }
 
 std::vector<Curve> measure(const Session& session, const std::string& algorithm, const std::string& name,
-                           const BenchRenderOptions& options) {
-    RenderOptions render = options.render;
-    render.shading = bench_shading(name, options);
-    const auto scene = bench_scene(session, name, render);
+                           const std::shared_ptr<const ShadedScene>& scene, RenderOptions render, std::size_t rounds) {
     const Counts hogels = render.hogels;
     std::vector<std::pair<double, double>> by_hogels, by_directions, by_triangles;
     for (const std::size_t times : {1, 2, 4, 8}) {
         session.detail(fmt::format("{} times the hogels and the directions", times));
         render.hogels = {times * hogels.columns, times * hogels.rows};
-        by_hogels.emplace_back(times, times_of(algorithm, scene, render.grid(), options.rounds).processor);
+        by_hogels.emplace_back(times, times_of(algorithm, scene, render.grid(), rounds).processor);
         render.hogels = hogels;
         LightFieldGrid grid = render.grid();
         for (std::size_t doubled = 1; doubled < times; doubled *= 2)
             (grid.directions_u > grid.directions_v ? grid.directions_v : grid.directions_u) *= 2;
-        by_directions.emplace_back(times, times_of(algorithm, scene, grid, options.rounds).processor);
+        by_directions.emplace_back(times, times_of(algorithm, scene, grid, rounds).processor);
     }
     for (const std::size_t parts : {1, 2, 4}) {
         session.detail(fmt::format("{} times the triangles", parts * parts));
         const auto finer = parts == 1 ? scene : bench_scene(session, fmt::format("{}:{}", name, parts), render);
-        by_triangles.emplace_back(parts * parts, times_of(algorithm, finer, render.grid(), options.rounds).processor);
+        by_triangles.emplace_back(parts * parts, times_of(algorithm, finer, render.grid(), rounds).processor);
     }
     return {relative("hogels", by_hogels), relative("directions", by_directions), relative("triangles", by_triangles)};
 }
@@ -108,7 +105,7 @@ void print_limits(const std::string& algorithm, const LightFieldGrid& grid, doub
                                [&] {
                                    parallel_for(some.tiles().size(), [&](std::size_t i) {
                                        const auto values = some.tiles()[i].radiance.elements();
-                                       std::memset(const_cast<float*>(values.data()), 0, values.size_bytes());
+                                       std::memset(values.data(), 0, values.size_bytes());
                                    });
                                },
                                rounds)
@@ -141,7 +138,10 @@ int bench_render_scaling(const BenchRenderOptions& given, const Session& session
     if (!options.output.empty()) folder.emplace(options.output);
     for (const std::string& name : options.scenes) {
         const LightFieldGrid grid = options.render.grid();
-        const std::vector<Curve> curves = measure(session, algorithm, name, options);
+        RenderOptions render = options.render;
+        render.shading = bench_shading(name, options);
+        const auto scene = bench_scene(session, name, render);
+        const std::vector<Curve> curves = measure(session, algorithm, name, scene, render, options.rounds);
         const std::string title = fmt::format("What `{}` takes for larger light fields: {}", algorithm, name);
         const std::string subtitle = fmt::format("from {}x{} hogels of {}x{} directions and the scene as it is",
                                                  grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v);
@@ -155,9 +155,7 @@ int bench_render_scaling(const BenchRenderOptions& given, const Session& session
             write_text(folder->path() / fmt::format("scaling_{}.svg", std::filesystem::path(name).stem().string()),
                        plot_svg({title, subtitle, "Times as many", "Times as long"}, drawn));
         }
-        RenderOptions render = options.render;
-        render.shading = bench_shading(name, options);
-        print_threads(algorithm, bench_scene(session, name, render), grid, options.rounds);
+        print_threads(algorithm, scene, grid, options.rounds);
         print_limits(algorithm, grid, options.render.size, options.rounds);
     }
     return 0;

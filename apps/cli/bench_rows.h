@@ -26,7 +26,7 @@ class HogelRows {
     std::vector<HogelPlace> some(std::size_t count) const;
     /// Of one of the hogels; of three channels.
     Rgb sample(HogelPlace hogel, std::size_t v, std::size_t u) const;
-    const std::vector<LightFieldTile>& tiles() const { return tiles_; }
+    std::vector<LightFieldTile>& tiles() { return tiles_; }
 
   private:
     const LightFieldSource& source_;

@@ -122,10 +122,9 @@ int photo(const Options& options, const Session& session) {
                                       : photographs_of_light_field(options, session, kind, geometric);
     // One exposure for all, so that a film does not flicker.
     double exposure = given;
-    if (options.display == "log") {
+    if (options.display == "log")
         for (Image& picture : pictures) picture = logarithmic(picture);
-        exposure = 1;
-    } else if (options.display == "phase") {
+    if (options.display != "intensity") {
         exposure = 1;
     } else if (given == 0) {
         exposure = automatic_exposure(pictures.front());

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <map>
 #include <numbers>
 
 #include "commands.h"
@@ -11,16 +10,6 @@
 
 namespace hogel::cli {
 namespace {
-
-const std::map<std::string, Encoding> encodings{{"phase", Encoding::phase},
-                                                {"double-phase", Encoding::double_phase},
-                                                {"gerchberg-saxton", Encoding::gerchberg_saxton},
-                                                {"gradient", Encoding::gradient},
-                                                {"intensity", Encoding::intensity},
-                                                {"bipolar", Encoding::bipolar},
-                                                {"burckhardt", Encoding::burckhardt},
-                                                {"lee", Encoding::lee},
-                                                {"binary", Encoding::binary}};
 
 struct Options {
     std::string input, output, encoding = "phase", device;
@@ -43,7 +32,7 @@ Modulator modulator_of(const Options& options) {
 
 int slm(const Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
-    pattern_options.encoding = encodings.at(options.encoding);
+    pattern_options.encoding = encodings().at(options.encoding);
     pattern_options.modulator = modulator_of(options);
     pattern_options.seed = session.seed;
     require_levels_name(options.output);
@@ -105,7 +94,7 @@ void add_slm(CLI::App& app, Session& session) {
                            "burckhardt, lee: three or four real components, in columns by turns\n"
                            "binary: where Re(F R*) is positive")
               ->type_name("NAME")
-              ->check(CLI::IsMember(encodings).description(""))
+              ->check(CLI::IsMember(encodings()).description(""))
               ->capture_default_str());
     group(add_angle(command, "--reference", options->pattern.reference_angle,
                     "Angle of the reference beam; 0: between the least and the most that will do"));

@@ -11,20 +11,6 @@ namespace {
 
 using Decoded = std::shared_ptr<const LightFieldTile>;
 
-// Copies what two tiles have in common: of `from` the directions from a place on, as many as `to` has.
-void copy_common(const LightFieldTile& from, Unfolding::Place place, LightFieldTile& to) {
-    const HogelRange &a = from.range, &b = to.range;
-    const std::size_t s0 = std::max(a.s0, b.s0), s1 = std::min(a.s0 + a.ns, b.s0 + b.ns);
-    const std::size_t t0 = std::max(a.t0, b.t0), t1 = std::min(a.t0 + a.nt, b.t0 + b.nt);
-    const auto& shape = to.radiance.shape();
-    for (std::size_t c = 0; c < shape[0]; ++c)
-        for (std::size_t t = t0; t < t1; ++t)
-            for (std::size_t s = s0; s < s1; ++s)
-                for (std::size_t v = 0; v < shape[3]; ++v)
-                    std::copy_n(&from.radiance(c, t - a.t0, s - a.s0, place.v + v, place.u), shape[4],
-                                &to.radiance(c, t - b.t0, s - b.s0, v, 0));
-}
-
 // A stream, and the tiles of it that were decoded last.
 class DecodedStream {
   public:
@@ -56,7 +42,7 @@ class DecodedStream {
         if (tiling[first] == r && whole && recent_.kept() < tiling.count()) return decode({part, first}, tile);
         for (std::size_t t = r.t0 / size.nt; t * size.nt < r.t0 + r.nt; ++t)
             for (std::size_t s = r.s0 / size.ns; s * size.ns < r.s0 + r.ns; ++s)
-                copy_common(*decoded({part, t * tiling.across() + s}), place, tile);
+                copy_common(*decoded({part, t * tiling.across() + s}), tile, place.v, place.u);
     }
 
   private:
@@ -81,14 +67,14 @@ class DecodedStream {
     }
 
     void decode(Index index, LightFieldTile& tile) const {
-        const std::vector<std::uint8_t> bytes = reader_.read(index.part * reader_.tiling().count() + index.tile);
+        const std::size_t number = index.part * reader_.tiling().count() + index.tile;
+        const std::vector<std::uint8_t> bytes = reader_.read(number);
         const TileCoder& coder = *coders_[index.part];
         try {
             coefficients_ ? coder.decode_coefficients(bytes, tile) : coder.decode(bytes, tile);
         } catch (const Error& error) {
             if (error.code() != ErrorCode::bad_input) throw;
-            reader_.damaged(
-                fmt::format("tile {}: {}", index.part * reader_.tiling().count() + index.tile, error.what()));
+            reader_.damaged(fmt::format("tile {}: {}", number, error.what()));
         }
     }
 

@@ -149,6 +149,19 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
 
 }  // namespace
 
+const std::map<std::string, Encoding>& encodings() {
+    static const std::map<std::string, Encoding> all{{"phase", Encoding::phase},
+                                                     {"double-phase", Encoding::double_phase},
+                                                     {"gerchberg-saxton", Encoding::gerchberg_saxton},
+                                                     {"gradient", Encoding::gradient},
+                                                     {"intensity", Encoding::intensity},
+                                                     {"bipolar", Encoding::bipolar},
+                                                     {"burckhardt", Encoding::burckhardt},
+                                                     {"lee", Encoding::lee},
+                                                     {"binary", Encoding::binary}};
+    return all;
+}
+
 bool is_phase_only(Encoding encoding) {
     return encoding == Encoding::phase || encoding == Encoding::double_phase ||
            encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;

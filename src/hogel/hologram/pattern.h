@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ enum class Encoding {
     lee,         ///< amplitude: four real components, 90° apart, in columns by turns (Lee 1970)
     binary,      ///< amplitude: one where Re(F R*) > 0, nought elsewhere
 };
+
+/// All encodings by name.
+const std::map<std::string, Encoding>& encodings();
 
 bool is_phase_only(Encoding encoding);
 

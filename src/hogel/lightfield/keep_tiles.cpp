@@ -7,20 +7,6 @@
 namespace hogel {
 namespace {
 
-// Copies what two tiles of one light field have in common.
-void copy_common(const LightFieldTile& from, LightFieldTile& to) {
-    const HogelRange &a = from.range, &b = to.range;
-    const std::size_t s0 = std::max(a.s0, b.s0), s1 = std::min(a.s0 + a.ns, b.s0 + b.ns);
-    const std::size_t t0 = std::max(a.t0, b.t0), t1 = std::min(a.t0 + a.nt, b.t0 + b.nt);
-    const std::size_t rays = (s1 - s0) * to.radiance.extent(3) * to.radiance.extent(4);
-    for (std::size_t t = t0; t < t1; ++t) {
-        for (std::size_t c = 0; c < to.radiance.extent(0); ++c)
-            std::copy_n(&from.radiance(c, t - a.t0, s0 - a.s0, 0, 0), rays, &to.radiance(c, t - b.t0, s0 - b.s0, 0, 0));
-        if (to.depth.size() > 0)
-            std::copy_n(&from.depth(t - a.t0, s0 - a.s0, 0, 0), rays, &to.depth(t - b.t0, s0 - b.s0, 0, 0));
-    }
-}
-
 class KeptTiles final : public LightFieldSource {
   public:
     KeptTiles(std::unique_ptr<LightFieldSource> source, double bytes, bool with_depth)

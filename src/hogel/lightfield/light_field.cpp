@@ -166,6 +166,24 @@ LightField::LightField(const LightFieldGrid& grid, bool with_depth) : grid_(grid
         depth = Array<float, 4>(depth_shape(grid, all_hogels(grid)), std::numeric_limits<float>::infinity());
 }
 
+void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t first_v, std::size_t first_u) {
+    const HogelRange &a = from.range, &b = to.range;
+    const std::size_t s0 = std::max(a.s0, b.s0), s1 = std::min(a.s0 + a.ns, b.s0 + b.ns);
+    const std::size_t t0 = std::max(a.t0, b.t0), t1 = std::min(a.t0 + a.nt, b.t0 + b.nt);
+    const auto& shape = to.radiance.shape();
+    const bool with_depth = from.depth.size() > 0 && to.depth.size() > 0;
+    for (std::size_t t = t0; t < t1; ++t)
+        for (std::size_t s = s0; s < s1; ++s)
+            for (std::size_t v = 0; v < shape[3]; ++v) {
+                for (std::size_t c = 0; c < shape[0]; ++c)
+                    std::copy_n(&from.radiance(c, t - a.t0, s - a.s0, first_v + v, first_u), shape[4],
+                                &to.radiance(c, t - b.t0, s - b.s0, v, 0));
+                if (with_depth)
+                    std::copy_n(&from.depth(t - a.t0, s - a.s0, first_v + v, first_u), shape[4],
+                                &to.depth(t - b.t0, s - b.s0, v, 0));
+            }
+}
+
 void LightField::read(LightFieldTile& tile) const {
     validate(tile, grid_);
     const HogelRange& r = tile.range;

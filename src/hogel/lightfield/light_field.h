@@ -93,6 +93,10 @@ void validate(const LightFieldTile& tile, const LightFieldGrid& grid);
 /// The size of tile that suits most sources: as many hogels as about 16 MiB of samples hold, 1×1 at least.
 HogelRange default_tile(const LightFieldGrid& grid);
 
+/// Copies the hogels that two tiles have in common, with depth where both have it: of `from` the directions from row
+/// first_v and column first_u on, as many as `to` has.
+void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t first_v = 0, std::size_t first_u = 0);
+
 /// Where light fields come from: memory, a file, a decoder, a renderer working on demand. read() may be called from
 /// several threads at once and gives the same values for a hogel whatever the range it is asked for in.
 class LightFieldSource {

@@ -68,12 +68,11 @@ auto cubic_at(std::size_t count, double place, const Value& value) {
     return b + 0.5f * x * ((c - a) + x * ((2.0f * a - 5.0f * b + 4.0f * c - d) + x * (3.0f * (b - c) + d - a)));
 }
 
-/// The same in two dimensions, of value(row, column), and never negative.
+/// The same in two dimensions, of value(row, column).
 template <class Value>
-float cubic_at(std::size_t height, std::size_t width, double row, double column, const Value& value) {
-    return std::max(0.0f, cubic_at(height, row, [&](std::size_t j) {
-                        return cubic_at(width, column, [&](std::size_t i) { return value(j, i); });
-                    }));
+auto cubic_at(std::size_t height, std::size_t width, double row, double column, const Value& value) {
+    return cubic_at(height, row,
+                    [&](std::size_t j) { return cubic_at(width, column, [&](std::size_t i) { return value(j, i); }); });
 }
 
 }  // namespace hogel

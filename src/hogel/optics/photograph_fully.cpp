@@ -184,9 +184,11 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                                                (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
-                    const double value = cubic_at(samples.extent(0), samples.extent(1),
-                                                  plane.row(plane.center_y + dot(aside, focused.axes.y)),
-                                                  plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity);
+                    // Between dark samples the cubic may fall below zero.
+                    const double value =
+                        std::max(0.0f, cubic_at(samples.extent(0), samples.extent(1),
+                                                plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                                plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
                     const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
                     sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
                 }
@@ -220,10 +222,9 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
             const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
             const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
             const std::complex<float> slow =
-                cubic_at(samples.extent(0), plane.row(plane.center_y + above), [&](std::size_t j) {
-                    return up[j] * cubic_at(samples.extent(1), plane.column(plane.center_x + right),
-                                            [&](std::size_t i) { return across[i] * samples(j, i); });
-                });
+                cubic_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
+                         plane.column(plane.center_x + right),
+                         [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
             const double cycles =
                 wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
             result(row, column) = slow * turned(cycles);

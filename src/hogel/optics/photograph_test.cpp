@@ -28,6 +28,15 @@ Field spherical_wave(const FieldGrid& grid, Vec3 point) {
     return field;
 }
 
+// Independent samples, whose real and imaginary parts have this standard deviation.
+Field random_field(const FieldGrid& grid, unsigned seed, float deviation = 1) {
+    Field field(grid);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal(0, deviation);
+    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    return field;
+}
+
 double sum(const Image& image) {
     double total = 0;
     for (float value : image.pixels.elements()) total += value;
@@ -98,10 +107,7 @@ TEST(Photograph, a_tilted_film_is_in_focus_along_its_own_plane) {
 // Lλ²/cos θ.
 TEST(Photograph, a_diffuse_field_has_its_radiance_from_everywhere) {
     const FieldGrid grid{{1500, 1500, 1_um, 1_um, 0, 0}, 633_nm};
-    Field field(grid);
-    std::mt19937 random(5);
-    std::normal_distribution<float> normal(0, std::sqrt(0.5f));
-    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    const Field field = random_field(grid, 5, std::sqrt(0.5f));
     const double at_zero = 1e-12 / (633e-9 * 633e-9);  // radiance at cos θ = 1
     for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.024, 0, 0.1}, Vec3{0, -0.01, 0.06}})
         for (double pupil : {4_mm, 8_mm}) {
@@ -141,10 +147,7 @@ TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
 // The chain of plane waves against the narrow band: speckle for speckle the same picture, on axis and at 20°.
 TEST(Photograph, by_the_full_chain_is_the_same_picture) {
     const FieldGrid grid{{1300, 1200, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
-    Field field(grid);
-    std::mt19937 random(8);
-    std::normal_distribution<float> normal;
-    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    const Field field = random_field(grid, 8);
     std::vector<Camera> cameras;
     for (const Vec3 eye : {Vec3{0, 0, 100_mm}, Vec3{36.4_mm, -8_mm, 100_mm}})
         for (const double focus : {0.0, 4e-3, -3e-3}) {
@@ -197,10 +200,7 @@ TEST(Photograph, waves_in_focus_have_the_phases_of_their_ways) {
 // depends on the direction in the narrow band.
 TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
     const FieldGrid grid{{700, 640, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
-    Field field(grid);
-    std::mt19937 random(9);
-    std::normal_distribution<float> normal;
-    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    const Field field = random_field(grid, 9);
     for (const Vec3 eye : {Vec3{0, 0, 50_mm}, Vec3{12_mm, -4_mm, 50_mm}}) {
         Camera camera;
         camera.eye = eye;
@@ -222,10 +222,7 @@ TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
 // parabola is a sphere, whatever the film's distance; and another one through a wide pupil.
 TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
     const FieldGrid grid{{280, 250, 1.5_um, 1.5_um, 50_um, 0}, 633_nm};
-    Field field(grid);
-    std::mt19937 random(10);
-    std::normal_distribution<float> normal;
-    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    const Field field = random_field(grid, 10);
     const auto alike = [&](double pupil, double focus, double film_distance) {
         Camera camera;
         camera.eye = {0.2_mm, -0.1_mm, 10_mm};
@@ -248,10 +245,7 @@ TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
 // light falls far from its place.
 TEST(Photograph, in_windows_is_the_same_picture) {
     const FieldGrid grid{{8000, 150, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
-    Field field(grid);
-    std::mt19937 random(6);
-    std::normal_distribution<float> normal;
-    for (auto& value : field.samples.elements()) value = {normal(random), normal(random)};
+    const Field field = random_field(grid, 6);
     std::vector<Camera> cameras(2);
     for (Camera& camera : cameras) {
         camera.eye = {1_mm, 0, 30_mm};
