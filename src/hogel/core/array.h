@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <new>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -20,17 +19,21 @@ constexpr std::size_t count(const Shape<Rank>& shape) {
     return n;
 }
 
+/// Memory at a multiple of a cache line; large blocks in pages as large as the system has, of which the processor need
+/// not look up many. Throws std::bad_alloc.
+void* allocate_lines(std::size_t bytes);
+void free_lines(void* memory);
+
 /// Allocates at multiples of a cache line, so that vector code and FFT plans may rely on it for whole arrays.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
-    static constexpr std::align_val_t alignment{64};
 
     CacheLineAllocator() = default;
     template <class U>
     CacheLineAllocator(const CacheLineAllocator<U>&) {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
-    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+    T* allocate(std::size_t n) { return static_cast<T*>(allocate_lines(n * sizeof(T))); }
+    void deallocate(T* p, std::size_t) { free_lines(p); }
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 

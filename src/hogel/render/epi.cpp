@@ -20,8 +20,9 @@ constexpr std::size_t most_words = std::size_t{96} << 10;
 // A thread that copies a light field holds one tile.
 constexpr std::size_t most_tile_bytes = std::size_t{96} << 20;
 
-// After so many strips it is first looked which samples are covered; then whenever their number has doubled.
-constexpr std::size_t first_update = 128;
+// After so many strips, or more if a plane has many samples, it is looked again which samples are covered: often enough
+// to leave little in vain, and seldom enough to cost little.
+constexpr std::size_t fewest_between_updates = 128, samples_between_updates = 256;
 
 // Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
 // it and the next corner, end 1 between it and the last.
@@ -35,10 +36,7 @@ class EpiRenderer final : public LightFieldSource {
   public:
     EpiRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
         : scene_(std::move(scene)), grid_(grid), axes_(grid), frame_(grid), clusters_(*scene_, frame_) {
-        const Rgb& b = scene_->background;
-        const std::array values{grid.channels == 3 ? b.r : luminance(b), b.g, b.b,
-                                std::numeric_limits<float>::infinity()};
-        std::ranges::copy(values, background_);
+        set_values(background_.value0, scene_->background, std::numeric_limits<double>::infinity());
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -62,7 +60,8 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t columns = std::min(hogels, std::max<std::size_t>(16, most_words / directions));
         const std::size_t first_row = axes_.turned() ? range.s0 : range.t0;
         const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
-        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions);
+        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions +
+                                                                            EpipolarPlane::spare);
         Work work;
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow)
             for (std::size_t row = 0; row < axes_.slow_hogels(range); ++row) {
@@ -82,23 +81,31 @@ class EpiRenderer final : public LightFieldSource {
     }
 
   private:
-    // The strips of one epipolar plane.
+    // The strips of one epipolar plane; number 0 is the background.
     struct Work {
         std::vector<Strip> strips;
-        std::vector<StripEnds> ends;
+        std::vector<StripShades> shades;
         std::vector<StripOrigin> origins;
         Occlusion occlusion;
         std::array<std::vector<float>, 4> turned;  // values of a plane whose columns lie far apart in the tile
     };
 
+    // The triangles of a cluster that a plane crosses, as bits.
+    struct Crossed {
+        std::uint32_t cluster;
+        std::uint64_t triangles;
+    };
+
     // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
     void draw_plane(const EpipolarPlane& plane, const EpipolarFrame::Plane& place, Work& work) const {
         const double row = place.row, slope = place.slope;
-        work.strips.clear();
-        work.ends.clear();
-        work.origins.clear();
+        work.strips.assign(1, {});
+        work.shades.assign(1, background_);
+        work.origins.assign(1, {});
         work.occlusion.clear();
-        std::size_t drawn = 0, next_update = first_update;
+        const std::size_t between_updates =
+            std::max(fewest_between_updates, plane.columns * plane.directions / samples_between_updates);
+        std::size_t drawn = 1;
         const auto draw_rest = [&] {
             draw(std::span(work.strips).subspan(drawn), drawn, plane);
             drawn = work.strips.size();
@@ -106,27 +113,45 @@ class EpiRenderer final : public LightFieldSource {
         const auto may_show = [&](const TriangleClusters::Bounds& bounds) {
             return bounds.may_cross(row, slope) && !work.occlusion.hides(bounds, plane, place.shift, place.z0);
         };
+        // The last cluster that was crossed, whose triangles are on their way from memory.
+        Crossed waiting{0, 0};
         for (const TriangleClusters::Group& group : clusters_.groups) {
             if (!may_show(group.bounds)) continue;
             for (const std::uint32_t cluster : group.clusters) {
                 if (!may_show(clusters_.bounds[cluster])) continue;
-                std::uint64_t crossed = crossing(clusters_.corners[cluster], row, slope);
-                for (; crossed != 0; crossed &= crossed - 1)
-                    add_strip(cluster, static_cast<std::size_t>(std::countr_zero(crossed)), place, work);
+                const Crossed next{cluster, crossing(clusters_.corners[cluster], row, slope)};
+                if (next.triangles == 0) continue;
+                prefetch(next);
+                add_strips(waiting, place, work);
+                waiting = next;
             }
-            if (work.strips.size() < next_update) continue;
+            if (work.strips.size() < drawn + between_updates) continue;
             draw_rest();
             work.occlusion.update(plane);
-            next_update = 2 * drawn;
         }
+        add_strips(waiting, place, work);
         draw_rest();
+    }
+
+    void prefetch(const Crossed& crossed) const {
+        for (std::uint64_t rest = crossed.triangles; rest != 0; rest &= rest - 1) {
+            const auto number = static_cast<std::size_t>(std::countr_zero(rest));
+            __builtin_prefetch(&clusters_.others[crossed.cluster * cluster_size + number]);
+        }
+    }
+
+    void add_strips(const Crossed& crossed, const EpipolarFrame::Plane& place, Work& work) const {
+        for (std::uint64_t rest = crossed.triangles; rest != 0; rest &= rest - 1)
+            add_strip(crossed.cluster, static_cast<std::size_t>(std::countr_zero(rest)), place, work);
     }
 
     void add_strip(std::size_t cluster, std::size_t number, const EpipolarFrame::Plane& place, Work& work) const {
         const ClusterCorners& all = clusters_.corners[cluster];
+        const std::size_t index = cluster * cluster_size + number;
+        const TriangleCorners& own = clusters_.others[index];
         std::array<double, 3> x, z, height;
         for (std::size_t i = 0; i < 3; ++i) {
-            x[i] = all.x[i][number];
+            x[i] = own.x[i];
             z[i] = all.z[i][number];
             // As in `crossing`, to the last bit.
             height[i] = (all.y[i][number] - place.slope * z[i]) - place.row;
@@ -139,12 +164,16 @@ class EpiRenderer final : public LightFieldSource {
         work.strips.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
                                static_cast<float>(end1.z)});
 
-        const std::size_t index = cluster * cluster_size + number;
-        const auto& radiance = clusters_.radiance[index];
+        const auto& radiance = own.radiance;
         const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
-        StripEnds& ends = work.ends.emplace_back(StripEnds{end0.x, end1.x, end0.z, end1.z, {}, {}});
-        set_values(ends.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], place.deepening * end0.z);
-        set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], place.deepening * end1.z);
+        StripShades& shades = work.shades.emplace_back();
+        shades.x0 = static_cast<float>(end0.x);
+        shades.z0 = static_cast<float>(end0.z);
+        shades.dx = static_cast<float>(end1.x - end0.x);
+        shades.dz = static_cast<float>(end1.z - end0.z);
+        set_values(shades.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], place.deepening * end0.z);
+        set_values(shades.difference, w1 * radiance[lone] + (1 - w1) * radiance[last], place.deepening * end1.z);
+        for (int i = 0; i < 4; ++i) shades.difference[i] -= shades.value0[i];
         if (needs_samples_) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
     }
 
@@ -163,7 +192,7 @@ class EpiRenderer final : public LightFieldSource {
                                colour ? &tile.radiance(2, t, s, v, 0) : nullptr,
                                tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : nullptr},
                               {stride, stride, stride, stride}};
-        shade(plane, work.ends, background_, out);
+        shade(plane, work.shades, out);
         shade_samples(tile, plane, work, t, s, v);
     }
 
@@ -177,7 +206,7 @@ class EpiRenderer final : public LightFieldSource {
             out.values[i] = work.turned[i].data();
             out.strides[i] = plane.directions;
         }
-        shade(plane, work.ends, background_, out);
+        shade(plane, work.shades, out);
         for (std::size_t i = 0; i < 4; ++i) {
             if (!out.values[i]) continue;
             for (std::size_t column = 0; column < plane.columns; ++column) {
@@ -200,14 +229,14 @@ class EpiRenderer final : public LightFieldSource {
             const std::size_t number = plane.words[i] & 0xffffffff;
             const StripOrigin& from = work.origins[number];
             if (!scene_->needs_samples(from.triangle)) continue;
-            const StripEnds& strip = work.ends[number];
-            const float w = part_of_strip(strip, plane.first_column + static_cast<double>(column),
-                                          plane.first_direction + static_cast<double>(k));
+            const StripShades& strip = work.shades[number];
+            const float w = part_of_strip(strip, static_cast<float>(plane.first_column) + static_cast<float>(column),
+                                          plane.first_direction + static_cast<float>(k));
             std::array<float, 3> b;
             b[from.lone] = (1 - w) * from.weight0 + w * from.weight1;
             b[(from.lone + 1) % 3] = (1 - w) * (1 - from.weight0);
             b[(from.lone + 2) % 3] = w * (1 - from.weight1);
-            const float depth = strip.value0[3] + w * (strip.value1[3] - strip.value0[3]);
+            const float depth = strip.value0[3] + w * strip.difference[3];
             const auto [t, s, v, u] = axes_.sample(row, first + column, slow, k);
             store(tile, *scene_, grid_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
         }
@@ -218,7 +247,7 @@ class EpiRenderer final : public LightFieldSource {
     RowAxes axes_;
     EpipolarFrame frame_;
     TriangleClusters clusters_;
-    float background_[4];  // as StripEnds has its values
+    StripShades background_{0, 0, 1, 0, {}, {}};
     bool needs_samples_ = scene_->lighting || !scene_->textures.empty();
 };
 

@@ -53,7 +53,7 @@ TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr Bounds empty{infinity, -infinity, infinity, -infinity, infinity, -infinity};
     corners.resize(count);
-    radiance.resize(triangles.size());
+    others.resize(triangles.size());
     bounds.assign(count, empty);
     groups.assign((count + group_size - 1) / group_size, {empty, {}});
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -61,10 +61,10 @@ TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame
         const auto& vertices = scene.triangles[triangles[i]].vertices;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const Vec3 p = frame.in_samples(scene.positions[vertices[corner]]);
-            corners[cluster].x[corner][place] = p.x;
             corners[cluster].y[corner][place] = p.y;
             corners[cluster].z[corner][place] = p.z;
-            radiance[i][corner] = scene.radiance[vertices[corner]];
+            others[i].x[corner] = p.x;
+            others[i].radiance[corner] = scene.radiance[vertices[corner]];
             for (Bounds* box : {&bounds[cluster], &groups[cluster / group_size].bounds})
                 *box = {std::min(box->x_low, p.x),  std::max(box->x_high, p.x), std::min(box->y_low, p.y),
                         std::max(box->y_high, p.y), std::min(box->z_low, p.z),  std::max(box->z_high, p.z)};

@@ -13,9 +13,15 @@ namespace hogel {
 /// So many triangles of a cluster fit the bits of one word.
 constexpr std::size_t cluster_size = 64;
 
-/// The corners of a cluster's triangles, corner by corner and coordinate by coordinate.
+/// Where the corners of a cluster's triangles are seen from planes of rays, corner by corner.
 struct ClusterCorners {
-    alignas(64) double x[3][cluster_size], y[3][cluster_size], z[3][cluster_size];
+    alignas(64) double y[3][cluster_size], z[3][cluster_size];
+};
+
+/// What else is to be known of a triangle that such a plane crosses, in one cache line.
+struct alignas(64) TriangleCorners {
+    double x[3];
+    Rgb radiance[3];
 };
 
 /// The triangles of a scene in the units of an EpipolarFrame, neighbours together: in clusters, and clusters in groups.
@@ -38,9 +44,9 @@ struct TriangleClusters {
     static constexpr std::size_t group_size = 4;  ///< clusters
 
     std::vector<ClusterCorners, CacheLineAllocator<ClusterCorners>> corners;
-    std::vector<std::uint32_t> triangles;      ///< which triangle of the scene stands in each place
-    std::vector<std::array<Rgb, 3>> radiance;  ///< of the corners, in the same places
-    std::vector<Bounds> bounds;                ///< of the clusters
+    std::vector<TriangleCorners, CacheLineAllocator<TriangleCorners>> others;  ///< cluster by cluster
+    std::vector<std::uint32_t> triangles;  ///< which triangle of the scene stands in each place
+    std::vector<Bounds> bounds;            ///< of the clusters
 
     struct Group {
         Bounds bounds;

@@ -37,9 +37,10 @@ TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
     for (std::uint32_t i = 0; i < 1000; ++i) {
         EXPECT_EQ(sorted[i], i);
         for (int corner = 0; corner < 3; ++corner)
-            EXPECT_EQ(clusters.radiance[i][std::size_t(corner)], (Rgb{float(clusters.triangles[i]), float(corner), 0}));
+            EXPECT_EQ(clusters.others[i].radiance[std::size_t(corner)],
+                      (Rgb{float(clusters.triangles[i]), float(corner), 0}));
         const Vec3 first = frame.in_samples(scene.positions[3 * clusters.triangles[i]]);
-        EXPECT_EQ(clusters.corners[i / cluster_size].x[0][i % cluster_size], first.x);
+        EXPECT_EQ(clusters.others[i].x[0], first.x);
         EXPECT_EQ(clusters.corners[i / cluster_size].y[0][i % cluster_size], first.y);
         EXPECT_EQ(clusters.corners[i / cluster_size].z[0][i % cluster_size], first.z);
     }

@@ -22,10 +22,11 @@ void draw_plain(std::span<const Strip> strips, std::size_t first_number, const E
         for (std::size_t k = 0; k < plane.directions; ++k) {
             const float K = plane.first_direction + static_cast<float>(k);
             const float c0 = strip.x0 - K * strip.z0, c1 = strip.x1 - K * strip.z1;
+            const float slope = (strip.z1 - strip.z0) / (c1 - c0);
             const float begin = std::max(first, std::floor(std::min(c0, c1)) + 1);
             const float end = std::min(last, std::floor(std::max(c0, c1)));
             for (float n = begin; n <= end; ++n) {
-                const float z = strip.z0 + (n - c0) / (c1 - c0) * (strip.z1 - strip.z0);
+                const float z = strip.z0 + (n - c0) * slope;
                 std::uint64_t& word = plane.words[static_cast<std::size_t>(n - first) * plane.directions + k];
                 word = std::min(word, std::uint64_t{ordered_bits(z)} << 32 | (first_number + i));
             }
@@ -43,20 +44,15 @@ void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells) 
         }
 }
 
-void shade_plain(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
-                 const ShadedPlane& out) {
+void shade_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     for (std::size_t column = 0; column < plane.columns; ++column)
         for (std::size_t k = 0; k < plane.directions; ++k) {
-            const double n = plane.first_column + static_cast<double>(column);
-            const double K = static_cast<double>(plane.first_direction) + static_cast<double>(k);
-            const std::uint64_t word = plane.words[column * plane.directions + k];
-            const StripEnds* strip = word == EpipolarPlane::nothing ? nullptr : &strips[word & 0xffffffff];
-            const float part = strip ? part_of_strip(*strip, n, K) : 0;
-            for (int i = 0; i < 4; ++i) {
-                if (!out.values[i]) continue;
-                out.values[i][column * out.strides[i] + k] =
-                    strip ? strip->value0[i] + part * (strip->value1[i] - strip->value0[i]) : background[i];
-            }
+            const StripShades& strip = strips[plane.words[column * plane.directions + k] & 0xffffffff];
+            const float n = static_cast<float>(plane.first_column) + static_cast<float>(column);
+            const float part = part_of_strip(strip, n, plane.first_direction + static_cast<float>(k));
+            for (int i = 0; i < 4; ++i)
+                if (out.values[i])
+                    out.values[i][column * out.strides[i] + k] = strip.value0[i] + part * strip.difference[i];
         }
 }
 

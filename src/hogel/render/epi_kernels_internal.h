@@ -18,10 +18,10 @@ struct Strip {
     float x0, z0, x1, z1;
 };
 
-/// What a strip shows: its ends in full precision, and the values there that are linear along it.
-struct StripEnds {
-    double x0, x1, z0, z1;
-    float value0[4], value1[4];  ///< R, G, B (or the only channel first), depth ζ in metres
+/// What a strip shows: values that are linear along it from its end 0 to its end 1. The background is one, too.
+struct StripShades {
+    float x0, z0, dx, dz;            ///< end 0, and the way to end 1
+    float value0[4], difference[4];  ///< R, G, B (or the only channel first), depth ζ in metres
 };
 
 /// The samples (n, k) of one epipolar plane, k fastest: in each word what is seen first so far, as its depth and the
@@ -32,7 +32,9 @@ struct EpipolarPlane {
     std::int32_t first_column;  ///< n of the first column
     float first_direction;      ///< K of k = 0
 
-    static constexpr std::uint64_t nothing = ~std::uint64_t{0};
+    static constexpr std::size_t spare = 64;    ///< so many words behind the last one are there, and stay as they are
+    static constexpr std::uint32_t nobody = 0;  ///< strips are numbered from 1
+    static constexpr std::uint64_t nothing = ~std::uint64_t{0} << 32 | nobody;
 };
 
 /// The bits of a float such that unsigned comparison orders them as the floats, also below zero.
@@ -42,7 +44,7 @@ constexpr std::uint32_t ordered_bits(float value) {
 }
 
 /// Where the values of a plane's samples go: the row of directions of column c begins at values[i] + c · strides[i],
-/// for each value i of StripEnds; null for a value that nobody wants.
+/// for each value i of StripShades; null for a value that nobody wants.
 struct ShadedPlane {
     float* values[4];
     std::size_t strides[4];
@@ -68,26 +70,21 @@ constexpr std::size_t cell_columns = 8, cell_directions = 16;
 void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
 void farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
 
-/// The values of what each sample of the plane sees, by the numbers of the strips; `background` where it sees nothing.
-void shade_plain(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
-                 const ShadedPlane& out);
-void shade(const EpipolarPlane& plane, std::span<const StripEnds> strips, const float (&background)[4],
-           const ShadedPlane& out);
+/// The values of what each sample of the plane sees, by the numbers of the strips.
+void shade_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);
+void shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);
 
 /// The instruction sets of this processor that the vector kernels are built for, and a way to use but one of them, or
 /// with 0 the best again: for tests. Not while kernels run.
 std::vector<std::int64_t> kernel_targets();
 void use_kernel_target(std::int64_t target);
 
-/// How far along a strip whose points are seen in c0 and c1 column n lies, from 0 to 1. Single precision decided that
-/// the sample is covered, which double precision need not confirm.
-inline float part_of_strip(double c0, double c1, double n) {
-    const double part = (n - c0) / (c1 - c0);
-    const double positive = part > 0 ? part : 0;
-    return static_cast<float>(positive < 1 ? positive : 1);
-}
-inline float part_of_strip(const StripEnds& strip, double n, double K) {
-    return part_of_strip(strip.x0 - K * strip.z0, strip.x1 - K * strip.z1, n);
+/// How far along a strip column n sees it in direction K, from 0 to 1.
+inline float part_of_strip(const StripShades& strip, float n, float K) {
+    const float part = ((n - strip.x0) + K * strip.z0) / (strip.dx - K * strip.dz);
+    // Also where there is no way to divide by.
+    const float positive = part > 0 ? part : 0;
+    return positive < 1 ? positive : 1;
 }
 
 }  // namespace hogel
