@@ -21,18 +21,20 @@ class DirectLighting final : public SampleLighting {
         }
     }
 
-    // The light that arrives, and on glossy surfaces what of it the lobe may take and how far each lamp gets there.
+    // On matt surfaces what is seen; on glossy ones the light that arrives, what of it the lobe may take, and how far
+    // each lamp gets there.
     Size size_of_light(std::size_t mesh) const override {
         const Surface& surface = surfaces_[mesh];
         if (surface.given) return {};
         return surface.material.is_glossy() ? Size{6, lights_.size()} : Size{3, 0};
     }
 
+    bool light_is_radiance(std::size_t mesh) const override { return !surfaces_[mesh].material.is_glossy(); }
+
     void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                   std::span<float> light) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const Surface& surface = surfaces_[triangle.mesh];
-        if (surface.given) return;
         std::ranges::fill(light, 0.0f);
         const bool glossy = surface.material.is_glossy();
         const SurfacePoint point(scene, triangle.vertices, weights);
@@ -47,18 +49,22 @@ class DirectLighting final : public SampleLighting {
             sum.add(surface.material, lit * static_cast<float>(from.falloff) * lights_[i].intensity, cosine);
             if (glossy) light[6 + i] = lit;
         }
-        put(sum.arriving, light.first<3>());
-        if (glossy) put(sum.for_lobe, light.subspan<3, 3>());
+        if (glossy) {
+            put(sum.arriving, light.first<3>());
+            put(sum.for_lobe, light.subspan<3, 3>());
+        } else {
+            const Rgb color = interpolate(colors_, triangle.vertices, weights);
+            put(surface.material.emission + color * (ambient_ + sum.arriving), light.first<3>());
+        }
     }
 
     Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                  std::span<const float> light, Rgb texture, const Sight& sight) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const Surface& surface = surfaces_[triangle.mesh];
-        if (surface.given) return texture * interpolate(scene.radiance, triangle.vertices, weights);
+        if (!surface.material.is_glossy()) return texture * rgb(light.first<3>());
         const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
         const Rgb emission = texture * surface.material.emission, arriving = rgb(light.first<3>());
-        if (!surface.material.is_glossy()) return emission + color * (ambient_ + arriving);
         const Vec3 normal = normal_at(triangle, weights);
         const Reflection reflection(surface.material, color, dot(normal, sight.to_viewer));
         return emission + ambient_ * reflection.in_uniform_light() +
