@@ -27,6 +27,8 @@ std::size_t word_of(std::size_t number) { return number + (number < 3 ? 0 : 1); 
 std::size_t first_share(SampleLighting::Size size) { return std::max<std::size_t>(4, size.any + 1); }
 std::size_t words_of(SampleLighting::Size size) { return (first_share(size) + (size.shares + 3) / 4 + 3) / 4 * 4; }
 
+float share_of(std::uint32_t word, std::size_t number) { return static_cast<float>(word >> 8 * number & 255) / 255; }
+
 float between(float a, float b, float part) { return a + part * (b - a); }
 
 }  // namespace
@@ -85,10 +87,15 @@ bool LightCache::read(const ShadedScene& scene, std::size_t index, const std::ar
         const std::size_t word = word_of(i);
         light[i] = std::max(interpolated([=](const auto* p) { return std::bit_cast<float>(p[word]); }), 0.0f);
     }
-    for (std::size_t i = 0; i < size.shares; ++i) {
-        const std::size_t word = first_share(size) + i / 4, shift = 8 * (i % 4);
-        const float share = interpolated([=](const auto* p) { return static_cast<float>(p[word] >> shift & 255); });
-        light[size.any + i] = std::clamp(share / 255, 0.0f, 1.0f);
+    for (std::size_t first = 0; first < size.shares; first += 4) {
+        const std::size_t word = first_share(size) + first / 4, last = std::min(first + 4, size.shares);
+        const std::uint32_t four = points[0][word];
+        // As a rule all points have the same, as between the edges of shadows.
+        const bool same = four == points[1][word] && four == points[2][word] && four == points[3][word];
+        for (std::size_t i = first; i < last; ++i) {
+            const auto share = [=](const std::uint32_t* p) { return share_of(p[word], i - first); };
+            light[size.any + i] = same ? share(points[0]) : std::clamp(interpolated(share), 0.0f, 1.0f);
+        }
     }
     return true;
 }
