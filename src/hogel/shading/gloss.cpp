@@ -42,9 +42,15 @@ GlossyFloats::GlossyFloats(const GlossyPoint& point)
 }
 
 LightInLobe GlossySums::total() const {
-    std::array<float, 6> sum{};
-    for (std::size_t i = 0; i < 6; ++i)
-        for (const float value : values[i]) sum[i] += value;
+    std::array<float, 6> sum;
+    for (std::size_t i = 0; i < 6; ++i) {
+        // Halves upon each other, which a compiler makes vectors of.
+        std::array<float, LampTable::block> rest;
+        std::ranges::copy(values[i], rest.begin());
+        for (std::size_t half = LampTable::block / 2; half > 0; half /= 2)
+            for (std::size_t k = 0; k < half; ++k) rest[k] += rest[half + k];
+        sum[i] = rest[0];
+    }
     return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
 }
 

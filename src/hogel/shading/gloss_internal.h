@@ -34,7 +34,7 @@ struct GlossyPoint {
 
 /// The light in the lobe, the sum of Reflection::lobe over the lamps, in single precision.
 /// @param lit  how far each lamp gets to the point; `lamps.size()` numbers, of which only those of lamps count
-/// Twins that give the same bits: sums of each of the lamps of a block, then in order.
+/// Twins that give the same bits: they sum up what is the same number in all blocks, and then the sums.
 LightInLobe gloss_plain(const LampTable& lamps, const float* lit, const GlossyPoint& point);
 LightInLobe gloss(const LampTable& lamps, const float* lit, const GlossyPoint& point);
 
