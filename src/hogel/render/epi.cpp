@@ -49,6 +49,8 @@ class EpiRenderer final : public LightFieldSource {
         const std::array values{grid.channels == 3 ? b.r : luminance(b), b.g, b.b,
                                 std::numeric_limits<float>::infinity()};
         std::ranges::copy(values, background_);
+        if (needs_samples_)
+            for (const std::uint32_t triangle : clusters_.triangles) lights_.push_back(light_of(triangle));
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -92,6 +94,21 @@ class EpiRenderer final : public LightFieldSource {
     }
 
   private:
+    // Where the light of a triangle's strips comes from.
+    struct TriangleLight {
+        StripLight::From from = StripLight::From::ends;
+        LightGrid grid = {};
+    };
+
+    TriangleLight light_of(std::uint32_t triangle) const {
+        if (!scene_->needs_samples(triangle)) return {};
+        if (!scene_->light_cache || scene_->triangles[triangle].texture != ShadedScene::no_texture)
+            return {StripLight::From::samples};
+        const LightGrid& grid = scene_->light_cache->grid(triangle);
+        if (!grid.points || !grid.is_radiance) return {StripLight::From::samples};
+        return {StripLight::From::points, grid};
+    }
+
     // The strips of one epipolar plane.
     struct Work {
         std::vector<Strip> strips;
@@ -159,18 +176,12 @@ class EpiRenderer final : public LightFieldSource {
         set_values(ends.value1, w1 * radiance[lone] + (1 - w1) * radiance[last], place.deepening * end1.z);
         if (needs_samples_) {
             const StripOrigin& from = work.origins.emplace_back(StripOrigin{w0, w1, clusters_.triangles[index], lone});
-            work.lights.push_back(light_of(from));
+            const auto& [source, grid] = lights_[index];
+            if (source == StripLight::From::points)
+                work.lights.push_back(light_of_points(grid, from.weights(0), from.weights(1)));
+            else
+                work.lights.emplace_back().from = source;
         }
-    }
-
-    StripLight light_of(const StripOrigin& from) const {
-        StripLight light;
-        if (!scene_->needs_samples(from.triangle)) return light;
-        light.from = StripLight::From::samples;
-        if (!scene_->light_cache || scene_->triangles[from.triangle].texture != ShadedScene::no_texture) return light;
-        const LightGrid& grid = scene_->light_cache->grid(from.triangle);
-        if (!grid.points || !grid.is_radiance) return light;
-        return light_of_points(grid, from.weights(0), from.weights(1));
     }
 
     void set_values(float (&values)[4], Rgb radiance, double z) const {
@@ -260,7 +271,8 @@ class EpiRenderer final : public LightFieldSource {
     RowAxes axes_;
     EpipolarFrame frame_;
     TriangleClusters clusters_;
-    float background_[4];  // as StripEnds has its values
+    std::vector<TriangleLight> lights_;  // in the places of the clusters; empty where all are From::ends
+    float background_[4];                // as StripEnds has its values
     bool needs_samples_ = scene_->lighting || !scene_->textures.empty();
 };
 
