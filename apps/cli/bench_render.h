@@ -26,7 +26,9 @@ struct RegionTimes {
 /// Milliseconds of one core for each hogel of a light field, shading included, against the side of the region that the
 /// renderer is given at once: squares of 1, 2, 4 … hogels in the middle of the hologram; rows of them for `simplex3d`
 /// and `mvr`, which take each row by itself; and for `raytrace` and `zbuffer`, which take each hogel by itself, the
-/// mean of hogels all over the hologram. Measured in processor time, so that other work beside it matters little.
+/// mean of hogels all over the hologram. Measured in processor time, so that other work beside it matters little. Light
+/// that is kept on surfaces is worked out by a first reading, which is not counted; but anew where only a part of the
+/// triangles is rendered.
 ///
 /// Where a single hogel would take longer than a region may, one in n triangles is rendered instead, and what that
 /// takes beyond an empty scene counts n times: good for renderers whose work is a sum over triangles, as that of all

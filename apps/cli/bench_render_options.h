@@ -19,7 +19,8 @@ struct BenchRenderOptions {
     std::vector<std::string> peers;
     bool scaling = false, stream = false;
     std::size_t rounds = defaults.bench_rounds;
-    bool own_hogels = false, own_directions = false, own_seconds = false;  ///< whether the user gave them
+    bool own_hogels = false, own_directions = false, own_seconds = false,
+         own_spacing = false;  ///< whether the user gave them
 };
 
 /// The model of shading that was asked for, or the one that the thesis used for its scene.

@@ -98,7 +98,7 @@ int bench_regions(const BenchRenderOptions& options, const Session& session) {
     for (const std::string& name : scenes) {
         RenderOptions render = options.render;
         render.shading = bench_shading(name, options);
-        render.light_spacing = 0;  // or who came first would pay for the light of all
+        if (!options.own_spacing) render.light_spacing = 0;  // as in [K]
         const auto scene = bench_scene(session, name, render);
         const std::string title =
             fmt::format("{}, {} triangles, shading '{}'", name, scene->triangles.size(), render.shading);
@@ -183,6 +183,14 @@ void add_bench_render(CLI::App& app, Session& session) {
         ->delimiter(',');
     command->add_option("--shading", options->shading, "Model of shading; if none is named, that of the thesis")
         ->type_name("NAME");
+    CLI::Option* spacing =
+        command
+            ->add_option("--light-spacing", options->render.light_spacing,
+                         fmt::format("As hogel render has it, where light depends on the point; 0, anew for each ray, "
+                                     "if none is given, but {:g} with --scaling and --stream",
+                                     defaults.light_spacing))
+            ->type_name("F")
+            ->check(CLI::Range(0.0, 16.0).description(""));
     add_count(command, "--largest", options->limits.side, "Largest side of a region, in hogels");
     CLI::Option* seconds = command
                                ->add_option("--seconds", options->limits.seconds,
@@ -239,6 +247,7 @@ void add_bench_render(CLI::App& app, Session& session) {
             options->own_hogels = hogels->count() > 0;
             options->own_directions = directions->count() > 0;
             options->own_seconds = seconds->count() > 0;
+            options->own_spacing = spacing->count() > 0;
             if (peers->count() > 0) return bench_render_peers(*options, session);
             if (options->scaling) return bench_render_scaling(*options, session);
             if (options->stream) return bench_render_stream(*options, session);

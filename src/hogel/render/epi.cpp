@@ -8,6 +8,7 @@
 #include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/epi_light_internal.h"
 #include "hogel/render/epi_occlusion_internal.h"
 #include "hogel/render/sample_store_internal.h"
 
@@ -30,6 +31,15 @@ struct StripOrigin {
     float weight0, weight1;  // of the lone corner, at the two ends
     std::uint32_t triangle;
     std::uint32_t lone;  // 0, 1 or 2
+
+    // Of the triangle's vertices, at this part of the way from end 0 to end 1.
+    std::array<float, 3> weights(float part) const {
+        std::array<float, 3> b;
+        b[lone] = (1 - part) * weight0 + part * weight1;
+        b[(lone + 1) % 3] = (1 - part) * (1 - weight0);
+        b[(lone + 2) % 3] = part * (1 - weight1);
+        return b;
+    }
 };
 
 class EpiRenderer final : public LightFieldSource {
@@ -37,6 +47,8 @@ class EpiRenderer final : public LightFieldSource {
     EpiRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
         : scene_(std::move(scene)), grid_(grid), axes_(grid), frame_(grid), clusters_(*scene_, frame_) {
         set_values(background_.value0, scene_->background, std::numeric_limits<double>::infinity());
+        if (needs_samples_)
+            for (const std::uint32_t triangle : clusters_.triangles) lights_.push_back(light_of(triangle));
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -73,19 +85,35 @@ class EpiRenderer final : public LightFieldSource {
                     std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
                     draw_plane(plane, place, work);
                     if (axes_.turned())
-                        shade_turned_plane(tile, plane, work, row, column, slow);
+                        shade_turned_plane(tile, plane, work, {first_row + row, first_column + column, slow});
                     else
-                        shade_plane(tile, plane, work, row, column, slow);
+                        shade_plane(tile, plane, work, {first_row + row, first_column + column, slow});
                 }
             }
     }
 
   private:
+    // Where the light of a triangle's strips comes from.
+    struct TriangleLight {
+        StripLight::From from = StripLight::From::ends;
+        LightGrid grid = {};
+    };
+
+    TriangleLight light_of(std::uint32_t triangle) const {
+        if (!scene_->needs_samples(triangle)) return {};
+        if (!scene_->light_cache || scene_->triangles[triangle].texture != ShadedScene::no_texture)
+            return {StripLight::From::samples};
+        const LightGrid& grid = scene_->light_cache->grid(triangle);
+        if (!grid.points || !grid.is_radiance) return {StripLight::From::samples};
+        return {StripLight::From::points, grid};
+    }
+
     // The strips of one epipolar plane; number 0 is the background.
     struct Work {
         std::vector<Strip> strips;
-        std::vector<StripShades> shades;
+        std::vector<StripShades, CacheLineAllocator<StripShades>> shades;
         std::vector<StripOrigin> origins;
+        std::vector<StripLight, CacheLineAllocator<StripLight>> lights;
         Occlusion occlusion;
         std::array<std::vector<float>, 4> turned;  // values of a plane whose columns lie far apart in the tile
     };
@@ -102,6 +130,7 @@ class EpiRenderer final : public LightFieldSource {
         work.strips.assign(1, {});
         work.shades.assign(1, background_);
         work.origins.assign(1, {});
+        work.lights.assign(1, {});
         work.occlusion.clear();
         const std::size_t between_updates =
             std::max(fewest_between_updates, plane.columns * plane.directions / samples_between_updates);
@@ -174,7 +203,14 @@ class EpiRenderer final : public LightFieldSource {
         set_values(shades.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], place.deepening * end0.z);
         set_values(shades.difference, w1 * radiance[lone] + (1 - w1) * radiance[last], place.deepening * end1.z);
         for (int i = 0; i < 4; ++i) shades.difference[i] -= shades.value0[i];
-        if (needs_samples_) work.origins.push_back({w0, w1, clusters_.triangles[index], lone});
+        if (needs_samples_) {
+            const StripOrigin& from = work.origins.emplace_back(StripOrigin{w0, w1, clusters_.triangles[index], lone});
+            const auto& [source, grid] = lights_[index];
+            if (source == StripLight::From::points)
+                work.lights.push_back(light_of_points(grid, from.weights(0), from.weights(1)));
+            else
+                work.lights.emplace_back().from = source;
+        }
     }
 
     void set_values(float (&values)[4], Rgb radiance, double z) const {
@@ -184,21 +220,24 @@ class EpiRenderer final : public LightFieldSource {
         values[3] = static_cast<float>(frame_.metres(z));
     }
 
-    void shade_plane(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t t, std::size_t s,
-                     std::size_t v) const {
-        const std::size_t stride = grid_.directions();
+    // The first sample of a plane, as the axes number hogels and directions.
+    struct First {
+        std::size_t slow_hogel, fast_hogel, slow_direction;
+    };
+
+    void shade_plane(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, const First& first) const {
+        const std::size_t t = first.slow_hogel - tile.range.t0, s = first.fast_hogel - tile.range.s0;
+        const std::size_t v = first.slow_direction, stride = grid_.directions();
         const bool colour = grid_.channels == 3;
-        const ShadedPlane out{{&tile.radiance(0, t, s, v, 0), colour ? &tile.radiance(1, t, s, v, 0) : nullptr,
-                               colour ? &tile.radiance(2, t, s, v, 0) : nullptr,
-                               tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : nullptr},
-                              {stride, stride, stride, stride}};
-        shade(plane, work.shades, out);
-        shade_samples(tile, plane, work, t, s, v);
+        shade_samples(plane, work, first,
+                      {{&tile.radiance(0, t, s, v, 0), colour ? &tile.radiance(1, t, s, v, 0) : nullptr,
+                        colour ? &tile.radiance(2, t, s, v, 0) : nullptr,
+                        tile.depth.size() > 0 ? &tile.depth(t, s, v, 0) : nullptr},
+                       {stride, stride, stride, stride}});
     }
 
     // The same where a row of directions is a column of the tile's.
-    void shade_turned_plane(LightFieldTile& tile, const EpipolarPlane& plane, Work& work, std::size_t row,
-                            std::size_t first, std::size_t slow) const {
+    void shade_turned_plane(LightFieldTile& tile, const EpipolarPlane& plane, Work& work, const First& first) const {
         ShadedPlane out{};
         for (std::size_t i = 0; i < 4; ++i) {
             if (i == 3 ? tile.depth.size() == 0 : i >= grid_.channels) continue;
@@ -206,47 +245,62 @@ class EpiRenderer final : public LightFieldSource {
             out.values[i] = work.turned[i].data();
             out.strides[i] = plane.directions;
         }
-        shade(plane, work.shades, out);
+        shade_samples(plane, work, first, out);
+        const std::size_t t = first.fast_hogel - tile.range.t0, s = first.slow_hogel - tile.range.s0;
         for (std::size_t i = 0; i < 4; ++i) {
             if (!out.values[i]) continue;
             for (std::size_t column = 0; column < plane.columns; ++column) {
-                float* to = i == 3 ? &tile.depth(first + column, row, 0, slow)
-                                   : &tile.radiance(i, first + column, row, 0, slow);
+                float* to = i == 3 ? &tile.depth(t + column, s, 0, first.slow_direction)
+                                   : &tile.radiance(i, t + column, s, 0, first.slow_direction);
                 const float* from = out.values[i] + column * plane.directions;
                 for (std::size_t k = 0; k < plane.directions; ++k) to[k * grid_.directions_u] = from[k];
             }
         }
-        shade_samples(tile, plane, work, row, first, slow);
     }
 
-    // Once more the samples for which interpolating the vertices' radiance is not enough.
-    void shade_samples(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, std::size_t row,
-                       std::size_t first, std::size_t slow) const {
-        if (!needs_samples_) return;
-        for (std::size_t i = 0; i < plane.columns * plane.directions; ++i) {
-            if (plane.words[i] == EpipolarPlane::nothing) continue;
-            const std::size_t column = i / plane.directions, k = i % plane.directions;
-            const std::size_t number = plane.words[i] & 0xffffffff;
-            const StripOrigin& from = work.origins[number];
-            if (!scene_->needs_samples(from.triangle)) continue;
-            const StripShades& strip = work.shades[number];
-            const float w = part_of_strip(strip, static_cast<float>(plane.first_column) + static_cast<float>(column),
-                                          plane.first_direction + static_cast<float>(k));
-            std::array<float, 3> b;
-            b[from.lone] = (1 - w) * from.weight0 + w * from.weight1;
-            b[(from.lone + 1) % 3] = (1 - w) * (1 - from.weight0);
-            b[(from.lone + 2) % 3] = w * (1 - from.weight1);
-            const float depth = strip.value0[3] + w * strip.difference[3];
-            const auto [t, s, v, u] = axes_.sample(row, first + column, slow, k);
-            store(tile, *scene_, grid_, {from.triangle, b[0], b[1], b[2], depth}, t, s, v, u);
-        }
+    void shade_samples(const EpipolarPlane& plane, const Work& work, const First& first, const ShadedPlane& out) const {
+        if (needs_samples_)
+            shade_lit(plane, work.shades, work.lights, PlaneSamples(*this, work, first), out);
+        else
+            shade(plane, work.shades, out);
     }
+
+    // What is worked out for single samples of a plane.
+    class PlaneSamples final : public SampleSource {
+      public:
+        PlaneSamples(const EpiRenderer& renderer, const Work& work, const First& first)
+            : renderer_(renderer), work_(work), first_(first) {}
+
+        Rgb radiance(std::size_t strip, float part, std::size_t column, std::size_t k) const override {
+            const StripOrigin& from = work_.origins[strip];
+            const StripShades& shades = work_.shades[strip];
+            const auto [b0, b1, b2] = from.weights(part);
+            const float depth = shades.value0[3] + part * shades.difference[3];
+            const auto sample =
+                renderer_.axes_.sample(first_.slow_hogel, first_.fast_hogel + column, first_.slow_direction, k);
+            const LightFieldGrid& grid = renderer_.grid_;
+            const Sight sight =
+                sight_along(grid, grid.u(static_cast<double>(sample.u)), grid.v(static_cast<double>(sample.v)), depth);
+            return radiance_at(*renderer_.scene_, from.triangle, b0, b1, b2, sight);
+        }
+
+        LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
+            return renderer_.scene_->light_cache->corners(*renderer_.scene_, work_.origins[strip].triangle, row,
+                                                          column);
+        }
+
+      private:
+        const EpiRenderer& renderer_;
+        const Work& work_;
+        First first_;
+    };
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
     RowAxes axes_;
     EpipolarFrame frame_;
     TriangleClusters clusters_;
+    std::vector<TriangleLight> lights_;  // in the places of the clusters; empty where all are From::ends
     StripShades background_{0, 0, 1, 0, {}, {}};
     bool needs_samples_ = scene_->lighting || !scene_->textures.empty();
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "hogel/shading/gloss_internal.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting_internal.h"
 #include "hogel/shading/reflection.h"
@@ -11,7 +12,7 @@ namespace {
 class DirectLighting final : public SampleLighting {
   public:
     DirectLighting(const Scene& scene, std::vector<ShadowMap> maps)
-        : lights_(scene.lights), maps_(std::move(maps)), ambient_(scene.ambient) {
+        : lights_(scene.lights), lamps_(lights_), maps_(std::move(maps)), ambient_(scene.ambient) {
         for (const Mesh& mesh : scene.meshes) {
             surfaces_.push_back({mesh.material, !mesh.radiance.empty()});
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -21,18 +22,20 @@ class DirectLighting final : public SampleLighting {
         }
     }
 
-    // The light that arrives, and on glossy surfaces what of it the lobe may take and how far each lamp gets there.
+    // On matt surfaces what is seen; on glossy ones the light that arrives, what of it the lobe may take, and how far
+    // each lamp gets there.
     Size size_of_light(std::size_t mesh) const override {
         const Surface& surface = surfaces_[mesh];
         if (surface.given) return {};
-        return surface.material.is_glossy() ? Size{6, lights_.size()} : Size{3, 0};
+        return surface.material.is_glossy() ? Size{6, lamps_.size()} : Size{3, 0};
     }
+
+    bool light_is_radiance(std::size_t mesh) const override { return !surfaces_[mesh].material.is_glossy(); }
 
     void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                   std::span<float> light) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const Surface& surface = surfaces_[triangle.mesh];
-        if (surface.given) return;
         std::ranges::fill(light, 0.0f);
         const bool glossy = surface.material.is_glossy();
         const SurfacePoint point(scene, triangle.vertices, weights);
@@ -47,23 +50,31 @@ class DirectLighting final : public SampleLighting {
             sum.add(surface.material, lit * static_cast<float>(from.falloff) * lights_[i].intensity, cosine);
             if (glossy) light[6 + i] = lit;
         }
-        put(sum.arriving, light.first<3>());
-        if (glossy) put(sum.for_lobe, light.subspan<3, 3>());
+        if (glossy) {
+            put(sum.arriving, light.first<3>());
+            put(sum.for_lobe, light.subspan<3, 3>());
+        } else {
+            const Rgb color = interpolate(colors_, triangle.vertices, weights);
+            put(surface.material.emission + color * (ambient_ + sum.arriving), light.first<3>());
+        }
     }
 
     Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                  std::span<const float> light, Rgb texture, const Sight& sight) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const Surface& surface = surfaces_[triangle.mesh];
-        if (surface.given) return texture * interpolate(scene.radiance, triangle.vertices, weights);
+        if (!surface.material.is_glossy()) return texture * rgb(light.first<3>());
         const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
         const Rgb emission = texture * surface.material.emission, arriving = rgb(light.first<3>());
-        if (!surface.material.is_glossy()) return emission + color * (ambient_ + arriving);
         const Vec3 normal = normal_at(triangle, weights);
         const Reflection reflection(surface.material, color, dot(normal, sight.to_viewer));
-        return emission + ambient_ * reflection.in_uniform_light() +
-               reflection.diffuse({arriving, rgb(light.subspan<3, 3>())}) +
-               gloss(scene, triangle, weights, light.subspan(6), normal, reflection, sight);
+        Rgb seen = emission + ambient_ * reflection.in_uniform_light() +
+                   reflection.diffuse({arriving, rgb(light.subspan<3, 3>())});
+        if (const double cos_view = dot(normal, sight.to_viewer); cos_view > 0)
+            seen += reflection.lobe(gloss(lamps_, light.subspan(6).data(),
+                                          {SurfacePoint(scene, triangle.vertices, weights).position, normal,
+                                           sight.to_viewer, cos_view, reflection.roughness()}));
+        return seen;
     }
 
   private:
@@ -87,24 +98,8 @@ class DirectLighting final : public SampleLighting {
         return size > 0 ? sum / size : sum;
     }
 
-    // What the lobe shows of each lamp; `lit` says how far it gets here.
-    Rgb gloss(const ShadedScene& scene, const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights,
-              std::span<const float> lit, Vec3 normal, const Reflection& reflection, const Sight& sight) const {
-        Rgb sum{0, 0, 0};
-        if (!(dot(normal, sight.to_viewer) > 0)) return sum;
-        const Vec3 position = SurfacePoint(scene, triangle.vertices, weights).position;
-        for (std::size_t i = 0; i < lights_.size(); ++i) {
-            if (!(lit[i] > 0)) continue;
-            const Illumination from = illuminate(lights_[i], position);
-            const double cosine = dot(normal, from.to_light);
-            if (cosine > 0)
-                sum += lit[i] * static_cast<float>(from.falloff) *
-                       (lights_[i].intensity * reflection.lobe(normal, sight.to_viewer, from.to_light, cosine));
-        }
-        return sum;
-    }
-
     std::vector<Light> lights_;
+    LampTable lamps_;
     std::vector<ShadowMap> maps_;
     Rgb ambient_;
     std::vector<Surface> surfaces_;  // of the meshes

@@ -156,8 +156,9 @@ Reflection::Reflection(const Material& material, Rgb color, double cos_view)
     lobe_ = Rgb{plain, plain, plain} + material.metallic * color;
     most_ = std::max({lobe_.r, lobe_.g, lobe_.b});
     roughness_ = clamped_roughness(material);
-    const LobeAlbedo here = lobe_albedo(std::abs(cos_view), roughness_), mean = mean_lobe_albedo(roughness_);
-    left_by_lobe_ = (1 - (most_ * here.scale + here.offset)) / (1 - (most_ * mean.scale + mean.offset));
+    here_ = lobe_albedo(std::abs(cos_view), roughness_);
+    const LobeAlbedo mean = mean_lobe_albedo(roughness_);
+    left_by_lobe_ = (1 - (most_ * here_.scale + here_.offset)) / (1 - (most_ * mean.scale + mean.offset));
 }
 
 Rgb Reflection::diffuse(const LightUnderLobe& light) const {
@@ -186,9 +187,8 @@ Rgb Reflection::towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_l
 
 Rgb Reflection::in_uniform_light() const {
     if (!glossy_) return diffuse_;
-    const LobeAlbedo here = lobe_albedo(std::abs(cos_view_), roughness_);
-    const auto left = static_cast<float>(1 - (most_ * here.scale + here.offset));
-    const auto scale = static_cast<float>(here.scale), offset = static_cast<float>(here.offset);
+    const auto left = static_cast<float>(1 - (most_ * here_.scale + here_.offset));
+    const auto scale = static_cast<float>(here_.scale), offset = static_cast<float>(here_.offset);
     return left * diffuse_ + scale * lobe_ + Rgb{offset, offset, offset};
 }
 

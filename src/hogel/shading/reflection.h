@@ -13,6 +13,21 @@ struct LightUnderLobe {
     void add(const Material& material, Rgb irradiance, double cos_light);
 };
 
+/// What a lobe shows of light: its reflectance at normal incidence times `scale`, and `offset`.
+struct LightInLobe {
+    Rgb scale{0, 0, 0}, offset{0, 0, 0};
+};
+
+/// The albedo of a lobe whose reflectance at normal incidence is r: r · scale + offset.
+/// Both come from a table over cosine and roughness, within 0.5 %.
+struct LobeAlbedo {
+    double scale, offset;
+};
+LobeAlbedo lobe_albedo(double cosine, double roughness);
+
+/// Its mean over the hemisphere, weighted by the cosine.
+LobeAlbedo mean_lobe_albedo(double roughness);
+
 /// How a point of a surface reflects: a diffuse part and a glossy lobe (GGX microfacets) that together reflect no more
 /// than they receive, and the same both ways.
 ///
@@ -29,30 +44,24 @@ class Reflection {
 
     /// The two parts of it: the lobe, for one direction, and the diffuse part, for any sum of lights.
     Rgb lobe(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const;
+    Rgb lobe(const LightInLobe& light) const { return light.scale * lobe_ + light.offset; }
     Rgb diffuse(const LightUnderLobe& light) const;
     /// The radiance towards the viewer for irradiance 1 at normal incidence from the unit direction l: the distribution
     /// function times n·l. n is the unit normal, v the unit direction to the viewer.
     Rgb towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const;
     /// The radiance towards the viewer in uniform light of radiance 1.
     Rgb in_uniform_light() const;
+    /// As the lobe has it.
+    double roughness() const { return roughness_; }
 
   private:
     bool glossy_ = false;
     Rgb diffuse_, lobe_;  // lobe_: its reflectance at normal incidence
     double most_ = 0;     // the largest channel of that, for E
     double roughness_ = 1, cos_view_ = 1;
+    LobeAlbedo here_{0, 0};    // E(n·v)
     double left_by_lobe_ = 1;  // (1 − E(n·v)) / (1 − mean of E)
 };
-
-/// The albedo of a lobe whose reflectance at normal incidence is r: r · scale + offset.
-/// Both come from a table over cosine and roughness, within 0.5 %.
-struct LobeAlbedo {
-    double scale, offset;
-};
-LobeAlbedo lobe_albedo(double cosine, double roughness);
-
-/// Its mean over the hemisphere, weighted by the cosine.
-LobeAlbedo mean_lobe_albedo(double roughness);
 
 /// Surfaces smoother than this are treated as this rough: a lamp is a point, and its image would be one too.
 inline constexpr double least_roughness = 0.15;

@@ -56,7 +56,7 @@ Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1,
     const ShadedScene::Triangle& triangle = scene.triangles[index];
     const bool textured = triangle.texture != ShadedScene::no_texture;
     const Rgb texture = textured ? texture_at(scene, triangle, b0, b1, b2, sight) : Rgb{1, 1, 1};
-    if (scene.lighting) return lit_radiance(scene, index, {b0, b1, b2}, texture, sight);
+    if (scene.is_lit(index)) return lit_radiance(scene, index, {b0, b1, b2}, texture, sight);
     const auto [a, b, c] = triangle.vertices;
     const Rgb radiance = b0 * scene.radiance[a] + b1 * scene.radiance[b] + b2 * scene.radiance[c];
     return textured ? radiance * texture : radiance;

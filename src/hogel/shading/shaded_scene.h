@@ -37,14 +37,18 @@ class SampleLighting {
     virtual ~SampleLighting() = default;
     /// How many numbers the light on a mesh takes; none where its vertices say it all.
     virtual Size size_of_light(std::size_t mesh) const = 0;
+    /// Whether these are three numbers: the radiance before the texture, the same for whoever looks.
+    virtual bool light_is_radiance(std::size_t mesh) const = 0;
     /// The light on the point of triangle `index` with these weights of its vertices, `size_of_light` numbers. They may
     /// be interpolated between points of one triangle.
     virtual void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                           std::span<float> light) const = 0;
-    /// The radiance towards the viewer of the point under that light. `texture` multiplies the base colour and the
-    /// emission.
-    virtual Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                         std::span<const float> light, Rgb texture, const Sight& sight) const = 0;
+    /// The radiance towards the viewer of the point under that light, on a mesh on which there is some. `texture`
+    /// multiplies the base colour and the emission.
+    virtual Rgb radiance(const ShadedScene& /*scene*/, std::size_t /*index*/, const std::array<float, 3>& /*weights*/,
+                         std::span<const float> light, Rgb texture, const Sight& /*sight*/) const {
+        return texture * Rgb{light[0], light[1], light[2]};
+    }
 };
 
 /// A scene ready for any renderer: one list of triangles, and their light. Without `lighting` the radiance at a point
@@ -68,8 +72,12 @@ struct ShadedScene {
     std::shared_ptr<LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null: worked out
                                               ///< for each ray
 
+    /// Whether light is worked out for the samples of this triangle, and its vertices have none.
+    bool is_lit(std::size_t index) const {
+        return lighting && lighting->size_of_light(triangles[index].mesh).sum() > 0;
+    }
     /// Whether interpolating the vertices' radiance is not all there is to this triangle.
-    bool needs_samples(std::size_t index) const { return lighting || triangles[index].texture != no_texture; }
+    bool needs_samples(std::size_t index) const { return triangles[index].texture != no_texture || is_lit(index); }
 };
 
 /// All triangles, numbered as in the scene, for rays to meet (trace/ray_caster.h).

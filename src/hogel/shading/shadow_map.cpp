@@ -99,26 +99,31 @@ float ShadowMap::lit(Vec3 point, Vec3 normal) const {
     const double width = point_light_ ? 2 * here.depth / static_cast<double>(side_) : width_;
     const double limit = here.depth + steepest * width;
     const double height = dot(normal, point - origin_);
-    const double last = static_cast<double>(side_) - 1, n = static_cast<double>(side_);
-    const auto compare = [&](double column, double row) {
-        column = std::clamp(column, 0.0, last), row = std::clamp(row, 0.0, last);
-        double plane = limit;
-        if (point_light_) {
-            const double fall = dot(normal, on_face(here.face, (2 * column + 1) / n - 1, (2 * row + 1) / n - 1));
-            if (fall * height > 0) plane = height / fall;
-        } else {
-            const double fall = dot(normal, forward_);
-            const Vec3 start = (column + 0.5) * width_ * right_ + (row + 0.5) * width_ * up_;
-            if (fall != 0) plane = (height - dot(normal, start)) / fall;
-        }
+    const double last = static_cast<double>(side_) - 1, per_side = 1 / static_cast<double>(side_);
+    const double column = std::floor(here.column), row = std::floor(here.row);
+    const std::array columns{std::clamp(column, 0.0, last), std::clamp(column + 1, 0.0, last)};
+    const std::array rows{std::clamp(row, 0.0, last), std::clamp(row + 1, 0.0, last)};
+    // A texel's ray meets the tangent plane at (height − start)/fall; both are sums of what the texel's column and its
+    // row add.
+    const std::size_t axis = here.face / 2;
+    const double fall = point_light_ ? (here.face % 2 == 0 ? 1 : -1) * component(normal, axis) : dot(normal, forward_);
+    const double along_columns = point_light_ ? component(normal, (axis + 1) % 3) : width_ * dot(normal, right_);
+    const double along_rows = point_light_ ? component(normal, (axis + 2) % 3) : width_ * dot(normal, up_);
+    const auto part = [&](double texel) { return point_light_ ? (2 * texel + 1) * per_side - 1 : texel + 0.5; };
+    const std::array of_columns{along_columns * part(columns[0]), along_columns * part(columns[1])};
+    const std::array of_rows{along_rows * part(rows[0]), along_rows * part(rows[1])};
+    const auto compare = [&](std::size_t i, std::size_t j) {
+        const double added = of_columns[i] + of_rows[j];
+        const double f = point_light_ ? fall + added : fall, h = point_light_ ? height : height - added;
+        // A lamp's rays do not go backwards.
+        const bool meets = point_light_ ? f * h > 0 : f != 0;
+        const double plane = meets ? h / f : limit;
         const std::size_t at =
-            (here.face * side_ + static_cast<std::size_t>(row)) * side_ + static_cast<std::size_t>(column);
+            (here.face * side_ + static_cast<std::size_t>(rows[j])) * side_ + static_cast<std::size_t>(columns[i]);
         return static_cast<double>(depth_[at]) >= std::min(plane, limit) - bias * width ? 1.0f : 0.0f;
     };
-    const double column = std::floor(here.column), row = std::floor(here.row);
     const auto x = static_cast<float>(here.column - column), y = static_cast<float>(here.row - row);
-    const float a = compare(column, row), b = compare(column + 1, row);
-    const float c = compare(column, row + 1), d = compare(column + 1, row + 1);
+    const float a = compare(0, 0), b = compare(1, 0), c = compare(0, 1), d = compare(1, 1);
     const float low = a + x * (b - a), high = c + x * (d - c);
     return low + y * (high - low);
 }

@@ -39,12 +39,12 @@ class ShadowedLighting final : public SampleLighting {
 
     // All of it: what is seen before the texture.
     Size size_of_light(std::size_t mesh) const override { return given_[mesh] ? Size{} : Size{3, 0}; }
+    bool light_is_radiance(std::size_t) const override { return true; }
 
     void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                   std::span<float> seen) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const auto& vertices = triangle.vertices;
-        if (given_[triangle.mesh]) return;
         const SurfacePoint point(scene, vertices, weights);
         Rgb sum = interpolate(unshadowed_, vertices, weights);
         constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
@@ -58,13 +58,6 @@ class ShadowedLighting final : public SampleLighting {
         seen[0] = sum.r;
         seen[1] = sum.g;
         seen[2] = sum.b;
-    }
-
-    Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                 std::span<const float> seen, Rgb texture, const Sight&) const override {
-        const ShadedScene::Triangle& triangle = scene.triangles[index];
-        if (given_[triangle.mesh]) return texture * interpolate(scene.radiance, triangle.vertices, weights);
-        return texture * Rgb{seen[0], seen[1], seen[2]};
     }
 
   private:

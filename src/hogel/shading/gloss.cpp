@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/shading/gloss_internal.h"
+
+namespace hogel {
+
+LampTable::LampTable(std::span<const Light> lights) {
+    const std::size_t size = (lights.size() + block - 1) / block * block;
+    for (Numbers* numbers : {&x, &y, &z, &near, &r, &g, &b}) numbers->resize(size);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
+        const bool distant = light.kind == Light::Kind::directional;
+        const Vec3 place = distant ? -normalize(light.direction) : light.position;
+        x[i] = static_cast<float>(place.x);
+        y[i] = static_cast<float>(place.y);
+        z[i] = static_cast<float>(place.z);
+        near[i] = distant ? 0.0f : 1.0f;
+        r[i] = light.intensity.r;
+        g[i] = light.intensity.g;
+        b[i] = light.intensity.b;
+    }
+}
+
+GlossyFloats::GlossyFloats(const GlossyPoint& point)
+    : px(static_cast<float>(point.position.x)),
+      py(static_cast<float>(point.position.y)),
+      pz(static_cast<float>(point.position.z)),
+      nx(static_cast<float>(point.normal.x)),
+      ny(static_cast<float>(point.normal.y)),
+      nz(static_cast<float>(point.normal.z)),
+      vx(static_cast<float>(point.to_viewer.x)),
+      vy(static_cast<float>(point.to_viewer.y)),
+      vz(static_cast<float>(point.to_viewer.z)),
+      cos_view(static_cast<float>(point.cos_view)) {
+    const double a2 = point.roughness * point.roughness * point.roughness * point.roughness;
+    alpha2 = static_cast<float>(a2);
+    less_alpha2 = static_cast<float>(1 - a2);
+    masked_view = static_cast<float>(std::sqrt(a2 + (1 - a2) * point.cos_view * point.cos_view));
+}
+
+LightInLobe GlossySums::total() const {
+    std::array<float, 6> sum;
+    for (std::size_t i = 0; i < 6; ++i) {
+        // Halves upon each other, which a compiler makes vectors of.
+        std::array<float, LampTable::block> rest;
+        std::ranges::copy(values[i], rest.begin());
+        for (std::size_t half = LampTable::block / 2; half > 0; half /= 2)
+            for (std::size_t k = 0; k < half; ++k) rest[k] += rest[half + k];
+        sum[i] = rest[0];
+    }
+    return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
+}
+
+LightInLobe gloss_plain(const LampTable& lamps, const float* lit, const GlossyPoint& point) {
+    const GlossyFloats at(point);
+    constexpr auto half_per_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
+    GlossySums sums;
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        if (!(lit[i] * lamps.r[i] > 0 || lit[i] * lamps.g[i] > 0 || lit[i] * lamps.b[i] > 0)) continue;
+        const float wx = lamps.x[i] - lamps.near[i] * at.px, wy = lamps.y[i] - lamps.near[i] * at.py,
+                    wz = lamps.z[i] - lamps.near[i] * at.pz;
+        const float squared = wx * wx + wy * wy + wz * wz;
+        const float per_distance = 1 / std::sqrt(squared);
+        const float cos_light = (at.nx * wx + at.ny * wy + at.nz * wz) * per_distance;
+        const float towards = (at.vx * wx + at.vy * wy + at.vz * wz) * per_distance;
+        // The direction between light and viewer is as long as √(2 + 2 l·v).
+        const float between = 2 + 2 * towards;
+        if (!(squared > 0 && cos_light > 0 && between > 0)) continue;
+        const float per_between = 1 / std::sqrt(between);
+        const float cos_half = (cos_light + at.cos_view) * per_between, view_half = (1 + towards) * per_between;
+        const float d = 1 - cos_half * cos_half * at.less_alpha2;
+        const float masked_light = std::sqrt(at.alpha2 + at.less_alpha2 * cos_light * cos_light);
+        const float visible = at.cos_view * masked_light + cos_light * at.masked_view;
+        // Of intensity: D V n·l times how far it gets, per squared distance.
+        const float falloff = lamps.near[i] > 0 ? 1 / squared : 1;
+        const float peak = at.alpha2 * half_per_pi / (d * d * visible) * cos_light * (lit[i] * falloff);
+        const float rest = 1 - std::min(view_half, 1.0f), rest2 = rest * rest, grazing = rest2 * rest2 * rest;
+        const float more = peak * grazing, less = peak - more;
+        const std::array<float, 3> intensity{lamps.r[i], lamps.g[i], lamps.b[i]};
+        for (std::size_t c = 0; c < 3; ++c) {
+            sums.values[c][i % LampTable::block] += less * intensity[c];
+            sums.values[3 + c][i % LampTable::block] += more * intensity[c];
+        }
+    }
+    return sums.total();
+}
+
+}  // namespace hogel

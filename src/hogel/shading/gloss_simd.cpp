@@ -1,0 +1,91 @@
+// The vector twin of gloss.cpp, compiled for every instruction set and chosen when first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/shading/gloss_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include <numbers>
+
+#include "hogel/shading/gloss_internal.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+LightInLobe Gloss(const LampTable& lamps, const float* lit, const GlossyPoint& point) {
+    const hn::CappedTag<float, LampTable::block> d;
+    using Floats = hn::Vec<decltype(d)>;
+    const GlossyFloats at(point);
+    const Floats px = hn::Set(d, at.px), py = hn::Set(d, at.py), pz = hn::Set(d, at.pz);
+    const Floats nx = hn::Set(d, at.nx), ny = hn::Set(d, at.ny), nz = hn::Set(d, at.nz);
+    const Floats vx = hn::Set(d, at.vx), vy = hn::Set(d, at.vy), vz = hn::Set(d, at.vz);
+    const Floats cos_view = hn::Set(d, at.cos_view), alpha2 = hn::Set(d, at.alpha2),
+                 less_alpha2 = hn::Set(d, at.less_alpha2), masked_view = hn::Set(d, at.masked_view);
+    const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
+    const Floats alpha2_per_2pi = hn::Set(d, at.alpha2 * static_cast<float>(0.5 * std::numbers::inv_pi));
+    const auto dot = [](Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz)
+                         HWY_ATTR { return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz)); };
+    GlossySums sums;
+    for (std::size_t i = 0; i < lamps.size(); i += hn::Lanes(d)) {
+        const auto of = [d, i](const LampTable::Numbers& numbers) HWY_ATTR { return hn::Load(d, numbers.data() + i); };
+        const Floats reach = hn::LoadU(d, lit + i), r = of(lamps.r), g = of(lamps.g), b = of(lamps.b);
+        const auto above = [&](Floats intensity) HWY_ATTR { return hn::Gt(hn::Mul(reach, intensity), zero); };
+        const auto shines = hn::Or(above(r), hn::Or(above(g), above(b)));
+        if (hn::AllFalse(d, shines)) continue;
+        const Floats near = of(lamps.near);
+        const Floats wx = hn::Sub(of(lamps.x), hn::Mul(near, px)), wy = hn::Sub(of(lamps.y), hn::Mul(near, py)),
+                     wz = hn::Sub(of(lamps.z), hn::Mul(near, pz));
+        const Floats squared = dot(wx, wy, wz, wx, wy, wz);
+        const Floats per_distance = hn::Div(one, hn::Sqrt(squared));
+        const Floats cos_light = hn::Mul(dot(nx, ny, nz, wx, wy, wz), per_distance);
+        const Floats towards = hn::Mul(dot(vx, vy, vz, wx, wy, wz), per_distance);
+        const Floats between = hn::Add(two, hn::Mul(two, towards));
+        const auto seen =
+            hn::And(hn::And(shines, hn::Gt(squared, zero)), hn::And(hn::Gt(cos_light, zero), hn::Gt(between, zero)));
+        if (hn::AllFalse(d, seen)) continue;
+        const Floats per_between = hn::Div(one, hn::Sqrt(between));
+        const Floats cos_half = hn::Mul(hn::Add(cos_light, cos_view), per_between);
+        const Floats view_half = hn::Mul(hn::Add(one, towards), per_between);
+        const Floats spread = hn::Sub(one, hn::Mul(hn::Mul(cos_half, cos_half), less_alpha2));
+        const Floats masked_light = hn::Sqrt(hn::Add(alpha2, hn::Mul(hn::Mul(less_alpha2, cos_light), cos_light)));
+        const Floats visible = hn::Add(hn::Mul(cos_view, masked_light), hn::Mul(cos_light, masked_view));
+        const Floats falloff = hn::IfThenElse(hn::Gt(near, zero), hn::Div(one, squared), one);
+        const Floats peak =
+            hn::Mul(hn::Mul(hn::Div(alpha2_per_2pi, hn::Mul(hn::Mul(spread, spread), visible)), cos_light),
+                    hn::Mul(reach, falloff));
+        const Floats rest = hn::Sub(one, hn::Min(view_half, one)), rest2 = hn::Mul(rest, rest);
+        const Floats more = hn::Mul(peak, hn::Mul(hn::Mul(rest2, rest2), rest)), less = hn::Sub(peak, more);
+        const Floats intensity[3] = {r, g, b};
+        for (std::size_t c = 0; c < 3; ++c)
+            for (const auto& [part, value] : {std::pair{c, less}, std::pair{3 + c, more}}) {
+                float* sum = sums.values[part] + i % LampTable::block;
+                hn::Store(hn::Add(hn::Load(d, sum), hn::IfThenElseZero(seen, hn::Mul(value, intensity[c]))), d, sum);
+            }
+    }
+    return sums.total();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel {
+
+HWY_EXPORT(Gloss);
+
+LightInLobe gloss(const LampTable& lamps, const float* lit, const GlossyPoint& point) {
+    return HWY_DYNAMIC_DISPATCH(Gloss)(lamps, lit, point);
+}
+
+std::vector<std::int64_t> gloss_targets() { return hwy::SupportedAndGeneratedTargets(); }
+
+void use_gloss_target(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace hogel
+#endif
