@@ -33,6 +33,7 @@ class DatasetReader {
     void read(const Box& box, float* to) const;
     void read(const Box& box, std::complex<float>* to) const;
     hdf5::Element element() const { return element_; }
+    std::size_t axes() const { return shape_.size(); }
 
   private:
     void check_storage(hid_t dataset, hid_t properties);
