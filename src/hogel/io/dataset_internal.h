@@ -9,6 +9,7 @@
 #include "hogel/core/journal.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/reused.h"
 #include "hogel/io/hdf5_internal.h"
 
 namespace hogel {
@@ -77,6 +78,7 @@ class DatasetFile {
     std::vector<std::uint64_t> offsets_;
     std::optional<RawFile> raw_;
     std::mutex writing_;
+    Reused<std::vector<std::uint16_t>> halves_;
     std::optional<Journal> journal_;  // goes first: it flushes the file
 };
 
