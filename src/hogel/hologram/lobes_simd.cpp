@@ -58,23 +58,50 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
 #if HWY_TARGET == HWY_SCALAR
     transpose_plain(from, from_row, rows, columns, to, to_row);
 #else
-    const hn::FixedTag<float, 4> d;
+    const hn::FixedTag<float, 4> quad;
     const auto four = [&](const float* in, float* out) {
-        const auto a = hn::LoadU(d, in), b = hn::LoadU(d, in + from_row);
-        const auto c = hn::LoadU(d, in + 2 * from_row), e = hn::LoadU(d, in + 3 * from_row);
-        const auto ab = hn::InterleaveLower(d, a, b), ce = hn::InterleaveLower(d, c, e);
-        hn::StoreU(hn::ConcatLowerLower(d, ce, ab), d, out);
-        hn::StoreU(hn::ConcatUpperUpper(d, ce, ab), d, out + to_row);
-        const auto ab_upper = hn::InterleaveUpper(d, a, b), ce_upper = hn::InterleaveUpper(d, c, e);
-        hn::StoreU(hn::ConcatLowerLower(d, ce_upper, ab_upper), d, out + 2 * to_row);
-        hn::StoreU(hn::ConcatUpperUpper(d, ce_upper, ab_upper), d, out + 3 * to_row);
+        const auto a = hn::LoadU(quad, in), b = hn::LoadU(quad, in + from_row);
+        const auto c = hn::LoadU(quad, in + 2 * from_row), e = hn::LoadU(quad, in + 3 * from_row);
+        const auto ac = hn::InterleaveLower(quad, a, c), be = hn::InterleaveLower(quad, b, e);
+        const auto ac_upper = hn::InterleaveUpper(quad, a, c), be_upper = hn::InterleaveUpper(quad, b, e);
+        hn::StoreU(hn::InterleaveLower(quad, ac, be), quad, out);
+        hn::StoreU(hn::InterleaveUpper(quad, ac, be), quad, out + to_row);
+        hn::StoreU(hn::InterleaveLower(quad, ac_upper, be_upper), quad, out + 2 * to_row);
+        hn::StoreU(hn::InterleaveUpper(quad, ac_upper, be_upper), quad, out + 3 * to_row);
     };
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+    // Sixteen rows at once: their pieces of four columns become whole vectors of a column.
+    const auto sixteen = [&](const float* in, float* out) {
+        const hn::FixedTag<float, 8> eight;
+        const hn::CappedTag<float, 16> d;
+        const auto pieces = [&](std::size_t row) {
+            const auto pair = [&](std::size_t first) {
+                return hn::Combine(eight, hn::LoadU(quad, in + (first + 4) * from_row),
+                                   hn::LoadU(quad, in + first * from_row));
+            };
+            return hn::Combine(d, pair(row + 8), pair(row));
+        };
+        const auto a = pieces(0), b = pieces(1), c = pieces(2), e = pieces(3);
+        const auto ac = hn::InterleaveLower(d, a, c), be = hn::InterleaveLower(d, b, e);
+        const auto ac_upper = hn::InterleaveUpper(d, a, c), be_upper = hn::InterleaveUpper(d, b, e);
+        hn::StoreU(hn::InterleaveLower(d, ac, be), d, out);
+        hn::StoreU(hn::InterleaveUpper(d, ac, be), d, out + to_row);
+        hn::StoreU(hn::InterleaveLower(d, ac_upper, be_upper), d, out + 2 * to_row);
+        hn::StoreU(hn::InterleaveUpper(d, ac_upper, be_upper), d, out + 3 * to_row);
+    };
+#endif
     // In squares of sixteen, along the lines that lie farther apart: whole cache lines of those are done with at once,
     // which at distances of powers of two would not stay in the cache until they are needed again.
     const std::size_t whole_rows = rows / 4 * 4, whole_columns = columns / 4 * 4;
     for (std::size_t row = 0; row < whole_rows; row += 16)
         for (std::size_t column = 0; column < whole_columns; column += 16) {
             const std::size_t end_row = std::min(row + 16, whole_rows), end = std::min(column + 16, whole_columns);
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+            if (end_row == row + 16) {
+                for (std::size_t c = column; c < end; c += 4) sixteen(from + row * from_row + c, to + c * to_row + row);
+                continue;
+            }
+#endif
             if (from_row >= to_row) {
                 for (std::size_t r = row; r < end_row; r += 4)
                     for (std::size_t c = column; c < end; c += 4) four(from + r * from_row + c, to + c * to_row + r);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 // Compiled for every instruction set and chosen when first called. Its plain twin is FFTW.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/math/column_fft_simd.cpp"
@@ -98,11 +100,11 @@ void TransformBlock(const ColumnFft::Plan& plan, bool forward, const float* from
 
 void TransformColumns(const ColumnFft::Plan& plan, bool forward, const float* from, std::size_t from_row, float* to,
                       std::size_t to_row, std::size_t floats) {
-    constexpr std::size_t block = 2 * ColumnFft::together;
+    const std::size_t block = plan.length > 128 ? 2 * ColumnFft::together : 4 * ColumnFft::together;
     thread_local Array<float, 1> room;
     if (room.size() < plan.length * block) room = Array<float, 1>({plan.length * block});
     for (std::size_t i = 0; i < floats; i += block)
-        TransformBlock(plan, forward, from + i, from_row, to + i, to_row, block, room.data());
+        TransformBlock(plan, forward, from + i, from_row, to + i, to_row, std::min(block, floats - i), room.data());
 }
 #endif
 
