@@ -46,12 +46,22 @@ class FourierSynthesis final : public HogelSynthesis {
   private:
     void transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values, Complex* to,
                    std::size_t to_row) const {
-        if (directions_.empty())
+        if (directions_.empty()) {
             spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, values.elements());
-        else
+        } else {
+            const Complex own = lines_ > 0 ? phase_of_line(place) : Complex(1);
             for (std::size_t i = 0; i < moduli.size(); ++i)
-                values.data()[i] = moduli[i] * directions_[place.look].data()[i];
+                values.data()[i] = moduli[i] * directions_[place.look].data()[i] * own;
+        }
         fft_.backward(values, to, to_row);
+    }
+
+    // Where all hogels have the same phases, lines still differ: alike they would send light straight ahead alone.
+    Complex phase_of_line(const HogelPlace& place) const {
+        const float one = 1;
+        Complex phase;
+        spread_random_phases(phase_series(options_, 0xffffffff, place.t, place.look), {&one, 1}, {&phase, 1});
+        return phase;
     }
 
     StereogramOptions options_;

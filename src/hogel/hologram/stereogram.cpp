@@ -214,10 +214,10 @@ void require_diffraction(const LightFieldGrid& light_field, const StereogramOpti
 
 // How many lines a hogel holds of a hologram with horizontal parallax only.
 std::size_t lines_per_hogel(const LightFieldGrid& light_field, const StereogramOptions& options) {
-    if (options.method != Method::fourier || options.phases != Phases::random)
+    if (options.method != Method::fourier || by_ray(options))
         throw Error(ErrorCode::usage,
                     "lines of a hologram with horizontal parallax only know nothing of each other; expected the method "
-                    "fourier with random phases");
+                    "fourier with random, fixed or designed phases");
     if (light_field.directions_v != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("a hologram with horizontal parallax only is made of one row of directions, but the "
