@@ -15,7 +15,15 @@ struct Options {
     std::string input, output;
     RenderOptions render;
     HologramOptions hologram;
-    bool resume = false;
+    bool half = false, resume = false;
+
+    HologramFileOptions file(const Session& session) const {
+        HologramFileOptions file;
+        file.type = half ? SampleType::half : SampleType::single;
+        file.metadata = describe_run(session);
+        if (resume) file.resume = describe_input(input);
+        return file;
+    }
 };
 
 void say_what_was_made(const Options& options, const std::vector<FieldGrid>& grids, const Session& session) {
@@ -58,7 +66,7 @@ int straight_from_scene(const Options& options, const SceneMethod& method, const
     RenderOptions render = options.render;
     render.light_spacing = 0;  // in parts of a ray's width, and there are no rays
     const auto scene = lit(session, load_scene(session, options.input, render), render);
-    const auto sinks = create_hologram(options.output, grids, describe_run(session));
+    const auto sinks = create_hologram(options.output, grids, options.file(session));
     SceneHologramOptions how;
     how.seed = session.seed;
     how.spacing = options.hologram.spacing;
@@ -94,8 +102,7 @@ int hologram(Options options, const Session& session) {
 
     std::vector<FieldGrid> grids;
     for (const auto& source : sources) grids.push_back(source->grid());
-    const auto sinks = create_hologram(options.output, grids, describe_run(session),
-                                       options.resume ? std::optional(describe_input(options.input)) : std::nullopt);
+    const auto sinks = create_hologram(options.output, grids, options.file(session));
     Stage stage(session, "hologram");
     for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
     say_what_was_made(options, grids, session);
@@ -114,6 +121,7 @@ void add_hologram(CLI::App& app, Session& session) {
         ->type_name("X.h5|SCENE")
         ->required();
     command->add_option("-o,--output", options->output, "Hologram to write, HDF5")->type_name("FILE")->required();
+    command->add_flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);
     add_hologram_options(command, options->hologram);
     add_scene_hologram_options(command, options->hologram);

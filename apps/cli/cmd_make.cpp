@@ -98,7 +98,7 @@ void store(const std::vector<std::unique_ptr<FieldSource>>& holograms, const std
            const Metadata& metadata, Stage& stage) {
     std::vector<FieldGrid> grids;
     for (const auto& hologram : holograms) grids.push_back(hologram->grid());
-    const auto sinks = create_hologram(path, grids, metadata);
+    const auto sinks = create_hologram(path, grids, {.metadata = metadata});
     for (std::size_t i = 0; i < sinks.size(); ++i) copy(*holograms[i], *sinks[i], 0, stage.progress(i, sinks.size()));
 }
 

@@ -68,7 +68,7 @@ int propagate_fields(const Options& options, const Session& session) {
     };
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::hologram) {
-        const auto sinks = create_hologram(options.output, grids, metadata);
+        const auto sinks = create_hologram(options.output, grids, {.metadata = metadata});
         for (std::size_t c = 0; c < grids.size(); ++c) colour(c, *sinks[c]);
     } else if (kind == OutputKind::array) {
         Field field(grids.front());

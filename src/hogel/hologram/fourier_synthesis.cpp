@@ -31,21 +31,37 @@ class FourierSynthesis final : public HogelSynthesis {
 
     // Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.
     void synthesise(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> hogel) const override {
-        if (lines_ == 0) return transform(moduli, place, hogel);
+        synthesise_to(moduli, place, hogel, hogel.data(), hogel.extent(1));
+    }
+
+    void synthesise_to(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> room, Complex* to,
+                       std::size_t to_row) const override {
+        if (lines_ == 0) return transform(moduli, place, room, to, to_row);
         // Lines do not know of each other.
         for (std::size_t line = 0; line < lines_; ++line)
             transform(moduli, {place.s, place.t * lines_ + line, place.look},
-                      {&hogel(line, 0), {1, frequencies_.columns()}});
+                      {&room(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
     }
 
   private:
-    void transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values) const {
-        if (directions_.empty())
+    void transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values, Complex* to,
+                   std::size_t to_row) const {
+        if (directions_.empty()) {
             spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, values.elements());
-        else
+        } else {
+            const Complex own = lines_ > 0 ? phase_of_line(place) : Complex(1);
             for (std::size_t i = 0; i < moduli.size(); ++i)
-                values.data()[i] = moduli[i] * directions_[place.look].data()[i];
-        fft_.backward(values);
+                values.data()[i] = moduli[i] * directions_[place.look].data()[i] * own;
+        }
+        fft_.backward(values, to, to_row);
+    }
+
+    // Where all hogels have the same phases, lines still differ: alike they would send light straight ahead alone.
+    Complex phase_of_line(const HogelPlace& place) const {
+        const float one = 1;
+        Complex phase;
+        spread_random_phases(phase_series(options_, 0xffffffff, place.t, place.look), {&one, 1}, {&phase, 1});
+        return phase;
     }
 
     StereogramOptions options_;

@@ -8,6 +8,9 @@
 namespace hogel {
 namespace {
 
+// Rays and lobes of a band, sixteen hogels of each: 128 KiB.
+constexpr std::size_t most_of_band = 2048;
+
 // Integral from −∞ to x of the hat function max(0, 1 − |x|).
 double hat_integral(double x) {
     if (x <= -1) return 0;
@@ -60,6 +63,14 @@ Average average_of_pieces(double low, double high, std::size_t count) {
     return result;
 }
 
+// As many weights in every lobe, some of them nought: a loop that is always as long is one that processors foresee.
+void widen(Average& average, std::size_t weights, std::size_t count) {
+    const std::size_t first = std::min(average.first, count - weights);
+    average.weights.insert(average.weights.begin(), average.first - first, 0.0f);
+    average.weights.resize(weights);
+    average.first = first;
+}
+
 }  // namespace
 
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength, Between between)
@@ -69,6 +80,8 @@ FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t 
     : rows_(samples), columns_(samples), rays_(0), row_length_(0) {
     for (const LightFieldGrid& face : faces) rays_ += face.directions();
     scattered_ = scatter_lobes(faces, samples, wavelength);
+    bands_ = {{0, scattered_.lobes.size(), 0, rays_}};
+    list_runs();
 }
 
 FrequencyGrid FrequencyGrid::of_line(const LightFieldGrid& light_field, std::size_t samples, double line_pitch,
@@ -84,6 +97,13 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     const bool sines = light_field.spacing == Spacing::sines;
     const auto mean = between == Between::constant || is_frequency_grid(light_field, wavelength) ? average_of_pieces
                                                                                                  : average_of_lines;
+    struct Averages {
+        Average u, v;
+        std::uint32_t coefficient;
+        float scale;
+    };
+    std::vector<Averages> all;
+    std::size_t most_u = 0, most_v = 0;
     // The sine −n/2 of an even grid would be its own mirror image, so the grid ends one before it.
     const std::ptrdiff_t reach_x = (width - 1) / 2, reach_y = (height - 1) / 2;
     for (std::ptrdiff_t jy = -reach_y; jy <= reach_y; ++jy)
@@ -105,13 +125,69 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
             // Rows run down while y runs up, so a row of the DFT is −j_y.
             const auto row = static_cast<std::size_t>((height - jy) % height),
                        column = static_cast<std::size_t>((width + jx) % width);
-            lobes_.push_back({static_cast<std::uint32_t>(row * columns + column), static_cast<std::uint32_t>(u.first),
-                              static_cast<std::uint32_t>(v.first), static_cast<std::uint32_t>(u.weights.size()),
-                              static_cast<std::uint32_t>(v.weights.size()), static_cast<std::uint32_t>(weights_.size()),
-                              static_cast<float>(step * step_up / cosine)});
-            weights_.insert(weights_.end(), u.weights.begin(), u.weights.end());
-            weights_.insert(weights_.end(), v.weights.begin(), v.weights.end());
+            most_u = std::max(most_u, u.weights.size());
+            most_v = std::max(most_v, v.weights.size());
+            all.push_back({u, v, static_cast<std::uint32_t>(row * columns + column),
+                           static_cast<float>(step * step_up / cosine)});
         }
+    for (Averages& lobe : all) {
+        widen(lobe.u, most_u, light_field.directions_u);
+        widen(lobe.v, most_v, rows == 1 ? 1 : light_field.directions_v);
+        lobes_.push_back({lobe.coefficient, static_cast<std::uint32_t>(lobe.u.first),
+                          static_cast<std::uint32_t>(lobe.v.first), static_cast<std::uint32_t>(most_u),
+                          static_cast<std::uint32_t>(most_v), static_cast<std::uint32_t>(weights_.size()), lobe.scale});
+        weights_.insert(weights_.end(), lobe.u.weights.begin(), lobe.u.weights.end());
+        weights_.insert(weights_.end(), lobe.v.weights.begin(), lobe.v.weights.end());
+    }
+    list_bands();
+    list_runs();
+}
+
+// Rows of frequencies, whose lobes see neighbouring rows of directions, are put together as long as there is room.
+void FrequencyGrid::list_bands() {
+    for (std::size_t first = 0, end = 0; first < lobes_.size(); first = end) {
+        const std::size_t row = lobes_[first].coefficient / columns_;
+        std::size_t low = rays_, high = 0;
+        for (; end < lobes_.size() && lobes_[end].coefficient / columns_ == row; ++end) {
+            low = std::min(low, lobes_[end].v0 * row_length_);
+            high = std::max(high, (lobes_[end].v0 + lobes_[end].nv) * row_length_);
+        }
+        if (!bands_.empty()) {
+            Band& last = bands_.back();
+            const std::size_t from = std::min(last.ray0, low), to = std::max(last.ray0 + last.rays, high);
+            if (to - from + end - last.lobe0 <= most_of_band) {
+                last = {last.lobe0, end - last.lobe0, from, to - from};
+                continue;
+            }
+        }
+        bands_.push_back({first, end - first, low, high - low});
+    }
+    for (const Band& band : bands_)
+        for (Lobe& lobe : std::span(lobes_).subspan(band.lobe0, band.lobes))
+            lobe.v0 -= static_cast<std::uint32_t>(band.ray0 / row_length_);
+}
+
+void FrequencyGrid::list_runs() {
+    std::vector<bool> lit(coefficients());
+    for (Band& band : bands_) {
+        band.run0 = runs_.size();
+        for (std::size_t lobe = band.lobe0; lobe < band.lobe0 + band.lobes; ++lobe) {
+            const std::uint32_t at = coefficient(lobe);
+            lit[at] = true;
+            if (runs_.size() > band.run0 && runs_.back().coefficient + runs_.back().count == at)
+                ++runs_.back().count;
+            else
+                runs_.push_back({at, 1});
+        }
+        band.runs = runs_.size() - band.run0;
+    }
+    for (std::uint32_t at = 0; at < lit.size(); ++at) {
+        if (lit[at]) continue;
+        if (!dark_.empty() && dark_.back().coefficient + dark_.back().count == at)
+            ++dark_.back().count;
+        else
+            dark_.push_back({at, 1});
+    }
 }
 
 bool is_frequency_grid(const LightFieldGrid& light_field, double wavelength) {
@@ -138,30 +214,42 @@ void FrequencyGrid::amplitudes_of_roots(View<const float, 2> roots, View<float, 
 
 // Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
 void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {
-    const std::size_t rays = values.extent(1), count = scattered_.lobes.size() + lobes_.size();
-    Array<float, 2> beside({rays, hogels_at_once}), averages({count, hogels_at_once});
-    std::fill(moduli.data(), moduli.data() + moduli.size(), 0.0f);
+    std::size_t most_rays = 0, most_lobes = 0;
+    for (const Band& band : bands_) {
+        most_rays = std::max(most_rays, band.rays);
+        most_lobes = std::max(most_lobes, band.lobes);
+    }
+    thread_local Array<float, 1> room;
+    if (room.size() < (most_rays + most_lobes) * hogels_at_once)
+        room = Array<float, 1>({(most_rays + most_lobes) * hogels_at_once});
+    const View<float, 2> beside(room.data(), {most_rays, hogels_at_once}),
+        averages(room.data() + beside.size(), {most_lobes, hogels_at_once});
+    const std::size_t rays = values.extent(1), count = coefficients();
     for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
         const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
-        for (std::size_t h = 0; h < hogels; ++h) {
-            const float* from = &values(first + h, 0);
-            for (std::size_t i = 0; i < rays; ++i) beside.data()[i * hogels_at_once + h] = from[i];
-        }
-        if (lobes_.empty())
-            average_scattered(scattered_, beside, of_roots, averages);
-        else
-            average_lobes(lobes_, weights_.data(), beside.data(), row_length_, of_roots, averages.data());
-        for (std::size_t h = 0; h < hogels; ++h) {
-            float* to = &moduli(first + h, 0);
-            const float* from = averages.data() + h;
-            const auto put = [&](std::uint32_t coefficient) {
-                to[coefficient] = *from;
-                from += hogels_at_once;
-            };
-            for (const Lobe& lobe : lobes_) put(lobe.coefficient);
-            for (const ScatteredLobes::Lobe& lobe : scattered_.lobes) put(lobe.coefficient);
+        for (std::size_t h = 0; h < hogels; ++h)
+            for (const Run& run : dark_) std::fill_n(&moduli(first + h, run.coefficient), run.count, 0.0f);
+        for (const Band& band : bands_) {
+            transpose(&values(first, band.ray0), rays, hogels, band.rays, beside.data(), hogels_at_once);
+            if (lobes_.empty())
+                average_scattered(scattered_, beside, of_roots, averages);
+            else
+                average_lobes(std::span(lobes_).subspan(band.lobe0, band.lobes), weights_.data(), beside.data(),
+                              row_length_, of_roots, averages.data());
+            const float* from = averages.data();
+            for (const Run& run : std::span(runs_).subspan(band.run0, band.runs)) {
+                transpose(from, hogels_at_once, run.count, hogels, &moduli(first, run.coefficient), count);
+                from += run.count * hogels_at_once;
+            }
         }
     }
+}
+
+void transpose_plain(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
+                     std::size_t to_row) {
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t column = 0; column < columns; ++column)
+            to[column * to_row + row] = from[row * from_row + column];
 }
 
 void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,

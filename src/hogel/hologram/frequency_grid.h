@@ -60,7 +60,7 @@ class FrequencyGrid {
     // A DFT coefficient that carries light: the directions that it averages and their weights, as an outer product.
     struct Lobe {
         std::uint32_t coefficient;
-        std::uint32_t u0, v0;   // first direction
+        std::uint32_t u0, v0;   // first direction, v0 counted from the band's first row
         std::uint32_t nu, nv;   // directions in each dimension
         std::uint32_t weights;  // where in weights_ its nu + nv weights begin
         float scale;            // (λ/d)² / cos θ, applied under the root
@@ -71,12 +71,31 @@ class FrequencyGrid {
                   double wavelength, Between between);
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
 
+    // Lobes one after the other with what they need of the light field, few enough for the nearer caches.
+    struct Band {
+        std::size_t lobe0 = 0, lobes = 0;
+        std::size_t ray0 = 0, rays = 0;
+        std::size_t run0 = 0, runs = 0;
+    };
+    // Coefficients side by side.
+    struct Run {
+        std::uint32_t coefficient, count;
+    };
+    void list_bands();
+    void list_runs();
+    std::uint32_t coefficient(std::size_t lobe) const {
+        return lobes_.empty() ? scattered_.lobes[lobe].coefficient : lobes_[lobe].coefficient;
+    }
+
     std::size_t rows_, columns_;
     std::size_t rays_;
     std::size_t row_length_;    // n_U
-    ScatteredLobes scattered_;  // where there are several faces, instead of what follows
+    ScatteredLobes scattered_;  // where there are several faces, instead of lobes
     std::vector<Lobe> lobes_;
     std::vector<float> weights_;
+    std::vector<Band> bands_;
+    std::vector<Run> runs_;  // of the lobes of each band, in their order
+    std::vector<Run> dark_;  // coefficients without a lobe
 };
 
 /// Whether a light field's directions are those of the hogels' Fourier transform at this wavelength.

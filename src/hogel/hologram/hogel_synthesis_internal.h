@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <memory>
 #include <span>
@@ -29,6 +30,12 @@ class HogelSynthesis {
                          View<float, 2> prepared) const = 0;
     virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
                             View<std::complex<float>, 2> hogel) const = 0;
+    /// The same with the hogel's rows elsewhere, row y at to + y·to_row, and `room` of the hogel's shape in between.
+    virtual void synthesise_to(std::span<const float> prepared, const HogelPlace& place,
+                               View<std::complex<float>, 2> room, std::complex<float>* to, std::size_t to_row) const {
+        synthesise(prepared, place, room);
+        for (std::size_t y = 0; y < room.extent(0); ++y) std::copy_n(&room(y, 0), room.extent(1), to + y * to_row);
+    }
 };
 
 /// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2). The rays of a
@@ -55,8 +62,9 @@ std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                            const StereogramOptions& options);
 
-/// Stereograms whose windows overlap.
+/// Stereograms whose windows overlap. One by one is the plain way, which is always taken where windows are large; the
+/// other makes windows of many hogels at once.
 std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const StereogramOptions& options);
+                                              const StereogramOptions& options, bool one_by_one = false);
 
 }  // namespace hogel

@@ -229,20 +229,54 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
 }
 
 TEST(HorizontalParallax, is_as_bright_as_the_light_field_says_whatever_the_distance_of_lines) {
-    const LightFieldGrid grid{30, 30, 40_um, 30, 1, 0.12, 0.01, 1};
+    const LightFieldGrid grid{8, 8, 160_um, 30, 1, 0.12, 0.01, 1};
     const LightField light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
-    for (const double lines : {4_um, 10_um}) {
+    for (const auto& [lines, phases] : {std::pair{4_um, Phases::random},
+                                        {10_um, Phases::random},
+                                        {10_um, Phases::fixed},
+                                        {10_um, Phases::designed}}) {
         StereogramOptions options;
         options.pitch = 2_um;
         options.line_pitch = lines;
+        options.phases = phases;
         options.looks = 6;
         Camera camera;
         camera.eye = {5_mm, 0, 100_mm};
-        camera.pupil = 2.5_mm;
+        camera.pupil = 2.5_mm;  // hogels that are alike send light in directions λ/d apart, 0.4 mm there
         camera.picture = {8, 8, 100_um, 100_um, 0, 0};
         const auto hologram = make_stereogram(light, options);
         EXPECT_NEAR(mean_of(photograph(*hologram, std::span(&camera, 1))[0]), 0.7, 0.04) << lines;
     }
+}
+
+// What lines share makes their fringe flat; what is their own, a phase, sends light up and down alike.
+TEST(HorizontalParallax, designed_phases_flatten_the_fringe_of_every_line) {
+    const LightFieldGrid grid{8, 8, 160_um, 30, 1, 0.12, 0.01, 1};
+    const LightField light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
+    StereogramOptions options;
+    options.pitch = 2_um;
+    options.line_pitch = 10_um;
+    const auto peak = [&](Phases phases) {
+        options.phases = phases;
+        const auto hologram = make_stereogram(light, options);
+        Field field(hologram->grid());
+        copy(*hologram, field);
+        double largest = 0, sum = 0;
+        for (const Complex value : field.samples.elements()) {
+            largest = std::max<double>(largest, std::norm(value));
+            sum += std::norm(value);
+        }
+        return largest * static_cast<double>(field.samples.size()) / sum;
+    };
+    EXPECT_GT(peak(Phases::random), 6);
+    EXPECT_LT(peak(Phases::designed), 2.5);
+    options.phases = Phases::designed;
+    Camera above;
+    above.eye = {0, 1.5_mm, 100_mm};
+    above.pupil = 2.5_mm;
+    above.picture = {8, 8, 100_um, 100_um, 0, 0};
+    options.looks = 6;
+    EXPECT_NEAR(mean_of(photograph(*make_stereogram(light, options), std::span(&above, 1))[0]), 0.7, 0.05);
 }
 
 // Of every kind the same bytes in any tiling: hogels are keyed by their place, lines by their number.
@@ -301,8 +335,8 @@ TEST(StereogramOfAnyKind, refuses_what_cannot_be_with_what_would_do) {
     options.pitch = 3_um;
     options.line_pitch = 9_um;
     expect_usage(only, options, "8x1 directions would do");
-    options.phases = Phases::designed;
-    expect_usage(only, options, "random phases");
+    options.phases = Phases::added;
+    expect_usage(only, options, "random, fixed or designed phases");
 
     LightFieldGrid sines{2, 2, 36_um, 31, 31, 15.5 * 633e-9 / 36e-6, 15.5 * 633e-9 / 36e-6, 1};
     sines.spacing = Spacing::sines;

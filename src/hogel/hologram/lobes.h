@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "hogel/hologram/frequency_grid.h"
@@ -15,5 +16,12 @@ void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float
                          std::size_t row_length, bool of_roots, float* out);
 void average_lobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
                    std::size_t row_length, bool of_roots, float* out);
+
+/// to[column · to_row + row] = from[row · from_row + column] for the rows and columns of `from`; plain, and four of
+/// each at once. The twins give the same.
+void transpose_plain(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
+                     std::size_t to_row);
+void transpose(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
+               std::size_t to_row);
 
 }  // namespace hogel

@@ -4,8 +4,10 @@
 #include <optional>
 
 #include "hogel/core/random.h"
+#include "hogel/core/reused.h"
 #include "hogel/hologram/hogel_synthesis_internal.h"
 #include "hogel/hologram/unit_roots.h"
+#include "hogel/hologram/window_batch_internal.h"
 #include "hogel/math/fft.h"
 
 namespace hogel {
@@ -25,23 +27,14 @@ std::size_t window_side(const LightFieldGrid& light_field, const FieldGrid& grid
 
 std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
 
-// A direction of the window's Fourier transform, with the ray of the light field nearest to it.
-struct Direction {
-    std::uint32_t coefficient;  // [row][column] of the transform
-    std::uint32_t ray;          // [l][k] of the light field
-    float share;                // |a|² for unit radiance, (λ/W)²/cos θ
-    float U, V;
-    double turns_per_depth;  // 1/(λ cos θ)
-    double first_turns;      // the phase of the window's first sample, counted from its centre
-};
-
 // The stereogram whose hogels are windows that overlap: a Hann window around each hogel's centre, filled by one Fourier
 // transform with the waves of its directions, each in the phase of a spherical wave from the point that it meets; all
 // windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
 // stereograms", ACM TOG 38(6), 2019.
 class OverlapAdd final : public FieldSource {
   public:
-    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options)
+    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options,
+               bool one_by_one)
         : light_field_(light_field),
           options_(options),
           grid_(grid),
@@ -58,6 +51,7 @@ class OverlapAdd final : public FieldSource {
         list_directions();
         list_brightness();
         steps_a_metre_ = 1 / depth_step_;
+        batches_ = !one_by_one && side_ <= WindowBatch::largest_side && !directions_.empty();
     }
 
     const FieldGrid& grid() const override { return grid_; }
@@ -66,29 +60,121 @@ class OverlapAdd final : public FieldSource {
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
         validate(region, grid_, out.shape());
-        std::fill(out.data(), out.data() + out.size(), Complex(0));
         const auto [s0, ns] = windows_over(region.x0, region.width, light_field_.grid().hogels_s);
         const auto [t0, nt] = windows_over(region.y0, region.height, light_field_.grid().hogels_t);
-        // Few rows of hogels at once, to bound memory; every sample adds its windows in the same order.
-        const std::size_t rows = std::max<std::size_t>(1, band_rays / (ns * light_field_.grid().directions()));
-        Array<Complex, 2> window({side_, side_});
-        std::optional<PointTurns> points;
-        if (options_.phases == Phases::random) points.emplace(*this, s0, t0, ns, nt, look);
-        for (std::size_t t = t0; t < t0 + nt; t += rows) {
-            LightFieldTile tile(light_field_.grid(), {s0, t, ns, std::min(rows, t0 + nt - t)}, true);
-            light_field_.read(tile);
-            for (std::size_t j = 0; j < tile.range.nt; ++j)
-                for (std::size_t i = 0; i < ns; ++i) {
-                    fill(tile.radiance.view()[options_.channel][j][i].elements(), tile.depth[j][i].elements(),
-                         {s0 + i, t + j, look}, points ? &*points : nullptr, window);
-                    fft_.backward(window);
-                    add(window, s0 + i, t + j, region, out);
-                }
-        }
+        auto room = rooms_.take();
+        if (batches_)
+            add_batches({s0, t0, ns, nt}, region, look, *room, out);
+        else
+            add_one_by_one({s0, t0, ns, nt}, region, look, *room, out);
     }
 
   private:
-    static constexpr std::size_t band_rays = std::size_t{1} << 21;
+    static constexpr std::size_t band_rays = std::size_t{1} << 18;
+
+    class PointTurns;
+
+    // What a region is made in.
+    struct Room {
+        LightFieldTile tile;
+        std::optional<WindowBatch> batch;
+        WindowBatch::Sum sum;
+    };
+
+    // Calls use(tile) for few rows of hogels at once, to bound memory.
+    template <class Use>
+    void for_each_band(const HogelRange& hogels, LightFieldTile& tile, const Use& use) const {
+        const std::size_t rows = std::max<std::size_t>(1, band_rays / (hogels.ns * light_field_.grid().directions()));
+        for (std::size_t t = hogels.t0; t < hogels.t0 + hogels.nt; t += rows) {
+            const HogelRange band{hogels.s0, t, hogels.ns, std::min(rows, hogels.t0 + hogels.nt - t)};
+            if (tile.range.ns != band.ns || tile.range.nt != band.nt)
+                tile = LightFieldTile(light_field_.grid(), band, true);
+            tile.range = band;
+            light_field_.read(tile);
+            use(tile);
+        }
+    }
+
+    // The plain way. Every sample adds its windows in the same order, whatever the region.
+    void add_one_by_one(const HogelRange& hogels, const Region& region, std::size_t look, Room& room,
+                        View<Complex, 2> out) const {
+        std::fill(out.data(), out.data() + out.size(), Complex(0));
+        Array<Complex, 2> window({side_, side_});
+        std::optional<PointTurns> points;
+        if (options_.phases == Phases::random) points.emplace(*this, hogels.s0, hogels.t0, hogels.ns, hogels.nt, look);
+        for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
+            const HogelRange& range = tile.range;
+            for (std::size_t j = 0; j < range.nt; ++j)
+                for (std::size_t i = 0; i < range.ns; ++i) {
+                    fill(tile.radiance.view()[options_.channel][j][i].elements(), tile.depth[j][i].elements(),
+                         {range.s0 + i, range.t0 + j, look}, points ? &*points : nullptr, window);
+                    fft_.backward(window);
+                    add(window, range.s0 + i, range.t0 + j, region, out);
+                }
+        });
+    }
+
+    // Batches begin at the same hogels whatever the region, and so does the order in which a sample's windows are
+    // added.
+    void add_batches(HogelRange hogels, const Region& region, std::size_t look, Room& room,
+                     View<Complex, 2> out) const {
+        constexpr std::size_t together = WindowBatch::hogels;
+        const std::size_t end =
+            std::min(light_field_.grid().hogels_s, (hogels.s0 + hogels.ns + together - 1) / together * together);
+        hogels.s0 = hogels.s0 / together * together;
+        hogels.ns = end - hogels.s0;
+        if (!room.batch) {
+            WindowBatch::Shared shared{side_, hop_, &directions_, &brightness_, &window_};
+            shared.steps_a_metre = steps_a_metre_;
+            shared.hogels_a_metre = hogels_a_metre_;
+            shared.waves_a_metre = waves_a_metre_;
+            shared.pitch = light_field_.grid().pitch;
+            room.batch.emplace(shared);
+        }
+        const std::size_t before = (side_ - hop_) / 2;
+        WindowBatch::Sum& sum = room.sum;
+        sum.first_x = hogels.s0 * hop_;
+        sum.first_y = region.y0 + before;
+        sum.height = region.height;
+        sum.row = (hogels.ns + together - 1) / together * together + side_ / hop_ + 1;
+        for (Array<float, 1>* part : {&sum.re, &sum.im}) {
+            const std::size_t size = sum.height * hop_ * sum.row;
+            if (part->size() < size)
+                *part = Array<float, 1>({size});
+            else
+                std::fill_n(part->data(), size, 0.0f);
+        }
+        std::optional<PointTurns> points;
+        if (options_.phases == Phases::random) points.emplace(*this, hogels.s0, hogels.t0, hogels.ns, hogels.nt, look);
+        for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
+            for (std::size_t j = 0; j < tile.range.nt; ++j)
+                for (std::size_t i = 0; i < tile.range.ns; i += together)
+                    add_batch(tile, i, j, look, points ? &*points : nullptr, room);
+        });
+        for (std::size_t y = 0; y < region.height; ++y)
+            for (std::size_t x = 0; x < region.width; ++x) {
+                const std::size_t at = region.x0 + before + x;
+                const std::size_t from = (y * hop_ + at % hop_) * sum.row + at / hop_ - hogels.s0;
+                out(y, x) = {sum.re.data()[from], sum.im.data()[from]};
+            }
+    }
+
+    void add_batch(const LightFieldTile& tile, std::size_t i, std::size_t j, std::size_t look, const PointTurns* points,
+                   Room& room) const {
+        const std::size_t s = tile.range.s0 + i, t = tile.range.t0 + j;
+        WindowBatch::PointTurns turns_of_points;
+        if (points)
+            turns_of_points = [=](const std::int32_t* columns, const std::int32_t* rows, float* turns) {
+                for (std::size_t k = 0; k < WindowBatch::hogels; ++k)
+                    turns[k] = static_cast<float>((*points)(static_cast<std::int64_t>(s + k) + columns[k],
+                                                            static_cast<std::int64_t>(t) - rows[k]));
+            };
+        const WindowBatch::At at{s, t, series(look), key()};
+        const std::size_t count = std::min(WindowBatch::hogels, tile.range.ns - i);
+        if (room.batch->fill(at, &tile.radiance(options_.channel, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
+                             light_field_.grid().directions(), turns_of_points))
+            room.batch->add(at, room.sum);
+    }
 
     void list_directions() {
         const LightFieldGrid& rays = light_field_.grid();
@@ -231,7 +317,7 @@ class OverlapAdd final : public FieldSource {
     void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
               const PointTurns* points, View<Complex, 2> window) const {
         std::fill(window.data(), window.data() + window.size(), Complex(0));
-        for (const Direction& direction : directions_) {
+        for (const WindowDirection& direction : directions_) {
             const float light = radiance[direction.ray] * direction.share;
             if (!(light > 0)) continue;
             const float depth = depths[direction.ray];
@@ -241,9 +327,7 @@ class OverlapAdd final : public FieldSource {
                 turns += points ? turns_of_point(direction, depth, place, *points) : depth * direction.turns_per_depth;
                 amplitude *= brightness(depth);
             } else {
-                // Nothing is a surface far away, of which neighbouring windows see different points.
-                turns += random_turns(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
-                                      direction.coefficient + 1, place.look);
+                turns += turns_of_nothing(direction, place);
                 amplitude *= brightness_.back();
             }
             window.data()[direction.coefficient] = amplitude * roots_(turns);
@@ -251,13 +335,21 @@ class OverlapAdd final : public FieldSource {
     }
 
     double random_turns(std::uint32_t column, std::uint32_t row, std::uint32_t direction, std::size_t look) const {
-        return philox({column, row, direction, static_cast<std::uint32_t>(look * 4 + options_.channel)},
-                      {static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)})[0] /
-               4294967296.0;
+        return philox({column, row, direction, series(look)}, key())[0] / 4294967296.0;
+    }
+    std::uint32_t series(std::size_t look) const { return static_cast<std::uint32_t>(look * 4 + options_.channel); }
+    std::array<std::uint32_t, 2> key() const {
+        return {static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)};
+    }
+
+    // Nothing is a surface far away, of which neighbouring windows see different points.
+    double turns_of_nothing(const WindowDirection& direction, const HogelPlace& place) const {
+        return random_turns(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
+                            direction.coefficient + 1, place.look);
     }
 
     // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
-    double turns_of_point(const Direction& direction, double depth, const HogelPlace& place,
+    double turns_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
                           const PointTurns& points) const {
         const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
         const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
@@ -306,18 +398,20 @@ class OverlapAdd final : public FieldSource {
     Fft2 fft_;
     UnitRoots roots_;
     std::vector<float> window_, square_;  // along a line, and [q][p] as a product of two
-    std::vector<Direction> directions_;
+    std::vector<WindowDirection> directions_;
     std::vector<float> brightness_;  // by |ζ| in steps of depth_step_, the last for all beyond
     double depth_step_ = 0;
     // What every ray would have to divide by.
     double hogels_a_metre_ = 0, waves_a_metre_ = 0, steps_a_metre_ = 0;
+    bool batches_ = false;  // windows of many hogels at once
+    mutable Reused<Room> rooms_;
 };
 
 }  // namespace
 
 std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const StereogramOptions& options) {
-    return std::make_unique<OverlapAdd>(light_field, grid, options);
+                                              const StereogramOptions& options, bool one_by_one) {
+    return std::make_unique<OverlapAdd>(light_field, grid, options, one_by_one);
 }
 
 }  // namespace hogel

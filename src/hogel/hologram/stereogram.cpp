@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "hogel/core/reused.h"
 #include "hogel/core/units.h"
 #include "hogel/hologram/hogel_synthesis_internal.h"
 
@@ -26,10 +27,10 @@ bool by_ray(const StereogramOptions& options) {
     return options.phases == Phases::added || options.phases == Phases::added_exactly;
 }
 
-// What the looks of a range of hogels share, [nt][ns][...].
+// What the looks of a range of hogels share, [hogel][...], row by row.
 struct Prepared {
     HogelRange range;
-    Array<float, 3> values;
+    Array<float, 2> values;
 };
 
 std::vector<LightFieldGrid> grids_of(std::span<const LightFieldSource* const> faces) {
@@ -64,23 +65,22 @@ class Stereogram final : public FieldSource {
         HogelRange hogels{region.x0 / columns_, region.y0 / rows_, 0, 0};
         hogels.ns = (region.x0 + region.width - 1) / columns_ + 1 - hogels.s0;
         hogels.nt = (region.y0 + region.height - 1) / rows_ + 1 - hogels.t0;
-        Array<Complex, 2> square({rows_, columns_});
+        auto room = rooms_.take();
+        if (room->square.size() == 0) room->square = Array<Complex, 2>({rows_, columns_});
         if (options_.looks > 1) {
-            const std::shared_ptr<const Prepared> prepared = prepare(hogels);
-            for (std::size_t t = 0; t < hogels.nt; ++t)
-                write_row(prepared->values[t], {hogels.s0, hogels.t0 + t, look}, region, square, out);
+            write(prepare(hogels)->values, hogels, 0, look, region, room->square, out);
             return;
         }
+        read_rays(hogels, room->rays);
         // What one look alone needs stays in the cache, a few hogels at a time.
-        const std::vector<LightFieldTile> tiles = read_rays(hogels);
-        Array<float, 2> prepared({std::min(hogels_together, hogels.ns), synthesis_->prepared_size()});
-        for (std::size_t t = 0; t < hogels.nt; ++t)
-            for (std::size_t s = 0; s < hogels.ns; s += hogels_together) {
-                const std::size_t count = std::min(hogels_together, hogels.ns - s);
-                const View<float, 2> some(prepared.data(), {count, synthesis_->prepared_size()});
-                prepare(tiles, t, s, some);
-                write_row(some, {hogels.s0 + s, hogels.t0 + t, look}, region, square, out);
-            }
+        const std::size_t values = synthesis_->prepared_size();
+        if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
+        for (std::size_t first = 0; first < hogels.hogels(); first += hogels_together) {
+            const View<float, 2> some(room->prepared.data(),
+                                      {std::min(hogels_together, hogels.hogels() - first), values});
+            prepare(room->rays, first, some);
+            write(some, hogels, first, look, region, room->square, out);
+        }
     }
 
   private:
@@ -88,45 +88,62 @@ class Stereogram final : public FieldSource {
 
     const LightFieldGrid& front() const { return faces_.front()->grid(); }
 
-    // A tile of each face.
-    std::vector<LightFieldTile> read_rays(const HogelRange& hogels) const {
-        std::vector<LightFieldTile> tiles;
-        for (const LightFieldSource* face : faces_)
-            face->read(tiles.emplace_back(face->grid(), hogels, needs_depth(options_)));
-        return tiles;
+    // What a region is made in.
+    struct Room {
+        std::vector<LightFieldTile> rays;  // of each face
+        Array<float, 2> prepared;          // [hogels_together][...]
+        Array<Complex, 2> square;          // a hogel
+    };
+
+    void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles) const {
+        tiles.resize(faces_.size());
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            LightFieldTile& tile = tiles[i];
+            if (tile.range.ns != hogels.ns || tile.range.nt != hogels.nt)
+                tile = LightFieldTile(faces_[i]->grid(), hogels, needs_depth(options_));
+            tile.range = hogels;
+            faces_[i]->read(tile);
+        }
     }
 
-    // Hogels s, s+1, ... of row t of the tiles, in each of which they lie one after the other.
-    void prepare(std::span<const LightFieldTile> tiles, std::size_t t, std::size_t s, View<float, 2> prepared) const {
+    // Hogels number first, first + 1, ... of the tiles, in each of which they lie one after the other, row by row.
+    void prepare(std::span<const LightFieldTile> tiles, std::size_t first, View<float, 2> prepared) const {
         const Shape<2> rays{prepared.extent(0), rays_};
-        const LightFieldTile& tile = tiles.front();
         if (tiles.size() > 1) {
             Array<float, 2> together(rays);
-            for (std::size_t hogel = 0; hogel < rays[0]; ++hogel) {
-                float* to = &together(hogel, 0);
-                for (const LightFieldTile& face : tiles)
-                    to = std::ranges::copy(face.radiance.view()[options_.channel][t][s + hogel].elements(), to).out;
-            }
+            float* to = together.data();
+            for (std::size_t hogel = first; hogel < first + rays[0]; ++hogel)
+                for (const LightFieldTile& face : tiles) {
+                    const auto all = face.radiance.view()[options_.channel];
+                    const std::size_t directions = all.extent(2) * all.extent(3);
+                    to = std::copy_n(all.data() + hogel * directions, directions, to);
+                }
             return synthesis_->prepare(together, {}, prepared);
         }
-        synthesis_->prepare(
-            {&tile.radiance(options_.channel, t, s, 0, 0), rays},
-            tile.depth.size() > 0 ? View<const float, 2>(&tile.depth(t, s, 0, 0), rays) : View<const float, 2>(),
-            prepared);
+        const LightFieldTile& tile = tiles.front();
+        const View<const float, 2> depths(tile.depth.data() + first * rays_, rays);
+        synthesis_->prepare({tile.radiance.view()[options_.channel].data() + first * rays_, rays},
+                            tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
     }
 
-    // The parts of hogels in a row, the first of them at `place`, that the region asks for.
-    void write_row(View<const float, 2> prepared, HogelPlace place, const Region& region, View<Complex, 2> square,
-                   View<Complex, 2> out) const {
-        const std::size_t y0 = std::max(place.t * rows_, region.y0),
-                          y1 = std::min((place.t + 1) * rows_, region.y0 + region.height);
-        for (std::size_t i = 0; i < prepared.extent(0); ++i, ++place.s) {
-            synthesis_->synthesise(prepared[i].elements(), place, square);
-            const std::size_t x0 = std::max(place.s * columns_, region.x0),
+    // The parts that the region asks for of hogels number first, first + 1, ... of a range.
+    void write(View<const float, 2> prepared, const HogelRange& hogels, std::size_t first, std::size_t look,
+               const Region& region, View<Complex, 2> square, View<Complex, 2> out) const {
+        for (std::size_t i = 0; i < prepared.extent(0); ++i) {
+            const HogelPlace place{hogels.s0 + (first + i) % hogels.ns, hogels.t0 + (first + i) / hogels.ns, look};
+            const std::size_t y0 = std::max(place.t * rows_, region.y0),
+                              y1 = std::min((place.t + 1) * rows_, region.y0 + region.height),
+                              x0 = std::max(place.s * columns_, region.x0),
                               x1 = std::min((place.s + 1) * columns_, region.x0 + region.width);
+            Complex* to = &out(y0 - region.y0, x0 - region.x0);
+            if (y1 - y0 == rows_ && x1 - x0 == columns_) {
+                synthesis_->synthesise_to(prepared[i].elements(), place, square, to, region.width);
+                continue;
+            }
+            synthesis_->synthesise(prepared[i].elements(), place, square);
             for (std::size_t y = y0; y < y1; ++y)
                 std::copy_n(&square(y - place.t * rows_, x0 - place.s * columns_), x1 - x0,
-                            &out(y - region.y0, x0 - region.x0));
+                            to + (y - y0) * region.width);
         }
     }
 
@@ -136,11 +153,12 @@ class Stereogram final : public FieldSource {
             for (const auto& entry : recent_)
                 if (entry->range == hogels) return entry;
         }
-        const std::vector<LightFieldTile> tiles = read_rays(hogels);
+        std::vector<LightFieldTile> tiles;
+        read_rays(hogels, tiles);
         auto prepared = std::make_shared<Prepared>();
         prepared->range = hogels;
-        prepared->values = Array<float, 3>({hogels.nt, hogels.ns, synthesis_->prepared_size()});
-        for (std::size_t t = 0; t < hogels.nt; ++t) prepare(tiles, t, 0, prepared->values[t]);
+        prepared->values = Array<float, 2>({hogels.hogels(), synthesis_->prepared_size()});
+        prepare(tiles, 0, prepared->values);
         const std::lock_guard lock(recent_mutex_);
         recent_.push_front(prepared);
         if (recent_.size() > most_recent) recent_.pop_back();
@@ -156,6 +174,7 @@ class Stereogram final : public FieldSource {
     std::size_t columns_, rows_;  // samples of a hogel
     std::size_t rays_ = 0;        // of a hogel, of all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
+    mutable Reused<Room> rooms_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;
 };
@@ -195,10 +214,10 @@ void require_diffraction(const LightFieldGrid& light_field, const StereogramOpti
 
 // How many lines a hogel holds of a hologram with horizontal parallax only.
 std::size_t lines_per_hogel(const LightFieldGrid& light_field, const StereogramOptions& options) {
-    if (options.method != Method::fourier || options.phases != Phases::random)
+    if (options.method != Method::fourier || by_ray(options))
         throw Error(ErrorCode::usage,
                     "lines of a hologram with horizontal parallax only know nothing of each other; expected the method "
-                    "fourier with random phases");
+                    "fourier with random, fixed or designed phases");
     if (light_field.directions_v != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("a hologram with horizontal parallax only is made of one row of directions, but the "

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "hogel/core/error.h"
 #include "hogel/core/units.h"
@@ -198,6 +199,20 @@ TEST(FrequencyGrid, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) 
         average_lobes_plain(lobes, weights, rays.data(), 19, of_roots, plain.data());
         average_lobes(lobes, weights, rays.data(), 19, of_roots, fast.data());
         for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(plain.data()[i], fast.data()[i], 1e-6f) << i;
+    }
+}
+
+TEST(Transpose, twins_agree_whatever_the_size) {
+    std::mt19937 random(1);
+    for (const auto& [rows, columns] :
+         {std::pair<std::size_t, std::size_t>{16, 64}, {16, 37}, {5, 16}, {3, 3}, {41, 16}, {1, 50}, {64, 7}}) {
+        const std::size_t from_row = columns + 3, to_row = rows + 2;
+        std::vector<float> from(rows * from_row), plain(columns * to_row, -1), fast(columns * to_row, -1);
+        for (float& value : from) value = static_cast<float>(random() % 1000);
+        transpose_plain(from.data(), from_row, rows, columns, plain.data(), to_row);
+        transpose(from.data(), from_row, rows, columns, fast.data(), to_row);
+        EXPECT_EQ(plain, fast) << rows << "x" << columns;
+        EXPECT_EQ(plain[(columns - 1) * to_row + rows - 1], from[(rows - 1) * from_row + columns - 1]);
     }
 }
 

@@ -249,9 +249,11 @@ void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* f
 
 void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) {
     if (datasets_[dataset].element != Element::half) return write_bytes(dataset, box, from);
-    std::vector<std::uint16_t> halves(samples_of(box.extent));
-    to_half(from, halves.data(), halves.size());
-    write_bytes(dataset, box, halves.data());
+    const std::size_t samples = samples_of(box.extent);
+    auto halves = halves_.take();
+    if (halves->size() < samples) halves->resize(samples);
+    to_half(from, halves->data(), samples);
+    write_bytes(dataset, box, halves->data());
 }
 
 void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<float>* from) {

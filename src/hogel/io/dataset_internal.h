@@ -9,6 +9,7 @@
 #include "hogel/core/journal.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/reused.h"
 #include "hogel/io/hdf5_internal.h"
 
 namespace hogel {
@@ -33,6 +34,7 @@ class DatasetReader {
     void read(const Box& box, float* to) const;
     void read(const Box& box, std::complex<float>* to) const;
     hdf5::Element element() const { return element_; }
+    std::size_t axes() const { return shape_.size(); }
 
   private:
     void check_storage(hid_t dataset, hid_t properties);
@@ -76,6 +78,7 @@ class DatasetFile {
     std::vector<std::uint64_t> offsets_;
     std::optional<RawFile> raw_;
     std::mutex writing_;
+    Reused<std::vector<std::uint16_t>> halves_;
     std::optional<Journal> journal_;  // goes first: it flushes the file
 };
 

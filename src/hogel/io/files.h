@@ -53,19 +53,26 @@ std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std:
                                                                       const LightFieldFileOptions& options = {});
 
 /// A hologram: one field, or three that share a plane's extent for red, green and blue. In HDF5 a group "field<i>" a
-/// wavelength with a dataset "samples" [y][x] of compound {r, i} (single), which h5py reads as complex64, and
-/// attributes pitch, wavelength and pose.
+/// wavelength with a dataset "samples": [y][x] of compound {r, i} (single), which h5py reads as complex64, or
+/// [y][x][2] of half floats; and attributes pitch, wavelength and pose.
 struct HologramFile {
     std::vector<std::unique_ptr<FieldSource>> fields;
     Metadata metadata;
 };
 HologramFile open_hologram(const std::filesystem::path& path);
 
-/// One sink a field; each must be finished. The file gets its own name when the last one is. `resume` as in
-/// LightFieldFileOptions.
+struct HologramFileOptions {
+    /// Halves keep 11 bits of numbers from 6·10⁻⁵ to 65504, in half the room.
+    SampleType type = SampleType::single;
+    Metadata metadata = {};                            ///< as in LightFieldFileOptions
+    std::optional<std::string> resume = std::nullopt;  ///< as in LightFieldFileOptions
+};
+
+/// One sink a field; each must be finished. The file gets its own name when the last one is. A sink of halves throws
+/// Error(usage) for samples that are too large for them.
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
-                                                        std::span<const FieldGrid> grids, const Metadata& metadata = {},
-                                                        const std::optional<std::string>& resume = {});
+                                                        std::span<const FieldGrid> grids,
+                                                        const HologramFileOptions& options = {});
 
 enum class FileKind { light_field, hologram, picture, mesh, unknown };
 

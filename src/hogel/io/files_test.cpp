@@ -16,6 +16,7 @@
 #include <span>
 
 #include "hogel/core/error.h"
+#include "hogel/core/half.h"
 #include "hogel/core/parallel.h"
 
 // HDF5 1.10 forgets what it had begun to load when a checksum turns out wrong; builds with a leak checker ask here.
@@ -226,7 +227,7 @@ TEST_F(Files, a_hologram_of_any_size_comes_back) {
          {std::pair<std::size_t, std::size_t>{1, 1}, {1, 17}, {2311, 1301}, {1024, 1024}}) {
         const std::vector<FieldGrid> grids{plane_of(width, height), plane_of(height, width)};
         const Field first = random_field(grids[0]), second = random_field(grids[1]);
-        auto sinks = create_hologram(path_, grids, {{"hogel_command", "hologram a.h5"}});
+        auto sinks = create_hologram(path_, grids, {.metadata = {{"hogel_command", "hologram a.h5"}}});
         ASSERT_EQ(sinks.size(), 2u);
         copy(first, *sinks[0]);
         EXPECT_TRUE(!fs::exists(path_) || width != 1 || height != 1) << "has its name before the last field";
@@ -244,6 +245,39 @@ TEST_F(Files, a_hologram_of_any_size_comes_back) {
         Array<std::complex<float>, 2> one({1, 1});
         EXPECT_THROW(file.fields[0]->read({width, 0, 1, 1}, 0, one), Error);
         EXPECT_THROW(file.fields[0]->read({0, 0, 1, 1}, 1, one), Error);
+    }
+}
+
+TEST_F(Files, a_hologram_of_halves_comes_back_to_eleven_bits) {
+    const FieldGrid grid = plane_of(1301, 1030);
+    Field field = random_field(grid);
+    for (auto& sample : field.samples.elements()) sample *= 1e-6f;
+    copy(field, *create_hologram(path_, {&grid, 1}, {.type = SampleType::half})[0]);
+    const HologramFile file = open_hologram(path_);
+    EXPECT_EQ(file.fields.at(0)->grid(), grid);
+    EXPECT_LT(fs::file_size(path_), 4 * grid.plane.samples() + 8192);
+    EXPECT_EQ(std::ranges::count(summarize(path_).text, std::pair<std::string, std::string>{"samples", "half"}), 1);
+    Field back(grid);
+    copy(*file.fields[0], back);
+    const auto same = [](float value, float kept) {
+        return std::abs(kept - value) <= std::max(std::abs(value) * 0x1p-11f, 0x1p-25f);
+    };
+    for (std::size_t i = 0; i < field.samples.size(); ++i) {
+        ASSERT_TRUE(same(field.samples.data()[i].real(), back.samples.data()[i].real())) << i;
+        ASSERT_TRUE(same(field.samples.data()[i].imag(), back.samples.data()[i].imag())) << i;
+    }
+    Array<std::complex<float>, 2> part({3, 5});
+    file.fields[0]->read({1290, 1020, 5, 3}, 0, part);
+    EXPECT_EQ(part(2, 4), back.samples(1022, 1294));
+
+    field.samples(700, 5) = {0, -65505};
+    const auto sinks = create_hologram(path_, {&grid, 1}, {.type = SampleType::half});
+    try {
+        copy(field, *sinks[0]);
+        ADD_FAILURE() << "wrote an infinite sample";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_SAYS(std::string(error.what()), "65505");
     }
 }
 
@@ -451,16 +485,26 @@ TEST_F(Files, a_side_face_damaged_in_any_byte_of_its_header_is_refused_or_unchan
 
 TEST_F(Files, a_hologram_damaged_in_any_byte_of_its_header_is_refused_or_unchanged) {
     const FieldGrid grid = plane_of(7, 5);
-    const Field field = random_field(grid);
-    copy(field, *create_hologram(path_, {&grid, 1}, {{"hogel_command", "x"}})[0]);
-    damage_every_byte(path_, field.samples.elements(), [&] {
+    Field field = random_field(grid);
+    // What halves keep as it is.
+    for (auto& sample : field.samples.elements()) {
+        const auto kept = [](float part) { return float_of(half_of(1e-6f * part)); };
+        sample = {kept(sample.real()), kept(sample.imag())};
+    }
+    std::vector<std::uint16_t> halves(2 * field.samples.size());
+    to_half(reinterpret_cast<const float*>(field.samples.data()), halves.data(), halves.size());
+    const auto read = [&] {
         const HologramFile file = open_hologram(path_);
         EXPECT_EQ(file.fields.at(0)->grid(), grid);
         Field back(grid);
         copy(*file.fields[0], back);
         EXPECT_TRUE(same_bits(back.samples, field.samples));
         summarize(path_);
-    });
+    };
+    copy(field, *create_hologram(path_, {&grid, 1}, {SampleType::single, {{"hogel_command", "x"}}})[0]);
+    damage_every_byte(path_, field.samples.elements(), read);
+    copy(field, *create_hologram(path_, {&grid, 1}, {SampleType::half, {{"hogel_command", "x"}}})[0]);
+    damage_every_byte(path_, halves, read);
 }
 
 TEST_F(Files, many_threads_open_read_and_write_at_once) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hogel/io/hdf5_internal.h"
+#include "hogel/io/dataset_internal.h"
 #include "hogel/lightfield/light_field.h"
 #include "hogel/optics/field.h"
 
@@ -12,5 +12,9 @@ std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesy
 
 /// The same for the fields of a hologram, one for each group "field<i>".
 std::vector<FieldGrid> read_hologram_grids(hid_t file, const std::filesystem::path& path);
+
+/// The samples of a hologram's field number `field`, which has that grid.
+DatasetReader samples_of_field(hid_t file, std::size_t field, const FieldGrid& grid,
+                               const std::shared_ptr<const RawFile>& raw);
 
 }  // namespace hogel

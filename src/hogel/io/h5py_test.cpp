@@ -169,6 +169,12 @@ TEST_F(H5py, reads_every_value_and_attribute) {
         "-0.5\n"
         "assert a['z_m'] == 0\n",
         directory_ / "f.h5");
+    copy(numbered(planes[0]), *create_hologram(directory_ / "g.h5", {planes, 1}, {.type = SampleType::half})[0]);
+    run("import sys, h5py, numpy as np\n"
+        "x = h5py.File(sys.argv[1], 'r')['field0/samples']\n"
+        "assert x.dtype == np.float16 and x.shape == (2, 3, 2) and x.attrs['axis_order'] == b'y,x,part'\n"
+        "assert (x.astype('f4')[...].view('c8').ravel() == (1 - 2j) * np.arange(6)).all()\n",
+        directory_ / "g.h5");
 }
 
 // The same light field as h5py users may store it: compressed, chunked, in another type.
@@ -208,12 +214,15 @@ TEST_F(H5py, writes_light_fields_that_are_read) {
 
 TEST_F(H5py, writes_holograms_that_are_read) {
     const FieldGrid plane{{3, 2, 1e-6, 2e-6, 0.25, -0.5}, 5e-7};
-    for (const char* storage : {"dtype='c8'", "dtype='c16'", "dtype='c8', chunks=(2, 2), compression='gzip'"}) {
+    const std::string whole = "x, ", parts = "np.stack((x.real, x.imag), axis=-1), ";
+    for (const std::string& storage :
+         {whole + "dtype='c8'", whole + "dtype='c16'", whole + "dtype='c8', chunks=(2, 2), compression='gzip'",
+          parts + "dtype='f2'", parts + "dtype='f4'", parts + "dtype='f2', chunks=(1, 2, 2), compression='gzip'"}) {
         run(std::string("import sys, h5py, numpy as np\n"
                         "f = h5py.File(sys.argv[1], 'w', libver='v108')\n"
                         "f.attrs['format'] = 'hogel hologram'; f.attrs['format_version'] = 1\n"
                         "x = ((1 - 2j) * np.arange(6)).reshape(2, 3)\n"
-                        "d = f.create_group('field0').create_dataset('samples', data=x, ") +
+                        "d = f.create_group('field0').create_dataset('samples', data=") +
                 storage +
                 ")\n"
                 "d.attrs.update(wavelength_m=5e-7, pitch_x_m=1e-6, pitch_y_m=2e-6, center_x_m=0.25, center_y_m=-0.5, "

@@ -94,7 +94,7 @@ TEST_F(Resume, an_interrupted_light_field_becomes_the_same_file) {
 TEST_F(Resume, an_interrupted_hologram_becomes_the_same_file) {
     const CountedField source;
     const auto create = [&](const char* name) {
-        return create_hologram(directory_ / name, std::vector(2, source.grid()), {}, "a");
+        return create_hologram(directory_ / name, std::vector(2, source.grid()), {.resume = "a"});
     };
     for (auto& sink : create("whole.h5")) copy(source, *sink, 0);
     const std::size_t all = source.reads;

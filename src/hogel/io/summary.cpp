@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "hogel/codec/stream.h"
-#include "hogel/io/dataset_internal.h"
 #include "hogel/io/files.h"
 #include "hogel/io/grids_internal.h"
 
@@ -104,6 +103,8 @@ void describe(const StreamInfo& info, FileSummary& summary) {
     summary.text.insert(summary.text.end(), info.metadata.begin(), info.metadata.end());
 }
 
+const char* name_of(hdf5::Element element) { return element == hdf5::Element::half ? "half" : "single"; }
+
 FileKind kind_of(hid_t file, const std::filesystem::path& path) {
     if (!hdf5::has_attribute(file, "format", path)) return FileKind::unknown;
     const std::string format = hdf5::read_text(file, "format", path);
@@ -143,12 +144,14 @@ FileSummary summarize(const std::filesystem::path& path) {
         const std::vector<std::size_t> shape{grid.channels, grid.hogels_t, grid.hogels_s, grid.directions_v,
                                              grid.directions_u};
         const DatasetReader radiance(file.id(), "radiance", shape, false, raw);
-        summary.text.emplace_back("samples", radiance.element() == hdf5::Element::half ? "half" : "single");
+        summary.text.emplace_back("samples", name_of(radiance.element()));
         summary.text.emplace_back("depth", hdf5::has_member(file.id(), "depth", path) ? "yes" : "no");
     } else {
         const std::vector<FieldGrid> grids = read_hologram_grids(file.id(), path);
         summary.numbers.emplace_back("fields", static_cast<double>(grids.size()));
         for (std::size_t i = 0; i < grids.size(); ++i) describe(grids[i], i, summary);
+        const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+        summary.text.emplace_back("samples", name_of(samples_of_field(file.id(), 0, grids[0], raw).element()));
     }
     for (auto& word : hdf5::read_metadata(file.id(), path)) summary.text.push_back(std::move(word));
     return summary;

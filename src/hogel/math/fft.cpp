@@ -11,6 +11,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/math/column_fft_internal.h"
 
 namespace hogel {
 namespace {
@@ -61,6 +62,8 @@ class Directions {
 // Arrays from this size on are transformed line by line on all threads; smaller ones are most often one of many that
 // different threads transform.
 constexpr std::size_t large_array = std::size_t{1} << 16;
+// Up to this size one thread is the quickest where columns need not be copied one by one.
+constexpr std::size_t largest_by_columns = std::size_t{1} << 18;
 // Lines that are copied together into room of their own, so that columns are read a whole cache line at a time.
 constexpr std::size_t lines_together = 16;
 
@@ -121,7 +124,14 @@ void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, boo
 
 struct Fft2::Plans {
     Plans(std::size_t h, std::size_t w) : height(h), width(w) {
-        if (h * w >= large_array) {
+        if (h * w <= largest_by_columns && ColumnFft::can(h, w)) {
+            whole.emplace(h * w, [&](fftwf_complex* p, int sign, unsigned flags) {
+                const int length = static_cast<int>(w);
+                return fftwf_plan_many_dft(1, &length, static_cast<int>(h), p, nullptr, 1, length, p, nullptr, 1,
+                                           length, sign, flags);
+            });
+            upright.emplace(h);
+        } else if (h * w >= large_array) {
             rows.emplace(w);
             columns.emplace(h);
         } else {
@@ -130,20 +140,24 @@ struct Fft2::Plans {
             });
         }
     }
-    void run(bool forward, View<std::complex<float>, 2> values) const {
+    void run(bool forward, View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const {
         if (values.extent(0) != height || values.extent(1) != width)
             throw Error(ErrorCode::internal, fmt::format("FFT of {}x{} values with a plan for {}x{}", values.extent(0),
                                                          values.extent(1), height, width));
         if (whole) {
             whole->run(forward, values.data());
+            if (upright) return upright->transform(forward, values.data(), width, to, to_row, width);
         } else {
             transform_rows(values, *rows, forward);
             transform_columns(values, *columns, forward);
         }
+        if (to == values.data() && to_row == width) return;
+        for (std::size_t y = 0; y < height; ++y) std::copy_n(&values(y, 0), width, to + y * to_row);
     }
 
     std::size_t height, width;
-    std::optional<Directions> whole;    // of a small array
+    std::optional<Directions> whole;    // of a small array, or all of its rows
+    std::optional<ColumnFft> upright;   // what is left of it then
     std::optional<Fft1> rows, columns;  // of a large one
 };
 
@@ -156,8 +170,11 @@ Fft2::~Fft2() = default;
 Fft2::Fft2(Fft2&&) noexcept = default;
 Fft2& Fft2::operator=(Fft2&&) noexcept = default;
 
-void Fft2::forward(View<std::complex<float>, 2> values) const { plans_->run(true, values); }
-void Fft2::backward(View<std::complex<float>, 2> values) const { plans_->run(false, values); }
+void Fft2::forward(View<std::complex<float>, 2> values) const { plans_->run(true, values, values.data(), width()); }
+void Fft2::backward(View<std::complex<float>, 2> values) const { backward(values, values.data(), width()); }
+void Fft2::backward(View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const {
+    plans_->run(false, values, to, to_row);
+}
 std::size_t Fft2::height() const { return plans_->height; }
 std::size_t Fft2::width() const { return plans_->width; }
 

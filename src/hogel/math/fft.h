@@ -43,6 +43,8 @@ class Fft2 {
     /// Transforms in place; the shape is that of the plan.
     void forward(View<std::complex<float>, 2> values) const;
     void backward(View<std::complex<float>, 2> values) const;
+    /// The same with the result elsewhere: row r at to + r·to_row. What is left in `values` means nothing.
+    void backward(View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const;
 
     std::size_t height() const;
     std::size_t width() const;

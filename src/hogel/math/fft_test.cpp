@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 
 #include "hogel/core/error.h"
+#include "hogel/math/column_fft_internal.h"
 
 namespace hogel {
 namespace {
@@ -56,6 +58,45 @@ TEST(Fft2, large_ones_are_the_same_sum) {
     fft.forward(values);
     for (std::size_t i = 0; i < values.size(); ++i)
         ASSERT_LT(std::abs(values.data()[i] / float(height * width) - spectrum.data()[i]), 1e-5f);
+}
+
+// Lengths of powers of two have columns transformed by other code than FFTW's: against sums along columns.
+TEST(ColumnFft, is_the_sum_of_waves_for_every_length_and_either_way) {
+    for (std::size_t length = ColumnFft::shortest; length <= 512; length *= 2) {
+        const std::size_t columns = 2 * ColumnFft::together, row = columns + 3;
+        if (!ColumnFft::can(length, columns)) GTEST_SKIP() << "without vectors there is nothing to test";
+        const Array<Complex, 2> from = noise(length, row);
+        for (const bool forward : {false, true}) {
+            Array<Complex, 2> to({length, row + 1}, Complex(7, 7));
+            ColumnFft(length).transform(forward, from.data(), row, &to(0, 1), row + 1, columns);
+            double worst = 0;
+            for (std::size_t column = 0; column < columns; column += 5)
+                for (std::size_t y = 0; y < length; ++y) {
+                    std::complex<double> sum = 0;
+                    for (std::size_t j = 0; j < length; ++j)
+                        sum += std::complex<double>(from(j, column)) *
+                               std::polar(1.0, (forward ? -2 : 2) * std::numbers::pi *
+                                                   static_cast<double>(j * y % length) / static_cast<double>(length));
+                    worst = std::max(worst, std::abs(std::complex<double>(to(y, column + 1)) - sum));
+                }
+            EXPECT_LT(worst, 4e-7 * static_cast<double>(length)) << length << " " << forward;
+            EXPECT_EQ(to(length - 1, 0), Complex(7, 7));
+            EXPECT_EQ(to(length - 1, columns + 1), Complex(7, 7)) << "writes nothing beside the columns";
+        }
+    }
+    EXPECT_FALSE(ColumnFft::can(48, 32));
+    EXPECT_FALSE(ColumnFft::can(64, 24));
+}
+
+TEST(Fft2, puts_the_result_elsewhere) {
+    for (const std::size_t n : {20, 64}) {
+        Array<Complex, 2> values = noise(n, n), same = values, out({n, n + 5});
+        const Fft2 fft(n, n);
+        fft.backward(values);
+        fft.backward(same, &out(0, 2), n + 5);
+        for (std::size_t y = 0; y < n; ++y)
+            for (std::size_t x = 0; x < n; ++x) ASSERT_EQ(out(y, x + 2), values(y, x)) << n;
+    }
 }
 
 TEST(Fft2, forward_undoes_backward_also_on_unaligned_data) {

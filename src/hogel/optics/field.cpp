@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/reused.h"
 
 namespace hogel {
 namespace {
@@ -79,6 +80,7 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
     const std::size_t side = aligned_side(source.alignment());
     const std::size_t across = (plane.width + side - 1) / side;
     const std::size_t down = (plane.height + side - 1) / side;
+    Reused<Array<std::complex<float>, 1>> rooms;
     std::mutex reporting;
     std::size_t done = 0;
     report(progress, 0);
@@ -87,7 +89,9 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);
         if (!sink.has_already(region)) {
-            Array<std::complex<float>, 2> values({region.height, region.width});
+            auto room = rooms.take();
+            if (room->size() < region.samples()) *room = Array<std::complex<float>, 1>({region.samples()});
+            const View<std::complex<float>, 2> values(room->data(), {region.height, region.width});
             source.read(region, look, values);
             sink.write(region, values);
         }

@@ -1,0 +1,53 @@
+// Compiled for every instruction set and chosen when first called: by the processor's own conversions where it has
+// them, elsewhere by loops of half_of() and float_of(), whose branches the compiler does away with.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/core/half_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include "hogel/core/half.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+void ToHalf(const float* from, std::uint16_t* to, std::size_t n) {
+    std::size_t i = 0;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+    const hn::ScalableTag<float> d;
+    const hn::Rebind<hwy::float16_t, decltype(d)> halves;
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d))
+        hn::StoreU(hn::DemoteTo(halves, hn::LoadU(d, from + i)), halves, reinterpret_cast<hwy::float16_t*>(to + i));
+#endif
+    for (; i < n; ++i) to[i] = half_of(from[i]);
+}
+
+void ToFloat(const std::uint16_t* from, float* to, std::size_t n) {
+    std::size_t i = 0;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+    const hn::ScalableTag<float> d;
+    const hn::Rebind<hwy::float16_t, decltype(d)> halves;
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d))
+        hn::StoreU(hn::PromoteTo(d, hn::LoadU(halves, reinterpret_cast<const hwy::float16_t*>(from + i))), d, to + i);
+#endif
+    for (; i < n; ++i) to[i] = float_of(from[i]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel {
+
+HWY_EXPORT(ToHalf);
+HWY_EXPORT(ToFloat);
+
+void to_half(const float* from, std::uint16_t* to, std::size_t n) { HWY_DYNAMIC_DISPATCH(ToHalf)(from, to, n); }
+void to_float(const std::uint16_t* from, float* to, std::size_t n) { HWY_DYNAMIC_DISPATCH(ToFloat)(from, to, n); }
+
+}  // namespace hogel
+#endif
