@@ -115,7 +115,17 @@ using BlockModels = ModelsOf<BitModel>;
 
 // How often a bit was 0, and 1.
 using BitCount = std::array<std::uint32_t, 2>;
-using BlockCounts = ModelsOf<BitCount>;
+struct BlockCounts : ModelsOf<BitCount> {
+    void add(BlockCounts& more) {
+        std::vector<BitCount*> sums;
+        for_each([&](BitCount& sum) { sums.push_back(&sum); });
+        auto next = sums.begin();
+        more.for_each([&](const BitCount& count) {
+            for (std::size_t bit = 0; bit < 2; ++bit) (**next)[bit] += count[bit];
+            ++next;
+        });
+    }
+};
 
 // Writes what blocks are told, or reads it, or counts: the one description of all three. A writer's functions return
 // what they are given.

@@ -104,12 +104,15 @@ class TileEncoder {
 
     // The hogels of a level, from begin to end.
     void write(std::size_t begin, std::size_t end) {
-        const auto counts = std::make_unique<BlockCounts>();
-        for (std::size_t k = begin; k < end; ++k) {
-            BlockCounter counter;
-            code(counter, *counts, k);
-        }
-        const ModelStates states(*counts, states_);
+        std::vector<BlockCounts> counts(std::min<std::size_t>(end - begin, 16));
+        parallel_for(counts.size(), [&](std::size_t part) {
+            for (std::size_t k = begin + part; k < end; k += counts.size()) {
+                BlockCounter counter;
+                code(counter, counts[part], k);
+            }
+        });
+        for (std::size_t part = 1; part < counts.size(); ++part) counts[0].add(counts[part]);
+        const ModelStates states(counts[0], states_);
         const BlockModels models = states.models();
         std::vector<std::vector<std::uint8_t>> codes(end - begin);
         parallel_for(codes.size(), [&](std::size_t n) {
@@ -166,15 +169,16 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
 // the step, so that a search for a step sees a function without jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
     const double octave = std::exp2(std::round(std::log2(step)));
-    std::array<double, references_a_side.size()> cost{};
-    for (std::size_t n = 0; n < 4; ++n) {
-        const Window window = window_of(tile, grid, n % 2, n / 2);
-        for (std::size_t i = 0; i < cost.size(); ++i) {
-            const auto coded =
-                TileEncoder(window.tile, window.grid, {}, static_cast<float>(octave), references_a_side[i]).run();
-            cost[i] += coded.squared_error + bit_worth * octave * octave * 8 * static_cast<double>(coded.bytes.size());
-        }
-    }
+    constexpr std::size_t windows = 4, ways = references_a_side.size();
+    std::array<double, windows * ways> costs{};
+    parallel_for(costs.size(), [&](std::size_t n) {
+        const Window window = window_of(tile, grid, n / ways % 2, n / ways / 2);
+        const auto coded =
+            TileEncoder(window.tile, window.grid, {}, static_cast<float>(octave), references_a_side[n % ways]).run();
+        costs[n] = coded.squared_error + bit_worth * octave * octave * 8 * static_cast<double>(coded.bytes.size());
+    });
+    std::array<double, ways> cost{};
+    for (std::size_t n = 0; n < costs.size(); ++n) cost[n % ways] += costs[n];
     return references_a_side[static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin())];
 }
 
