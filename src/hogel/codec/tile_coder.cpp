@@ -45,7 +45,7 @@ std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const Lig
     if (!std::ranges::count(coder_names(), method.coder))
         throw Error(ErrorCode::usage, fmt::format("there is no coder '{}'; expected one of {}", method.coder,
                                                   fmt::join(coder_names(), ", ")));
-    if (method.coder != "hogel") return make_classic_coder(method, counted);
+    if (method.coder != "hogel") return make_classic_coder(method, counted, version);
     if (!method.transform.empty())
         throw Error(ErrorCode::usage,
                     fmt::format("coder hogel has its own transform; expected none, not {}", method.transform));
