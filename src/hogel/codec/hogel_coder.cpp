@@ -201,7 +201,7 @@ class HogelCoder final : public TileCoder {
     std::size_t most_at_once() const override { return 2; }
 
     std::size_t layers(const HogelRange& tile) const override {
-        return version_ < 3 ? 1 : static_cast<std::size_t>(HogelOrder(tile.ns, tile.nt, 1, 1).levels());
+        return version_ < 3 ? 1 : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt));
     }
 
     Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {

@@ -45,10 +45,13 @@ std::vector<HogelOrder::Reference> nearest(std::vector<HogelOrder::Reference> re
 
 }  // namespace
 
+int HogelOrder::levels(std::size_t columns, std::size_t rows) {
+    return 1 + std::ranges::max(halving_levels(std::max(columns, rows)));
+}
+
 HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side,
                        std::size_t tellers_a_side) {
     const std::vector<int> of_column = halving_levels(columns), of_row = halving_levels(rows);
-    const int levels = 1 + std::max(*std::ranges::max_element(of_column), *std::ranges::max_element(of_row));
     std::vector<std::vector<std::size_t>> in_row(rows), in_column(columns);  // places in the order
     const auto distance = [](std::size_t from, std::size_t to) {
         return static_cast<int>(to) - static_cast<int>(from);
@@ -76,7 +79,7 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t refere
                 add(s, t, 0);
                 end_wave();
             }
-    for (int level = 1; level < levels; ++level) {
+    for (int level = 1; level < levels(columns, rows); ++level) {
         waves_of_levels_.push_back(waves_.size());
         for (const bool both : {false, true}) {  // new in one direction; then in both, between those
             waves_.push_back(hogels_.size());

@@ -26,6 +26,8 @@ class HogelOrder {
     // @param references_a_side   how many there are at most to the left, to the right, above and below
     // @param tellers_a_side      and how many of these tell disparities
     HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side, std::size_t tellers_a_side);
+    // Of a tile of that size, without making its order.
+    static int levels(std::size_t columns, std::size_t rows);
     const std::vector<Hogel>& hogels() const { return hogels_; }
     int levels() const { return hogels_.back().level + 1; }
     // The first hogel of each wave, and the end of the last.
