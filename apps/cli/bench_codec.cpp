@@ -44,7 +44,8 @@ std::optional<RatePoint> RateCurve::at_rate(double pixels_per_bit) const {
     return std::nullopt;
 }
 
-RateCurve measure_method(const LightField& field, const CodingMethod& method, const QualityRange& range) {
+RateCurve measure_method(const LightField& field, const CodingMethod& method, const QualityRange& range,
+                         const Progress& go_on) {
     constexpr int most_points = 24;
     const ThreadLimit one(1);
     const TemporaryFolder folder;
@@ -59,7 +60,7 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
     for (int k = 0; k < most_points; ++k, step /= 1.6) {
         options.target.step = step;
         double began = processor_seconds();
-        const CompressionResult result = compress(field, path, options);
+        const CompressionResult result = compress(field, path, options, go_on);
         const double encoding = processor_seconds() - began;
         if (result.sqnr < range.low - 6) {
             // Far off: most of the way at once.
@@ -67,7 +68,7 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
             continue;
         }
         began = processor_seconds();
-        copy(*open_stream(path), decoded);
+        copy(*open_stream(path), decoded, go_on);
         const double decoding = processor_seconds() - began;
         curve.points.push_back({result.pixels_per_bit, result.sqnr, samples / encoding, samples / decoding});
         if (result.sqnr > range.high) break;

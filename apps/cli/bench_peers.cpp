@@ -129,7 +129,7 @@ double bytes_in(const std::filesystem::path& folder) {
 }
 
 // The array of floats as it is, with absolute tolerances. Axes of one sample are left out.
-std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange& range) {
+std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange& range, const Progress& go_on) {
     if (!run("command -v zfp")) return std::nullopt;
     const TemporaryFolder folder;
     const std::filesystem::path raw = folder.path() / "raw", back = folder.path() / "back",
@@ -153,6 +153,7 @@ std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange
     RateCurve curve{"zfp", {}};
     std::vector<float> decoded(truth.size());
     for (int k = 0; k < 16; ++k, tolerance *= 2) {
+        report(go_on, 0);
         const std::string what = fmt::format("zfp -q -f -{}{} -a {} -z {}", count, axes, tolerance, quoted(coded));
         const double began = processor_seconds_of_programs();
         if (!run(fmt::format("{} -i {}", what, quoted(raw)))) break;
@@ -179,8 +180,9 @@ std::vector<std::string> peer_names() {
     return names;
 }
 
-std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range) {
-    if (name == "zfp") return measure_zfp(field, range);
+std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range,
+                                      const Progress& go_on) {
+    if (name == "zfp") return measure_zfp(field, range, go_on);
     const Peer& peer = *std::ranges::find(peers(), name, &Peer::name);
     if (!run(fmt::format("ffmpeg -hide_banner -h encoder={} | grep -q '^Encoder {}'", peer.needs, peer.needs)))
         return std::nullopt;
@@ -192,6 +194,7 @@ std::optional<RateCurve> measure_peer(const LightField& field, const std::string
     RateCurve curve{name, {}};
     const double samples = field.grid().samples() * 1e-6;
     for (const double quality : peer.qualities) {
+        report(go_on, 0);
         std::filesystem::remove_all(coded);
         std::filesystem::create_directory(coded);
         const double began = processor_seconds_of_programs();

@@ -107,18 +107,14 @@ int bench(const Options& options, const Session& session) {
     std::ranges::sort(sqnrs);
     const QualityRange range{sqnrs.front(), sqnrs.back()};
     std::vector<RateCurve> curves;
-    const auto stop_if_asked = [] {
-        if (interrupted_by() != 0) throw Error(ErrorCode::cancelled, "stopped");
-    };
+    const Progress go_on = [](double) { return interrupted_by() == 0; };
     for (const CodingMethod& method : methods_of(options)) {
-        stop_if_asked();
         session.detail(fmt::format("{} {}", method.coder, method.transform));
-        curves.push_back(measure_method(field, method, range));
+        curves.push_back(measure_method(field, method, range, go_on));
     }
     for (const std::string& name : options.peers) {
-        stop_if_asked();
         session.detail(name);
-        if (auto curve = measure_peer(field, name, range))
+        if (auto curve = measure_peer(field, name, range, go_on))
             curves.push_back(std::move(*curve));
         else
             session.say(fmt::format("{}: left out, it is not installed", name));

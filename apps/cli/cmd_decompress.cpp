@@ -11,6 +11,7 @@ namespace {
 struct Options {
     std::string input, output;
     bool single = false, half = false;
+    std::size_t layers = 0;
 };
 
 // All faces tile by tile, for they may come from the same bytes, which are then decoded once.
@@ -36,7 +37,7 @@ int decompress_file(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field || !is_stream(options.input))
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
     require_writable(options.output);
-    const auto faces = open_stream_faces(options.input);
+    const auto faces = open_stream_faces(options.input, {.layers = options.layers});
     LightFieldFileOptions file;
     // Who asked for exact samples shall not lose them here.
     const std::string coder = read_stream_info(options.input).method.coder;
@@ -65,6 +66,13 @@ void add_decompress(CLI::App& app, Session& session) {
                                     [options, &session] { return decompress_file(*options, session); });
     command->add_option("input", options->input, "Compressed light field")->type_name("X.hgl")->required();
     command->add_option("-o,--output", options->output, "Light field to write, HDF5")->type_name("FILE")->required();
+    command
+        ->add_option(
+            "--layers", options->layers,
+            "Decode the first layers alone: coarser, and the rest of the file may be missing\n(hogel info says "
+            "how many there are; default: all)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber.description(""));
     CLI::Option* single = command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
     command->add_flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
         ->excludes(single);

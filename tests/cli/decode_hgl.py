@@ -32,16 +32,39 @@ class Bytes:
 
 
 class Model:
-    def __init__(self):
-        self.a = self.b = 32768
+    def __init__(self, zero=32768):
+        self.a = self.b = zero
 
 
 class Models(dict):
-    """A model for every name that is asked for."""
+    """A model for every name that is asked for, which begins with the state of that name."""
+
+    def __init__(self, states=None):
+        self.states = states or {}
 
     def __missing__(self, name):
-        self[name] = Model()
+        self[name] = Model(round(65536 / (1 + 2**(-self.states.get(name, 0) / 4))))
         return self[name]
+
+
+def model_names():
+    """All models of hogels, in the order in which a stream tells their states."""
+    names = [("mode", context, k) for context in range(3) for k in range(6)]
+    names += [("within", k) for k in range(3)]
+    names += [(name, spread, around) for spread in range(4) for around in range(3) for name in ("not first", "none")]
+    names += [("which", spread, k) for spread in range(4) for k in range(4)]
+    names += ["sign"] + [("difference", k) for k in range(31)]
+    names += [("coded", c, kind, surprising, around) for c in (False, True) for kind in ("any", "side", "within")
+              for surprising in (False, True) for around in range(3)]
+    for c in (False, True):
+        for within in (False, True):
+            of = (c, within)
+            names += [(of, "last", node) for node in range(64)]
+            names += [(of, "some", total, (place, low)) for total in range(8) for place in range(3)
+                      for low in (False, True)]
+            names += [(of, "above 1", total) for total in range(8)] + [(of, "above 2", total) for total in range(8)]
+            names += [((of, "rest"), k) for k in range(31)]
+    return names
 
 
 class Decoder:
@@ -115,12 +138,21 @@ def levels_of_places(n):
 
 
 class Hogel:
-    def __init__(self, s, t, level, references):
-        self.s, self.t, self.level, self.references, self.blocks = s, t, level, references, []
+    def __init__(self, s, t, level, references, tellers):
+        self.s, self.t, self.level, self.references, self.tellers, self.blocks = s, t, level, references, tellers, []
 
 
-def order_of(columns, rows):
-    """The hogels in their order, and for each its references (place in the order, i, j)."""
+def nearest(references, count):
+    """Of references (place in the order, i, j) to the left, right, above and below the nearest ones."""
+    def far(side):
+        distances = sorted(abs(i + j) for _, i, j in references if (i > 0, i < 0, j > 0, j < 0) == side)
+        return distances[:count]
+
+    return [(k, i, j) for k, i, j in references if abs(i + j) in far((i > 0, i < 0, j > 0, j < 0))]
+
+
+def order_of(columns, rows, references_a_side, tellers_a_side):
+    """The hogels in their order, and for each its references and tellers (place in the order, i, j)."""
     of_column, of_row = levels_of_places(columns), levels_of_places(rows)
     top = max(of_column + of_row)
     waves = [[(s, t)] for t in range(rows) for s in range(columns) if of_column[s] == of_row[t] == 0]
@@ -134,7 +166,8 @@ def order_of(columns, rows):
         for s, t in wave:
             references = [(k, h.s - s, 0) for k, h in before if h.t == t]
             references += [(k, 0, h.t - t) for k, h in before if h.s == s]
-            hogels.append(Hogel(s, t, max(of_column[s], of_row[t]), references))
+            hogels.append(Hogel(s, t, max(of_column[s], of_row[t]), nearest(references, references_a_side),
+                                nearest(references, tellers_a_side)))
     return hogels, top
 
 
@@ -162,18 +195,45 @@ ALIAS = [f32(np.rint(math.sin(math.pi * fraction / 64)**2 * 2**14) / 2**14) for 
 
 
 class Tile:
-    def __init__(self, data, columns, rows, shape, aspect):
+    def __init__(self, version, data, columns, rows, shape, aspect):
         source = Bytes(data)
         step, growth = f32(source.take("f")), f32(source.take("f"))
-        self.decoder, self.models = Decoder(data[8:]), Models()
         self.channels, self.height, self.width = shape
         self.across, self.down, self.aspect = -(-self.width // 8), -(-self.height // 8), aspect
-        self.hogels, top = order_of(columns, rows)
+        sides = (64, 64) if version < 3 else (source.take("B"), 1)
+        self.hogels, top = order_of(columns, rows, *sides)
         self.steps = [step] * (top + 1)
         for level in range(top - 1, -1, -1):
             self.steps[level] = self.steps[level + 1] / growth
-        for hogel in self.hogels:
-            self.decode(hogel)
+        if version < 3:  # one code
+            self.decoder, self.models = Decoder(data[8:]), Models()
+            for hogel in self.hogels:
+                self.decode(hogel)
+            return
+        states = {}
+        for level in range(top + 1):
+            hogels = [hogel for hogel in self.hogels if hogel.level == level]
+            length = source.take("I")
+            side = Decoder(data[source.at:source.at + length])
+            source.at += length
+            self.take_states(side, states)
+            lengths = Models()
+            codes = [side.number(lengths, "length") for _ in hogels]
+            for hogel, length in zip(hogels, codes):
+                self.decoder, self.models = Decoder(data[source.at:source.at + length]), Models(states)
+                source.at += length
+                self.decode(hogel)
+        assert source.at == len(data)
+
+    def take_states(self, side, states):
+        models, changed = Models(), 0
+        for name in model_names():
+            changed = side.bit(models["changed", changed])
+            if changed:
+                sign = -1 if side.bit(models["sign"]) else 1
+                state = states.get(name, 0) + sign * (side.number(models, "size") + 1)
+                assert abs(state) <= 40
+                states[name] = state
 
     def shift(self, disparity, reference):
         _, i, j = reference
@@ -181,7 +241,7 @@ class Tile:
 
     def moved(self, hogel):
         kept = {}
-        for reference in hogel.references:
+        for reference in hogel.tellers:
             k, i, j = reference
             for n, block in enumerate(self.hogels[k].blocks):
                 shift_u, shift_v = self.shift(block["disparity"], reference)
@@ -213,8 +273,8 @@ class Tile:
         if left and above:
             add(blocks[n - 1]["disparity"] + blocks[n - self.across]["disparity"]
                 - blocks[n - self.across - 1]["disparity"])
-        if hogel.references and len(result) < 4:
-            add(self.hogels[hogel.references[0][0]].blocks[n]["disparity"])
+        if hogel.tellers and len(result) < 4:
+            add(self.hogels[hogel.tellers[0][0]].blocks[n]["disparity"])
         return result or [0]
 
     def unary(self, name, most):
@@ -405,11 +465,11 @@ def ordered(value):
     return bits ^ (0xFFFFFFFF if bits >> 31 else 0x80000000)
 
 
-def exact(coder, data, shape, aspect, counts):
+def exact(version, coder, data, shape, aspect, counts):
     channels, rows, columns, n_v, n_u = shape
     source = Bytes(data)
     length = source.take("I")
-    tile = joined(Tile(data[4:4 + length], columns, rows, (channels, n_v, n_u), aspect), shape)
+    tile = joined(Tile(version, data[4:4 + length], columns, rows, (channels, n_v, n_u), aspect), shape)
     source.at += length
     if coder == "lossless":
         zero = source.take("B")
@@ -456,7 +516,7 @@ def main():
     assert data[:8] == b"\x89HGL\r\n\x1a\n"
     source.at = 8
     version, length = source.take("II")
-    assert version in (1, 2)
+    assert version in (1, 2, 3)
     channels, columns, rows, n_u, n_v = source.take("5Q")
     _, tan_u, tan_v, _, _ = source.take("5d")
     assert source.text() == "front"
@@ -467,7 +527,8 @@ def main():
         source.text(), source.text()
     # Parts: for each its size, and the faces in it as name, columns and rows.
     parts = [(n_u, n_v, tan_u, tan_v, [("radiance", 0, n_u, 0, n_v)])]
-    if version == 2:
+    layers = 1
+    if version > 1:
         layout, sides = source.text(), {}
         for _ in range(source.take("I")):
             name = source.text()
@@ -483,29 +544,45 @@ def main():
                       ("right/radiance", u1, u2, v0, v1), ("top/radiance", u0, u1, 0, v0),
                       ("bottom/radiance", u0, u1, v1, v2)]
             parts = [(u2, v2, tan_u * u2 / n_u, tan_v * v2 / n_v, places)]
+    if version > 2:
+        layers = source.take("I")
     assert source.at == 16 + length
     assert source.take("I") == zlib.crc32(data[:16 + length])
-    begin, = struct.unpack_from("<Q", data, len(data) - 12)
-    assert struct.unpack_from("<I", data, len(data) - 4)[0] == zlib.crc32(data[begin:-4])
-    index = Bytes(data[begin:])
+    tiles = len(parts) * -(-rows // tile_t) * -(-columns // tile_s)
+    if version < 3:
+        begin, = struct.unpack_from("<Q", data, len(data) - 12)
+        assert struct.unpack_from("<I", data, len(data) - 4)[0] == zlib.crc32(data[begin:-4])
+        index = Bytes(data[begin:])
+        entries = [index.take("QI") for _ in range(tiles)]
+    else:
+        begin, end = source.at, source.at + 8 * layers * tiles
+        entries = [source.take("II") for _ in range(layers * tiles)]
+        assert source.take("I") == zlib.crc32(data[begin:end])
+    # What each tile has of the layers, one after the other.
+    codes = [b""] * tiles
+    for number, (size, checksum) in enumerate(entries):
+        code = data[source.at:source.at + size]
+        source.at += size
+        assert zlib.crc32(code) == checksum
+        codes[number % tiles] += code
+    assert source.at == (len(data) if version > 2 else begin)
+    codes = iter(codes)
     file = h5py.File(sys.argv[2], "r")
     for u, v, tan_u, tan_v, faces in parts:
         aspect = f32((2 * tan_u / u) / (2 * tan_v / v))
         expected = {name: file[name][:] for name, *_ in faces}
         for t0 in range(0, rows, tile_t):
             for s0 in range(0, columns, tile_s):
-                size, checksum = index.take("QI")
-                code = data[source.at:source.at + size]
-                source.at += size
-                assert zlib.crc32(code) == checksum
+                code = next(codes)
                 across, down = min(tile_s, columns - s0), min(tile_t, rows - t0)
                 counts = np.zeros((v, u), bool)
                 for _, u0, u1, v0, v1 in faces:
                     counts[v0:v1, u0:u1] = True
                 if coder == "hogel":
-                    tile = joined(Tile(code, across, down, (channels, v, u), aspect), (channels, down, across, v, u))
+                    tile = Tile(version, code, across, down, (channels, v, u), aspect)
+                    tile = joined(tile, (channels, down, across, v, u))
                 else:
-                    tile = exact(coder, code, (channels, down, across, v, u), aspect, counts)
+                    tile = exact(version, coder, code, (channels, down, across, v, u), aspect, counts)
                 for name, u0, u1, v0, v1 in faces:
                     truth = expected[name][:, t0:t0 + down, s0:s0 + across]
                     assert np.array_equal(tile[..., v0:v1, u0:u1].view("u4"), truth.view("u4")), "samples differ"

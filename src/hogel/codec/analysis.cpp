@@ -10,8 +10,6 @@ namespace {
 // Bits that things cost, as they are taken into account: about what they come to.
 constexpr float likeliest_disparity = 0.3f, each_candidate = 1.5f, new_disparity = 14;
 constexpr float best_of_all_sides = 0.3f, one_side = 6, within = 12, coded_block = 8, coded_level = 3.5f;
-// What a bit is worth, in squared steps.
-constexpr float bit_worth = 0.18f;
 // What is added before rounding down: less than a half, as smaller levels take fewer bits.
 constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
 // A prediction with less error than this, in squared steps a block, is taken without looking further.

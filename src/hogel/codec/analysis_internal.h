@@ -6,6 +6,9 @@ namespace hogel {
 
 // What the encoder decides.
 
+// What a bit is worth, in squared steps.
+constexpr float bit_worth = 0.18f;
+
 // The disparity of each block of a hogel, from how its neighbours in the tile show it. `sources` are the pictures of
 // all hogels of the tile, row by row.
 std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std::vector<Picture>& sources,

@@ -23,19 +23,8 @@ constexpr std::array<std::uint8_t, block_samples> zigzag = [] {
     return order;
 }();
 
-// A number >= 0 as how many bits it has more than one, in unary, and these bits.
 template <class Coder>
-std::uint32_t code_number(Coder& coder, std::array<BitModel, BlockModels::most_bits + 1>& models, std::uint32_t value) {
-    const std::uint32_t one_more = value + 1;
-    std::size_t bits = 0;
-    while (bits < BlockModels::most_bits && coder.bit(models[bits], one_more >> (bits + 1) != 0)) ++bits;
-    std::uint32_t result = 1;
-    for (std::size_t k = bits; k-- > 0;) result = result << 1 | std::uint32_t{coder.even(one_more >> k & 1)};
-    return result - 1;
-}
-
-template <class Coder>
-void code_levels(Coder& coder, BlockModels::ForLevels& models, Levels& levels) {
+void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels& levels) {
     // The place of the last level, as a path through a binary tree.
     std::size_t last = 0;
     for (std::size_t n = 0; n < block_samples; ++n)
@@ -71,7 +60,7 @@ void code_levels(Coder& coder, BlockModels::ForLevels& models, Levels& levels) {
 }
 
 template <class Coder>
-void code_mode(Coder& coder, BlockModels& models, std::size_t context, bool first, Block& block) {
+void code_mode(Coder& coder, typename Coder::Models& models, std::size_t context, bool first, Block& block) {
     if (!first) {
         // The best of all sides, within, and then one side after the other.
         auto& model = models.mode[context];
@@ -92,8 +81,8 @@ void code_mode(Coder& coder, BlockModels& models, std::size_t context, bool firs
 }
 
 template <class Coder>
-void code_disparity(Coder& coder, BlockModels& models, std::size_t around, int unit, const Candidates& candidates,
-                    Block& block) {
+void code_disparity(Coder& coder, typename Coder::Models& models, std::size_t around, int unit,
+                    const Candidates& candidates, Block& block) {
     const auto* end = candidates.disparity.begin() + candidates.count;
     const auto* found = std::find(candidates.disparity.begin(), end, block.disparity);
     const int likeliest = candidates.disparity[0];
@@ -162,7 +151,7 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
     constexpr std::int64_t side = static_cast<std::int64_t>(block_side) * shift_unit, half = side / 2;
     std::vector<std::optional<std::int16_t>> moved(grid.count());
     std::vector<std::int64_t> distance(grid.count(), std::numeric_limits<std::int64_t>::max());
-    for (const HogelOrder::Reference& reference : hogel.references) {
+    for (const HogelOrder::Reference& reference : hogel.tellers) {
         const std::int64_t apart = reference.ds * reference.ds + reference.dt * reference.dt;
         const std::vector<Block>& blocks = coded[reference.hogel].blocks;
         for (std::size_t block = 0; block < blocks.size(); ++block) {
@@ -188,7 +177,7 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
 }
 
 template <class Coder>
-void code_hogel(Coder& coder, BlockModels& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
+void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
                 const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
                 CodedHogel& coded) {
     const bool first = hogel.references.empty();
@@ -225,6 +214,17 @@ void code_hogel(Coder& coder, BlockModels& models, const BlockGrid& grid, const 
     }
 }
 
+void guess_hogel(const BlockGrid& grid, const std::vector<std::optional<std::int16_t>>& moved,
+                 const std::vector<Block>* beside, CodedHogel& coded) {
+    coded.blocks.resize(grid.count());
+    for (std::size_t k = 0; k < grid.count(); ++k) {
+        coded.blocks[k].mode = 1;
+        coded.blocks[k].disparity = candidates_for(k, grid, coded.blocks, moved[k], beside).disparity[0];
+    }
+}
+
+template void code_hogel(BlockCounter&, BlockCounts&, const BlockGrid&, const HogelOrder::Hogel&,
+                         const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*, CodedHogel&);
 template void code_hogel(BlockWriter&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
                          const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*, CodedHogel&);
 template void code_hogel(BlockReader&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,

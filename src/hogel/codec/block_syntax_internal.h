@@ -55,30 +55,93 @@ Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::v
 // reference to here.
 int disparity_unit(const HogelOrder::Hogel& hogel);
 
-// Adaptive models of everything that is told.
-struct BlockModels {
-    static constexpr int most_bits = 30;
+// A number >= 0 as how many bits it has more than one, in unary (a model a place), and these bits.
+constexpr std::size_t most_number_bits = 30;
+template <class Coder, class Model>
+std::uint32_t code_number(Coder& coder, std::array<Model, most_number_bits + 1>& models, std::uint32_t value) {
+    const std::uint32_t one_more = value + 1;
+    std::size_t bits = 0;
+    while (bits < most_number_bits && coder.bit(models[bits], one_more >> (bits + 1) != 0)) ++bits;
+    std::uint32_t result = 1;
+    for (std::size_t k = bits; k-- > 0;) result = result << 1 | std::uint32_t{coder.even(one_more >> k & 1)};
+    return result - 1;
+}
+
+// A model for everything that is told, by what is known of it.
+template <class Model>
+struct ModelsOf {
     struct ForLevels {
-        std::array<BitModel, block_samples> last;
-        std::array<std::array<BitModel, 6>, 8> significant;
-        std::array<BitModel, 8> beyond_one, beyond_two;
-        std::array<BitModel, most_bits + 1> rest;
+        std::array<Model, block_samples> last;
+        std::array<std::array<Model, 6>, 8> significant;
+        std::array<Model, 8> beyond_one, beyond_two;
+        std::array<Model, most_number_bits + 1> rest;
     };
-    std::array<std::array<BitModel, across_modes>, 3> mode;
-    std::array<BitModel, 3> within;
-    std::array<std::array<std::array<BitModel, 2>, 3>, 4> disparity;  // by spread
-    std::array<std::array<BitModel, 4>, 4> candidate;                 // by spread
-    BitModel sign;
-    std::array<BitModel, most_bits + 1> difference;
+    std::array<std::array<Model, across_modes>, 3> mode;
+    std::array<Model, 3> within;
+    std::array<std::array<std::array<Model, 2>, 3>, 4> disparity;  // by spread
+    std::array<std::array<Model, 4>, 4> candidate;                 // by spread
+    Model sign;
+    std::array<Model, most_number_bits + 1> difference;
     // By luminance or chrominance, kind of mode, whether the disparity is surprising.
-    std::array<std::array<std::array<std::array<BitModel, 3>, 2>, 3>, 2> coded;
+    std::array<std::array<std::array<std::array<Model, 3>, 2>, 3>, 2> coded;
     std::array<std::array<ForLevels, 2>, 2> levels;  // by luminance or chrominance, within or across
+
+    // All of them, one after the other as they stand here.
+    template <class Use>
+    void for_each(Use&& use) {
+        visit(use, mode, within, disparity, candidate, sign, difference, coded);
+        for (auto& of_channel : levels)
+            for (ForLevels& l : of_channel) visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest);
+    }
+
+  private:
+    template <class Use>
+    static void visit(Use& use, Model& model) {
+        use(model);
+    }
+    template <class Use, class Inner, std::size_t count>
+    static void visit(Use& use, std::array<Inner, count>& models) {
+        for (Inner& inner : models) visit(use, inner);
+    }
+    template <class Use, class First, class... More>
+    requires(sizeof...(More) > 0) static void visit(Use& use, First& first, More&... more) {
+        visit(use, first);
+        visit(use, more...);
+    }
 };
 
-// Writes what blocks are told, or reads it: the one description of both. A writer's functions return what they are
-// given.
+// Adaptive ones.
+using BlockModels = ModelsOf<BitModel>;
+
+// How often a bit was 0, and 1.
+using BitCount = std::array<std::uint32_t, 2>;
+struct BlockCounts : ModelsOf<BitCount> {
+    void add(BlockCounts& more) {
+        std::vector<BitCount*> sums;
+        for_each([&](BitCount& sum) { sums.push_back(&sum); });
+        auto next = sums.begin();
+        more.for_each([&](const BitCount& count) {
+            for (std::size_t bit = 0; bit < 2; ++bit) (**next)[bit] += count[bit];
+            ++next;
+        });
+    }
+};
+
+// Writes what blocks are told, or reads it, or counts: the one description of all three. A writer's functions return
+// what they are given.
+class BlockCounter {
+  public:
+    using Models = BlockCounts;
+    bool bit(BitCount& count, bool value) {
+        ++count[value ? 1 : 0];
+        return value;
+    }
+    bool even(bool value) { return value; }
+};
+
 class BlockWriter {
   public:
+    using Models = BlockModels;
     bool bit(BitModel& model, bool value) {
         encoder_.bit(model, value);
         return value;
@@ -95,9 +158,10 @@ class BlockWriter {
 
 class BlockReader {
   public:
+    using Models = BlockModels;
     explicit BlockReader(std::span<const std::uint8_t> bytes) : decoder_(bytes) {}
     bool bit(BitModel& model, bool) { return decoder_.bit(model); }
-    bool even(bool) { return decoder_.raw(1) != 0; }
+    bool even(bool) { return decoder_.even(); }
     bool ended() const { return decoder_.ended(); }
     bool all_read() const { return decoder_.all_read(); }
 
@@ -105,17 +169,14 @@ class BlockReader {
     ArithmeticDecoder decoder_;
 };
 
-// Codes all blocks of a hogel; a reader fills `coded`. `first` says that it is the tile's first, which has no others to
-// be predicted from.
+// Codes all blocks of a hogel; a reader fills `coded`.
 template <class Coder>
-void code_hogel(Coder& coder, BlockModels& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
+void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
                 const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
                 CodedHogel& coded);
-extern template void code_hogel(BlockWriter&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
-                                const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*,
-                                CodedHogel&);
-extern template void code_hogel(BlockReader&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
-                                const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*,
-                                CodedHogel&);
+
+// A hogel of which nothing is told: every block as its likeliest disparity shows it.
+void guess_hogel(const BlockGrid& grid, const std::vector<std::optional<std::int16_t>>& moved,
+                 const std::vector<Block>* beside, CodedHogel& coded);
 
 }  // namespace hogel

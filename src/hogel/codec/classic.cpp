@@ -130,15 +130,21 @@ double usable_step(std::span<const float> values, double step) {
 }
 
 class ThreePassCoder final : public ClassicCoder {
-    using ClassicCoder::ClassicCoder;
+  public:
+    ThreePassCoder(std::string_view name, const DirectionCross& counted, Content content, std::uint32_t version)
+        : ClassicCoder(name, counted, content), code_(version < 3 ? ThreePassCode::alphabets : ThreePassCode::bits) {}
+
+  private:
     std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
                                              double step) const override {
         return three_pass_encode(pyramid, values, usable_step(values, step));
     }
     void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
-        three_pass_decode(pyramid, code, values);
+        three_pass_decode(pyramid, code, values, code_);
     }
+
+    ThreePassCode code_;
 };
 
 class EzwCoder final : public ClassicCoder {
@@ -176,7 +182,8 @@ class Jpeg4dCoder final : public ClassicCoder {
 
 }  // namespace
 
-std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const DirectionCross& counted) {
+std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const DirectionCross& counted,
+                                              std::uint32_t version) {
     const bool blocks = !transform(method.transform).is_wavelet();
     if (blocks != (method.coder == "jpeg4d"))
         throw Error(ErrorCode::usage,
@@ -187,7 +194,7 @@ std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const 
     if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform, counted);
     if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform, counted);
     const Content content = method.coder == "fringes" ? Content::amplitude : Content::radiance;
-    return std::make_unique<ThreePassCoder>(method.transform, counted, content);
+    return std::make_unique<ThreePassCoder>(method.transform, counted, content, version);
 }
 
 }  // namespace hogel

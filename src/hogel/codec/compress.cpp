@@ -76,7 +76,7 @@ class Compression {
             [&](std::size_t i, Coded& coded) {
                 sum.add(coded.outcome);
                 if (write) {
-                    writer_.append(coded.bytes);
+                    writer_.append(coded.bytes, coded.layers);
                     sizes_.push_back(coded.bytes.size());
                 }
                 report(progress_, static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
@@ -109,6 +109,7 @@ class Compression {
   private:
     struct Coded {
         std::vector<std::uint8_t> bytes;
+        std::vector<std::size_t> layers;
         Outcome outcome;
     };
 
@@ -141,7 +142,7 @@ class Compression {
         TileCoder::Encoded encoded = parts_[index / tiling_.count()].coder->encode(tile, step, most_bytes);
         outcome.error = encoded.squared_error;
         outcome.bytes = static_cast<double>(encoded.bytes.size());
-        return {std::move(encoded.bytes), outcome};
+        return {std::move(encoded.bytes), std::move(encoded.layers), outcome};
     }
 
     std::span<const Part> parts_;
@@ -314,6 +315,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
     info.tile = options.tile.value_or(parts.front().coder->preferred_tile(grids.front()));
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
+    info.layer_ends.resize(parts.front().coder->layers(info.tile));
     StreamWriter writer(path, info);
     Compression compression(parts, info, writer, progress);
     const CompressionTarget& target = options.target;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <algorithm>
+
 #include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/recent_results.h"
@@ -9,16 +11,15 @@
 namespace hogel {
 namespace {
 
-using Decoded = std::shared_ptr<const LightFieldTile>;
-
 // A stream, and the tiles of it that were decoded last.
 class DecodedStream {
   public:
-    DecodedStream(const std::filesystem::path& path, std::size_t memory, bool coefficients)
+    DecodedStream(const std::filesystem::path& path, const StreamOptions& options, bool coefficients)
         : reader_(path),
           coders_(coders_of(reader_)),
           coefficients_(coefficients),
-          recent_(memory / tile_bytes(reader_)) {
+          layers_(layers_of(reader_, options.layers)),
+          recent_(options.memory / tile_bytes(reader_)) {
         if (!coefficients) return;
         if (!coders_.front()->directional())
             throw Error(ErrorCode::bad_input,
@@ -42,7 +43,7 @@ class DecodedStream {
         if (tiling[first] == r && whole && recent_.kept() < tiling.count()) return decode({part, first}, tile);
         for (std::size_t t = r.t0 / size.nt; t * size.nt < r.t0 + r.nt; ++t)
             for (std::size_t s = r.s0 / size.ns; s * size.ns < r.s0 + r.ns; ++s)
-                copy_common(*decoded({part, t * tiling.across() + s}), tile, place.v, place.u);
+                read_common({part, t * tiling.across() + s}, place, tile);
     }
 
   private:
@@ -51,46 +52,99 @@ class DecodedStream {
         friend bool operator==(const Index&, const Index&) = default;
     };
 
+    using Decoder = std::unique_ptr<TileDecoder>;
+
+    // Coefficients of a tile, whole.
+    class Coefficients final : public TileDecoder {
+      public:
+        explicit Coefficients(LightFieldTile tile) : tile_(std::move(tile)) {}
+        void read(LightFieldTile& part) override { copy_common(tile_, part); }
+
+      private:
+        LightFieldTile tile_;
+    };
+
     static std::vector<std::unique_ptr<TileCoder>> coders_of(const StreamReader& reader) {
         try {
+            const StreamInfo& info = reader.info();
             std::vector<std::unique_ptr<TileCoder>> coders;
             for (const LightFieldGrid& part : reader.parts())
-                coders.push_back(make_tile_coder(reader.info().method, part, counted(reader.info())));
+                coders.push_back(make_tile_coder(info.method, part, counted(info), info.version));
+            if (info.layer_ends.size() != coders.front()->layers(info.tile))
+                reader.damaged("its header has a wrong number of layers");
             return coders;
         } catch (const Error& error) {
+            if (error.code() == ErrorCode::bad_input) throw;
             reader.damaged(error.what());
         }
+    }
+    static std::size_t layers_of(const StreamReader& reader, std::size_t wanted) {
+        const StreamInfo& info = reader.info();
+        const std::size_t all = info.layer_ends.size();
+        if (wanted > all)
+            throw Error(ErrorCode::usage, fmt::format("{} layers were asked for, expected 1 to {}", wanted, all));
+        if (wanted == 0) wanted = all;
+        if (wanted > info.layers_there)
+            reader.damaged(fmt::format("it is truncated: it has {} of {} layers", info.layers_there, all));
+        return wanted;
     }
     static std::size_t tile_bytes(const StreamReader& reader) {
         const LightFieldGrid& grid = reader.parts().front();
         return reader.info().tile.hogels() * grid.directions() * grid.channels * sizeof(float);
     }
 
-    void decode(Index index, LightFieldTile& tile) const {
-        const std::size_t number = index.part * reader_.tiling().count() + index.tile;
-        const std::vector<std::uint8_t> bytes = reader_.read(number);
-        const TileCoder& coder = *coders_[index.part];
+    std::size_t number(Index index) const { return index.part * reader_.tiling().count() + index.tile; }
+
+    // Does something with bytes of a tile, whose errors are the file's.
+    template <class Use>
+    auto with_tile_named(Index index, Use&& use) const {
         try {
-            coefficients_ ? coder.decode_coefficients(bytes, tile) : coder.decode(bytes, tile);
+            return use();
         } catch (const Error& error) {
             if (error.code() != ErrorCode::bad_input) throw;
-            reader_.damaged(fmt::format("tile {}: {}", number, error.what()));
+            reader_.damaged(fmt::format("tile {}: {}", number(index), error.what()));
         }
     }
 
-    Decoded decoded(Index index) const {
-        return recent_.get(index, [&] {
-            auto tile =
-                std::make_shared<LightFieldTile>(reader_.parts()[index.part], reader_.tiling()[index.tile], false);
-            decode(index, *tile);
-            return tile;
+    std::unique_ptr<TileDecoder> open(Index index) const {
+        const HogelRange range = reader_.tiling()[index.tile];
+        const TileCoder& coder = *coders_[index.part];
+        const LightFieldGrid& grid = reader_.parts()[index.part];
+        std::vector<std::uint8_t> bytes = reader_.read(number(index), layers_);
+        return with_tile_named(index, [&]() -> std::unique_ptr<TileDecoder> {
+            if (!coefficients_)
+                return coder.open(std::move(bytes), grid, range, std::min(layers_, coder.layers(range)));
+            LightFieldTile tile(grid, range, false);
+            coder.decode_coefficients(bytes, tile);
+            return std::make_unique<Coefficients>(std::move(tile));
         });
+    }
+
+    void decode(Index index, LightFieldTile& tile) const {
+        const std::unique_ptr<TileDecoder> decoder = open(index);
+        with_tile_named(index, [&] { decoder->read(tile); });
+    }
+
+    // What a tile of the stream has of the one that is wanted.
+    void read_common(Index index, Unfolding::Place place, LightFieldTile& tile) const {
+        const auto decoder = recent_.get(index, [&] { return std::make_shared<const Decoder>(open(index)); });
+        const LightFieldGrid& grid = reader_.parts()[index.part];
+        const HogelRange of_stream = reader_.tiling()[index.tile];
+        HogelRange common;
+        common.s0 = std::max(of_stream.s0, tile.range.s0);
+        common.t0 = std::max(of_stream.t0, tile.range.t0);
+        common.ns = std::min(of_stream.s0 + of_stream.ns, tile.range.s0 + tile.range.ns) - common.s0;
+        common.nt = std::min(of_stream.t0 + of_stream.nt, tile.range.t0 + tile.range.nt) - common.t0;
+        LightFieldTile part(grid, common, false);
+        with_tile_named(index, [&] { (*decoder)->read(part); });
+        copy_common(part, tile, place.v, place.u);
     }
 
     StreamReader reader_;
     std::vector<std::unique_ptr<TileCoder>> coders_;  // of each part
     bool coefficients_;
-    mutable RecentResults<Index, LightFieldTile> recent_;
+    std::size_t layers_;
+    mutable RecentResults<Index, Decoder> recent_;
 };
 
 // One face of a stream.
@@ -119,21 +173,21 @@ class DecodedFace final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, std::size_t memory) {
-    return std::move(open_stream_faces(path, memory).front());
+std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, const StreamOptions& options) {
+    return std::move(open_stream_faces(path, options).front());
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::filesystem::path& path,
-                                                                 std::size_t memory) {
-    const auto stream = std::make_shared<const DecodedStream>(path, memory, false);
+                                                                 const StreamOptions& options) {
+    const auto stream = std::make_shared<const DecodedStream>(path, options, false);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
     for (std::size_t face = 0; face <= stream->info().sides.size(); ++face)
         faces.push_back(std::make_unique<DecodedFace>(stream, face));
     return faces;
 }
 
-std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path, std::size_t memory) {
-    return std::make_unique<DecodedFace>(std::make_shared<const DecodedStream>(path, memory, true), 0);
+std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path) {
+    return std::make_unique<DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
 }
 
 }  // namespace hogel

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "hogel/codec/bytes_internal.h"
 #include "hogel/codec/exact_coder_internal.h"
@@ -85,22 +86,37 @@ float tamed(float value) { return std::isfinite(value) ? std::clamp(value, -0x1p
 
 class ExactCoder : public TileCoder {
   public:
-    ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted)
-        : predictor_(make_hogel_coder(grid, counted)), counted_(counted) {}
+    ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted, std::uint32_t version)
+        : predictor_(make_hogel_coder(grid, counted, version)), counted_(counted), version_(version) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override { return predictor_->preferred_tile(grid); }
     std::size_t most_at_once() const override { return predictor_->most_at_once(); }
     bool takes_any_value() const override { return true; }
+    // Those of the prediction, and what is left.
+    std::size_t layers(const HogelRange& tile) const override {
+        return version_ < 3 ? 1 : predictor_->layers(tile) + 1;
+    }
+    std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
+                                      const HogelRange& range, std::size_t wanted) const override {
+        if (wanted == layers(range)) return TileCoder::open(std::move(bytes), grid, range, wanted);
+        ByteReader reader(bytes, "tile");
+        reader.take<std::uint32_t>();  // the length of the whole prediction
+        const std::span<const std::uint8_t> prediction = reader.take(reader.left());
+        return predictor_->open({prediction.begin(), prediction.end()}, grid, range, wanted);
+    }
 
   protected:
-    LightFieldTile encode_prediction(const LightFieldTile& tile, double step, ByteWriter& writer) const {
+    // Returns the prediction, and where its layers end.
+    std::pair<LightFieldTile, std::vector<std::size_t>> encode_prediction(const LightFieldTile& tile, double step,
+                                                                          ByteWriter& writer) const {
         LightFieldTile prediction = tile;
         for (float& value : prediction.radiance.elements()) value = tamed(value);
-        const std::vector<std::uint8_t> code = predictor_->encode(prediction, step).bytes;
+        auto [code, error, layers] = predictor_->encode(prediction, step);
         writer.put(static_cast<std::uint32_t>(code.size()));
-        writer.put(std::span(code));
+        for (std::size_t& end : layers) end += writer.bytes.size();
+        writer.put(std::span(std::as_const(code)));
         predictor_->decode(code, prediction);
-        return prediction;
+        return {std::move(prediction), std::move(layers)};
     }
     void decode_prediction(ByteReader& reader, LightFieldTile& tile) const {
         predictor_->decode(reader.take(reader.take<std::uint32_t>()), tile);
@@ -176,6 +192,7 @@ class ExactCoder : public TileCoder {
   private:
     std::unique_ptr<TileCoder> predictor_;
     DirectionCross counted_;
+    std::uint32_t version_;
 };
 
 class LosslessCoder final : public ExactCoder {
@@ -187,10 +204,11 @@ class LosslessCoder final : public ExactCoder {
         for (const float value : tile.radiance.elements())
             zero_bits = std::min(zero_bits, std::countr_zero(std::bit_cast<std::uint32_t>(value)));
         ByteWriter writer;
-        LightFieldTile decoded = encode_prediction(tile, step, writer);
+        auto [decoded, layers] = encode_prediction(tile, step, writer);
         writer.put(static_cast<std::uint8_t>(zero_bits));
         encode_rows(tile, Ordered(zero_bits), decoded, writer);
-        return {std::move(writer.bytes), 0};
+        layers.push_back(writer.bytes.size());
+        return {std::move(writer.bytes), 0, std::move(layers)};
     }
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
         ByteReader reader(bytes, "tile");
@@ -203,15 +221,16 @@ class LosslessCoder final : public ExactCoder {
 
 class BoundedCoder final : public ExactCoder {
   public:
-    BoundedCoder(const LightFieldGrid& grid, const DirectionCross& counted, double max_error)
-        : ExactCoder(grid, counted), max_error_(max_error) {}
+    BoundedCoder(const LightFieldGrid& grid, const DirectionCross& counted, double max_error, std::uint32_t version)
+        : ExactCoder(grid, counted, version), max_error_(max_error) {}
 
     Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
         ByteWriter writer;
-        LightFieldTile decoded = encode_prediction(tile, step, writer);
+        auto [decoded, layers] = encode_prediction(tile, step, writer);
         writer.put(max_error_);
         encode_rows(tile, Bounded(max_error_), decoded, writer);
-        return {std::move(writer.bytes), squared_error(tile, decoded, counted())};
+        layers.push_back(writer.bytes.size());
+        return {std::move(writer.bytes), squared_error(tile, decoded, counted()), std::move(layers)};
     }
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
         ByteReader reader(bytes, "tile");
@@ -227,13 +246,14 @@ class BoundedCoder final : public ExactCoder {
 
 }  // namespace
 
-std::unique_ptr<TileCoder> make_lossless_coder(const LightFieldGrid& grid, const DirectionCross& counted) {
-    return std::make_unique<LosslessCoder>(grid, counted);
+std::unique_ptr<TileCoder> make_lossless_coder(const LightFieldGrid& grid, const DirectionCross& counted,
+                                               std::uint32_t version) {
+    return std::make_unique<LosslessCoder>(grid, counted, version);
 }
 
 std::unique_ptr<TileCoder> make_bounded_coder(const LightFieldGrid& grid, const DirectionCross& counted,
-                                              double max_error) {
-    return std::make_unique<BoundedCoder>(grid, counted, max_error);
+                                              double max_error, std::uint32_t version) {
+    return std::make_unique<BoundedCoder>(grid, counted, max_error, version);
 }
 
 }  // namespace hogel

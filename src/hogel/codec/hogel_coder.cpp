@@ -4,49 +4,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "hogel/codec/analysis_internal.h"
 #include "hogel/codec/bytes_internal.h"
-#include "hogel/codec/colour_internal.h"
+#include "hogel/codec/chained_hogels_internal.h"
+#include "hogel/codec/hogel_decoder_internal.h"
+#include "hogel/codec/model_states_internal.h"
+#include "hogel/codec/pictures_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
 
 namespace hogel {
 namespace {
 
-constexpr std::size_t most_side = 64;       // hogels along a side of a tile
 constexpr std::size_t preferred_side = 32;  // where prediction gains little more
-constexpr std::size_t preferred_samples = std::size_t{1} << 27, most_samples = std::size_t{1} << 28;
+constexpr std::size_t preferred_samples = std::size_t{1} << 27;
 constexpr float growth = 1.35f;  // of the step from one level of the order to the next
-
-// A hogel's channels, filled up to whole blocks by their last samples, apart in luminance and chrominance.
-Picture picture_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t) {
-    Picture picture = setup.blank();
-    for (std::size_t c = 0; c < picture.size(); ++c)
-        for (std::size_t v = 0; v < picture[c].height; ++v) {
-            const float* in = &tile.radiance(c, t, s, std::min(v, setup.height - 1), 0);
-            float* out = &picture[c].samples[v * picture[c].width];
-            std::copy_n(in, setup.width, out);
-            std::fill(out + setup.width, out + picture[c].width, in[setup.width - 1]);
-        }
-    if (picture.size() == 3) separate_colours(picture[0].samples, picture[1].samples, picture[2].samples);
-    return picture;
-}
-
-// The way back, row by row.
-template <class Use>
-void for_each_row(const Picture& picture, const TileSetup& setup, Use&& use) {
-    std::array<std::vector<float>, 3> row;
-    for (std::size_t v = 0; v < setup.height; ++v) {
-        for (std::size_t c = 0; c < picture.size(); ++c) {
-            const float* in = &picture[c].samples[v * picture[c].width];
-            row[c].assign(in, in + setup.width);
-        }
-        if (picture.size() == 3) join_colours(row[0], row[1], row[2]);
-        for (std::size_t c = 0; c < picture.size(); ++c) use(c, v, row[c]);
-    }
-}
+// References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
+// direction the nearest ones serve best; otherwise it takes more to choose from.
+constexpr std::array<std::uint8_t, 2> references_a_side{1, 3};
+constexpr std::size_t tried_directions = 32;  // along a side of a window
 
 double squared_error(const Picture& picture, const TileSetup& setup, const LightFieldTile& tile, std::size_t s,
                      std::size_t t, const DirectionCross& counted) {
@@ -62,15 +41,155 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Light
     return sum;
 }
 
+// Codes a tile level by level: decides on all hogels of a level, and then writes their codes, each by itself.
+class TileEncoder {
+  public:
+    TileEncoder(const LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
+                std::uint8_t references)
+        : tile_(tile),
+          counted_(counted),
+          setup_(HogelOrder(tile.range.ns, tile.range.nt, references, tellers_a_side), grid.directions_u,
+                 grid.directions_v, grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v())),
+          references_(references),
+          order_(setup_.order.hogels()),
+          sources_(order_.size()),
+          pictures_(order_.size()),
+          coded_(order_.size()),
+          moved_(order_.size()),
+          errors_(order_.size()) {}
+
+    TileCoder::Encoded run() {
+        parallel_for(order_.size(), [&](std::size_t k) {
+            sources_[k] = picture_of(tile_, setup_, k % tile_.range.ns, k / tile_.range.ns);
+        });
+        parallel_for(std::min(estimated_.size(), order_.size()), [&](std::size_t k) {
+            if (order_[k].level == 0) estimated_[k] = estimate_disparities(setup_, sources_, tile_.range.ns, order_[k]);
+        });
+        bytes_.put(setup_.step.back());
+        bytes_.put(growth);
+        bytes_.put(references_);
+        const auto& waves = setup_.order.waves();
+        const auto& waves_of_levels = setup_.order.waves_of_levels();
+        TileCoder::Encoded result;
+        for (std::size_t level = 0; level + 1 < waves_of_levels.size(); ++level) {
+            for (std::size_t wave = waves_of_levels[level]; wave < waves_of_levels[level + 1]; ++wave)
+                parallel_for(waves[wave + 1] - waves[wave], [&](std::size_t n) { decide(waves[wave] + n); });
+            write(waves[waves_of_levels[level]], waves[waves_of_levels[level + 1]]);
+            result.layers.push_back(bytes_.bytes.size());
+        }
+        result.bytes = std::move(bytes_.bytes);
+        result.squared_error = std::accumulate(errors_.begin(), errors_.end(), 0.0);
+        return result;
+    }
+
+  private:
+    const std::vector<Block>* beside(const HogelOrder::Hogel& hogel) const {
+        return hogel.tellers.empty() ? nullptr : &coded_[hogel.tellers.front().hogel].blocks;
+    }
+
+    void decide(std::size_t k) {
+        const HogelOrder::Hogel& hogel = order_[k];
+        Picture& source = sources_[hogel.t * tile_.range.ns + hogel.s];
+        moved_[k] = moved_disparities(hogel, coded_, setup_.grid, setup_.aspect);
+        coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
+                            k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
+        errors_[k] = squared_error(pictures_[k], setup_, tile_, hogel.s, hogel.t, counted_);
+        source = {};
+    }
+
+    template <class Coder>
+    void code(Coder& coder, typename Coder::Models& models, std::size_t k) {
+        code_hogel(coder, models, setup_.grid, order_[k], moved_[k], beside(order_[k]), coded_[k]);
+    }
+
+    // The hogels of a level, from begin to end.
+    void write(std::size_t begin, std::size_t end) {
+        std::vector<BlockCounts> counts(std::min<std::size_t>(end - begin, 16));
+        parallel_for(counts.size(), [&](std::size_t part) {
+            for (std::size_t k = begin + part; k < end; k += counts.size()) {
+                BlockCounter counter;
+                code(counter, counts[part], k);
+            }
+        });
+        for (std::size_t part = 1; part < counts.size(); ++part) counts[0].add(counts[part]);
+        const ModelStates states(counts[0], states_);
+        const BlockModels models = states.models();
+        std::vector<std::vector<std::uint8_t>> codes(end - begin);
+        parallel_for(codes.size(), [&](std::size_t n) {
+            BlockWriter writer;
+            BlockModels own = models;
+            code(writer, own, begin + n);
+            codes[n] = writer.finish();
+            coded_[begin + n].levels = {};
+            moved_[begin + n] = {};
+        });
+        BlockWriter side;
+        ModelStates(states).code(side, states_);
+        CodeLengths lengths;
+        for (const auto& code : codes) lengths.code(side, static_cast<std::uint32_t>(code.size()));
+        const std::vector<std::uint8_t> beside_codes = side.finish();
+        bytes_.put(static_cast<std::uint32_t>(beside_codes.size()));
+        bytes_.put(std::span(beside_codes));
+        for (const auto& code : codes) bytes_.put(std::span(code));
+        states_ = states;
+    }
+
+    const LightFieldTile& tile_;
+    const DirectionCross& counted_;
+    TileSetup setup_;
+    std::uint8_t references_;
+    const std::vector<HogelOrder::Hogel>& order_;
+    std::vector<Picture> sources_, pictures_;             // row by row; in the order
+    std::array<std::vector<std::int16_t>, 4> estimated_;  // disparities of the corners, which come first
+    std::vector<CodedHogel> coded_;
+    std::vector<std::vector<std::optional<std::int16_t>>> moved_;
+    std::vector<double> errors_;
+    ModelStates states_;
+    ByteWriter bytes_;
+};
+
+// A window of directions of a tile, in both directions one of four places.
+struct Window {
+    LightFieldGrid grid;
+    LightFieldTile tile;
+};
+Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::size_t across, std::size_t down) {
+    LightFieldGrid part = grid;
+    part.directions_u = std::min(grid.directions_u, tried_directions);
+    part.directions_v = std::min(grid.directions_v, tried_directions);
+    part.tan_half_u *= static_cast<double>(part.directions_u) / static_cast<double>(grid.directions_u);
+    part.tan_half_v *= static_cast<double>(part.directions_v) / static_cast<double>(grid.directions_v);
+    Window window{part, LightFieldTile(part, tile.range, false)};
+    copy_common(tile, window.tile, (grid.directions_v - part.directions_v) * (2 * down + 1) / 4,
+                (grid.directions_u - part.directions_u) * (2 * across + 1) / 4);
+    return window;
+}
+
+// The number of references that does best on some windows of directions. It does not change with every small change of
+// the step, so that a search for a step sees a function without jumps.
+std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
+    const double octave = std::exp2(std::round(std::log2(step)));
+    constexpr std::size_t windows = 4, ways = references_a_side.size();
+    std::array<double, windows * ways> costs{};
+    parallel_for(costs.size(), [&](std::size_t n) {
+        const Window window = window_of(tile, grid, n / ways % 2, n / ways / 2);
+        const auto coded =
+            TileEncoder(window.tile, window.grid, {}, static_cast<float>(octave), references_a_side[n % ways]).run();
+        costs[n] = coded.squared_error + bit_worth * octave * octave * 8 * static_cast<double>(coded.bytes.size());
+    });
+    std::array<double, ways> cost{};
+    for (std::size_t n = 0; n < costs.size(); ++n) cost[n % ways] += costs[n];
+    return references_a_side[static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin())];
+}
+
 class HogelCoder final : public TileCoder {
   public:
-    HogelCoder(const LightFieldGrid& grid, const DirectionCross& counted)
-        : aspect_(static_cast<float>(grid.step_u() / grid.step_v())), counted_(counted) {}
+    HogelCoder(const LightFieldGrid& grid, const DirectionCross& counted, std::uint32_t version)
+        : grid_(grid), counted_(counted), version_(version) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
-        const std::size_t hogel = samples_of_hogel(grid.directions_u, grid.directions_v, grid.channels);
         std::size_t side = preferred_side;
-        while (side > 1 && side * side * hogel > preferred_samples) --side;
+        while (side > 1 && side * side * samples_in_blocks(grid) > preferred_samples) --side;
         // Tiles of nearly one size rather than whole ones and a narrow rest.
         const auto even = [&](std::size_t count) {
             const std::size_t tiles = (count + side - 1) / side;
@@ -81,114 +200,41 @@ class HogelCoder final : public TileCoder {
 
     std::size_t most_at_once() const override { return 2; }
 
+    std::size_t layers(const HogelRange& tile) const override {
+        return version_ < 3 ? 1 : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt));
+    }
+
     Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
-        if (!fits(tile))
-            throw Error(ErrorCode::usage,
-                        fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
-                                    "{} and {} samples in whole blocks",
-                                    tile.range.ns, tile.range.nt, most_side, most_side, most_samples));
-        const TileSetup setup = setup_of(tile, static_cast<float>(step), growth);
-        const auto& order = setup.order.hogels();
-        std::vector<Picture> sources(order.size()), pictures(order.size());  // row by row; in the order
-        const auto source = [&](const HogelOrder::Hogel& hogel) -> Picture& {
-            return sources[hogel.t * tile.range.ns + hogel.s];
-        };
-        parallel_for(order.size(), [&](std::size_t k) {
-            sources[k] = picture_of(tile, setup, k % tile.range.ns, k / tile.range.ns);
-        });
-        std::array<std::vector<std::int16_t>, 4> estimated;  // of the corners, which come first
-        parallel_for(std::min(estimated.size(), order.size()), [&](std::size_t k) {
-            if (order[k].level == 0) estimated[k] = estimate_disparities(setup, sources, tile.range.ns, order[k]);
-        });
-        std::vector<CodedHogel> coded(order.size());
-        std::vector<double> errors(order.size());
-        BlockWriter writer;
-        const auto models = std::make_unique<BlockModels>();
-        for (std::size_t wave = 0; wave + 1 < setup.order.waves().size(); ++wave) {
-            const std::size_t begin = setup.order.waves()[wave], end = setup.order.waves()[wave + 1];
-            std::vector<std::vector<std::optional<std::int16_t>>> moved(end - begin);
-            parallel_for(end - begin, [&](std::size_t n) {
-                const std::size_t k = begin + n;
-                const HogelOrder::Hogel& hogel = order[k];
-                moved[n] = moved_disparities(hogel, coded, setup.grid, setup.aspect);
-                coded[k] = analyse(setup, k, source(hogel), moved[n], beside(hogel, coded),
-                                   k < estimated.size() ? estimated[k] : std::vector<std::int16_t>{}, pictures);
-                errors[k] = squared_error(pictures[k], setup, tile, hogel.s, hogel.t, counted_);
-                source(hogel) = {};
-            });
-            for (std::size_t k = begin; k < end; ++k) {
-                code_hogel(writer, *models, setup.grid, order[k], moved[k - begin], beside(order[k], coded), coded[k]);
-                coded[k].levels = {};
-            }
-        }
-        ByteWriter bytes;
-        bytes.put(static_cast<float>(step));
-        bytes.put(growth);
-        const std::vector<std::uint8_t> code = writer.finish();
-        bytes.put(std::span(code));
-        return {std::move(bytes.bytes), std::accumulate(errors.begin(), errors.end(), 0.0)};
+        if (!hogel_tile_fits(grid_, tile.range))
+            throw Error(ErrorCode::usage, fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
+                                                      "{} and {} samples in whole blocks",
+                                                      tile.range.ns, tile.range.nt, most_hogel_tile_side,
+                                                      most_hogel_tile_side, most_hogel_tile_samples));
+        return TileEncoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step)).run();
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        ByteReader header(bytes, "tile");
-        if (!fits(tile)) header.damaged("it is too large");
-        const float step = header.take_float(), step_growth = header.take_float();
-        if (!(step > 0 && std::isfinite(step) && step_growth >= 1 && step_growth <= 4))
-            header.damaged("its steps are no steps");
-        const TileSetup setup = setup_of(tile, step, step_growth);
-        const auto& order = setup.order.hogels();
-        std::vector<CodedHogel> coded(order.size());
-        std::vector<Picture> pictures(order.size());
-        BlockReader reader(header.take(header.left()));
-        const auto models = std::make_unique<BlockModels>();
-        for (std::size_t wave = 0; wave + 1 < setup.order.waves().size(); ++wave) {
-            const std::size_t begin = setup.order.waves()[wave], end = setup.order.waves()[wave + 1];
-            std::vector<std::vector<std::optional<std::int16_t>>> moved(end - begin);
-            parallel_for(end - begin, [&](std::size_t n) {
-                moved[n] = moved_disparities(order[begin + n], coded, setup.grid, setup.aspect);
-            });
-            for (std::size_t k = begin; k < end; ++k)
-                code_hogel(reader, *models, setup.grid, order[k], moved[k - begin], beside(order[k], coded), coded[k]);
-            if (reader.ended()) header.damaged("it ends too early");
-            parallel_for(end - begin, [&](std::size_t n) {
-                const std::size_t k = begin + n;
-                reconstruct(setup, k, coded[k], pictures);
-                coded[k].levels = {};
-                for_each_row(pictures[k], setup, [&](std::size_t c, std::size_t v, const std::vector<float>& row) {
-                    std::ranges::copy(row, &tile.radiance(c, order[k].t, order[k].s, v, 0));
-                });
-            });
-        }
-        if (!reader.all_read()) header.damaged("bytes are left over");
+        if (version_ < 3) return decode_chained_hogels(bytes, grid_, tile);
+        HogelDecoder({bytes.begin(), bytes.end()}, grid_, tile.range, layers(tile.range)).read(tile);
+    }
+
+    std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
+                                      const HogelRange& range, std::size_t levels) const override {
+        if (version_ < 3) return TileCoder::open(std::move(bytes), grid, range, levels);
+        return std::make_unique<HogelDecoder>(std::move(bytes), grid, range, levels);
     }
 
   private:
-    TileSetup setup_of(const LightFieldTile& tile, float step, float step_growth) const {
-        return TileSetup(tile.range.ns, tile.range.nt, tile.radiance.extent(4), tile.radiance.extent(3),
-                         tile.radiance.extent(0), step, step_growth, aspect_);
-    }
-    static const std::vector<Block>* beside(const HogelOrder::Hogel& hogel, const std::vector<CodedHogel>& coded) {
-        return hogel.references.empty() ? nullptr : &coded[hogel.references[0].hogel].blocks;
-    }
-    // Whole blocks of all channels of a hogel.
-    static std::size_t samples_of_hogel(std::size_t directions_u, std::size_t directions_v, std::size_t channels) {
-        const auto whole = [](std::size_t n) { return (n + block_side - 1) / block_side * block_side; };
-        return whole(directions_u) * whole(directions_v) * channels;
-    }
-    static bool fits(const LightFieldTile& tile) {
-        const auto& shape = tile.radiance.shape();
-        return tile.range.ns <= most_side && tile.range.nt <= most_side &&
-               samples_of_hogel(shape[4], shape[3], shape[0]) <= most_samples / tile.range.hogels();
-    }
-
-    float aspect_;
+    LightFieldGrid grid_;
     DirectionCross counted_;
+    std::uint32_t version_;
 };
 
 }  // namespace
 
-std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted) {
-    return std::make_unique<HogelCoder>(grid, counted);
+std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted,
+                                            std::uint32_t version) {
+    return std::make_unique<HogelCoder>(grid, counted, version);
 }
 
 }  // namespace hogel

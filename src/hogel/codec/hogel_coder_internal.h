@@ -8,6 +8,8 @@ namespace hogel {
 
 // The coder "hogel" (docs/codec.md): hogels predicted from each other along their disparities, from far apart to side
 // by side.
-std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted = {});
+// @param version   of the format
+std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted = {},
+                                            std::uint32_t version = latest_version);
 
 }  // namespace hogel

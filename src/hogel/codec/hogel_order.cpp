@@ -1,6 +1,8 @@
 #include "hogel/codec/hogel_order_internal.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 namespace hogel {
 namespace {
@@ -24,20 +26,42 @@ std::vector<int> halving_levels(std::size_t n) {
     }
 }
 
+// The nearest ones on each side, in the order in which they are.
+std::vector<HogelOrder::Reference> nearest(std::vector<HogelOrder::Reference> references, std::size_t a_side) {
+    const auto side = [](const HogelOrder::Reference& r) {
+        return (r.dt != 0 ? 2u : 0u) + (r.ds + r.dt > 0 ? 1u : 0u);
+    };
+    std::array<std::vector<int>, 4> distances;
+    for (const HogelOrder::Reference& r : references) distances[side(r)].push_back(std::abs(r.ds + r.dt));
+    std::array<int, 4> farthest;
+    for (std::size_t k = 0; k < 4; ++k) {
+        std::ranges::sort(distances[k]);
+        farthest[k] = distances[k].empty() ? 0 : distances[k][std::min(a_side, distances[k].size()) - 1];
+    }
+    std::erase_if(references,
+                  [&](const HogelOrder::Reference& r) { return std::abs(r.ds + r.dt) > farthest[side(r)]; });
+    return references;
+}
+
 }  // namespace
 
-HogelOrder::HogelOrder(std::size_t columns, std::size_t rows) {
+int HogelOrder::levels(std::size_t columns, std::size_t rows) {
+    return 1 + std::ranges::max(halving_levels(std::max(columns, rows)));
+}
+
+HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side,
+                       std::size_t tellers_a_side) {
     const std::vector<int> of_column = halving_levels(columns), of_row = halving_levels(rows);
-    const int levels = 1 + std::max(*std::ranges::max_element(of_column), *std::ranges::max_element(of_row));
     std::vector<std::vector<std::size_t>> in_row(rows), in_column(columns);  // places in the order
     const auto distance = [](std::size_t from, std::size_t to) {
         return static_cast<int>(to) - static_cast<int>(from);
     };
     const auto add = [&](std::size_t s, std::size_t t, int level) {
-        Hogel hogel{s, t, level, waves_.size() - 1, {}};
-        for (const std::size_t k : in_row[t]) hogel.references.push_back({k, distance(s, hogels_[k].s), 0});
-        for (const std::size_t k : in_column[s]) hogel.references.push_back({k, 0, distance(t, hogels_[k].t)});
-        hogels_.push_back(std::move(hogel));
+        std::vector<Reference> earlier;
+        for (const std::size_t k : in_row[t]) earlier.push_back({k, distance(s, hogels_[k].s), 0});
+        for (const std::size_t k : in_column[s]) earlier.push_back({k, 0, distance(t, hogels_[k].t)});
+        hogels_.push_back(
+            {s, t, level, waves_.size() - 1, nearest(earlier, references_a_side), nearest(earlier, tellers_a_side)});
     };
     // Hogels of a wave do not refer to each other, so they count as coded only when the wave is complete.
     const auto end_wave = [&] {
@@ -46,6 +70,7 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows) {
             in_column[hogels_[k].s].push_back(k);
         }
     };
+    waves_of_levels_.push_back(0);
     // The corners one by one: each but the first leans on the ones before it.
     for (std::size_t t = 0; t < rows; ++t)
         for (std::size_t s = 0; s < columns; ++s)
@@ -54,7 +79,8 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows) {
                 add(s, t, 0);
                 end_wave();
             }
-    for (int level = 1; level < levels; ++level)
+    for (int level = 1; level < levels(columns, rows); ++level) {
+        waves_of_levels_.push_back(waves_.size());
         for (const bool both : {false, true}) {  // new in one direction; then in both, between those
             waves_.push_back(hogels_.size());
             for (std::size_t t = 0; t < rows; ++t)
@@ -63,6 +89,8 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows) {
                         add(s, t, level);
             end_wave();
         }
+    }
+    waves_of_levels_.push_back(waves_.size());
     waves_.push_back(hogels_.size());
 }
 

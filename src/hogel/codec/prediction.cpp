@@ -85,6 +85,26 @@ void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& bl
     interpolate_block(window, window_side, along_u, along_v, block);
 }
 
+BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift) {
+    struct Ends {
+        std::size_t first, last;
+    };
+    // Along one axis; whole directions are taken as they are.
+    const auto along = [](std::size_t block, std::size_t count, int moved) {
+        const bool interpolated = fraction_of(moved) > 0;
+        const auto side = static_cast<std::ptrdiff_t>(block_side), end = static_cast<std::ptrdiff_t>(count) * side;
+        const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(block) * side + (moved >> 6);
+        const auto block_at = [&](std::ptrdiff_t sample) {
+            return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(sample, 0, end - 1) / side);
+        };
+        const auto before = interpolated ? std::ptrdiff_t(taps_before) : 0;
+        const auto after = interpolated ? std::ptrdiff_t(taps - 1 - taps_before) : 0;
+        return Ends{block_at(begin - before), block_at(begin + side - 1 + after)};
+    };
+    const Ends u = along(column, columns, shift.u), v = along(row, rows, shift.v);
+    return {u.first, u.last, v.first, v.last};
+}
+
 ReferenceWeights::ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect)
     : hogel_(hogel), aspect_(aspect), kept_(256) {
     for (const HogelOrder::Reference& reference : hogel.references) {

@@ -33,6 +33,12 @@ Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspe
 // on the order of the additions, which is part of the format.
 void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& block);
 
+// Which whole blocks fetch_moved() looks at, for the block in this column and row.
+struct BlockRange {
+    std::size_t first_column, last_column, first_row, last_row;
+};
+BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift);
+
 // Which hogels a block is predicted from: those that are likely to show it best at its disparity.
 class ReferenceWeights {
   public:

@@ -1,6 +1,7 @@
 #include "hogel/codec/reconstruct_internal.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "hogel/core/error.h"
@@ -25,9 +26,9 @@ const Cosines cosines;
 
 }  // namespace
 
-TileSetup::TileSetup(std::size_t columns, std::size_t rows, std::size_t directions_u, std::size_t directions_v,
-                     std::size_t channels, float finest_step, float step_growth, float v_per_u)
-    : order(columns, rows),
+TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
+                     float finest_step, float step_growth, float v_per_u)
+    : order(std::move(tile_order)),
       grid{(directions_u + block_side - 1) / block_side, (directions_v + block_side - 1) / block_side, channels},
       width(directions_u),
       height(directions_v),
@@ -110,15 +111,21 @@ void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples&
                 prediction[r * block_side + c] + residual[r * block_side + c];
 }
 
-void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::vector<Picture>& pictures) {
+void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,
+                 std::vector<Picture>& pictures) {
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
     ReferenceWeights weights(place, setup.noise, setup.aspect);
     const float step = setup.step[static_cast<std::size_t>(place.level)];
-    Picture picture = setup.blank();
+    if (pictures[hogel].empty()) pictures[hogel] = setup.blank();
+    Picture& picture = pictures[hogel];
     auto levels = coded.levels.begin();
     BlockSamples prediction;
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const Block& block = coded.blocks[k];
+        if (blocks[k] != BlockState::wanted) {
+            levels += std::popcount(block.coded);
+            continue;
+        }
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
         ReferenceWeights::Choice choice;
         if (block.mode > 0)
@@ -130,8 +137,8 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
             place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step);
         }
+        blocks[k] = BlockState::made;
     }
-    pictures[hogel] = std::move(picture);
 }
 
 }  // namespace hogel

@@ -9,8 +9,8 @@ using Picture = std::vector<Plane>;
 
 // What all hogels of a tile share.
 struct TileSetup {
-    TileSetup(std::size_t columns, std::size_t rows, std::size_t directions_u, std::size_t directions_v,
-              std::size_t channels, float finest_step, float step_growth, float v_per_u);
+    TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
+              float finest_step, float step_growth, float v_per_u);
 
     HogelOrder order;
     BlockGrid grid;
@@ -36,8 +36,12 @@ bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hoge
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
                  float step);
 
-// The picture of a hogel whose blocks are known, from those of its references.
-// Throws Error(bad_input) where a block asks for a reference that is not there.
-void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::vector<Picture>& pictures);
+// What has become of a block's samples.
+enum class BlockState : std::uint8_t { unknown, wanted, made };
+
+// Makes the blocks that are wanted in the picture of a hogel whose blocks are told, from the pictures of its
+// references. Throws Error(bad_input) where a block asks for a reference that is not there.
+void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,
+                 std::vector<Picture>& pictures);
 
 }  // namespace hogel

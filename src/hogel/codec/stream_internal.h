@@ -37,29 +37,34 @@ std::vector<LightFieldGrid> coded_parts(const StreamInfo& info);
 // What of such an array is the light field's.
 DirectionCross counted(const StreamInfo& info);
 
-// Writes a stream's tiles one after the other; they may be written anew from the first until finish().
+// A tile's layer as a file knows it.
+struct StreamEntry {
+    std::uint64_t offset, bytes;
+    std::uint32_t checksum;
+};
+
+// Takes a stream's tiles one after the other; they may be given anew from the first until finish(), which puts them
+// into the file, layer by layer.
 class StreamWriter {
   public:
     StreamWriter(const std::filesystem::path& path, const StreamInfo& info);
-    // Forgets the tiles written so far.
+    // Forgets the tiles so far.
     void restart();
-    void append(std::span<const std::uint8_t> tile);
+    // @param layers   where they end; the last of the stream's may be missing
+    void append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers);
     // Of the whole file, as if it were finished now.
-    std::uint64_t size() const { return next_ + overhead(index_.size()) - first_; }
+    std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
     // What a file of so many tiles, of all parts, has beside them.
     std::uint64_t overhead(std::size_t tiles) const;
     void finish();
 
   private:
-    struct Entry {
-        std::uint64_t bytes;
-        std::uint32_t checksum;
-    };
-
-    OutputFile output_;
-    RawFile file_;
-    std::uint64_t first_ = 0, next_ = 0;
-    std::vector<Entry> index_;
+    OutputFile output_, spool_;
+    RawFile spooled_;  // tile by tile
+    std::vector<std::uint8_t> header_;
+    std::size_t layers_;
+    std::uint64_t next_ = 0;
+    std::vector<StreamEntry> entries_;  // the layers of each tile
 };
 
 // Reads a stream's header and index, and tiles on demand. Errors name the file.
@@ -69,20 +74,21 @@ class StreamReader {
     const StreamInfo& info() const { return info_; }
     const Tiling& tiling() const { return *tiling_; }
     const std::vector<LightFieldGrid>& parts() const { return parts_; }
-    std::vector<std::uint8_t> read(std::size_t tile) const;
+    // The first layers of a tile, one after the other.
+    std::vector<std::uint8_t> read(std::size_t tile, std::size_t layers) const;
     [[noreturn]] void damaged(const std::string& why) const;
 
   private:
-    struct Entry {
-        std::uint64_t offset, bytes;
-        std::uint32_t checksum;
-    };
+    std::uint64_t tiles() const { return tiling_->count() * parts_.size(); }
+    void read_index(std::uint64_t header);
+    void read_index_at_end(std::uint64_t header);
 
     RawFile file_;
+    std::string what_;
     StreamInfo info_;
     std::optional<Tiling> tiling_;  // of each part
     std::vector<LightFieldGrid> parts_;
-    std::vector<Entry> index_;
+    std::vector<StreamEntry> index_;  // the tiles of each layer
 };
 
 }  // namespace hogel

@@ -47,7 +47,7 @@ TEST(Stream, reads_any_range_the_same) {
     LightField whole(field.grid());
     copy(*open_stream(folder / "a.hgl"), whole);
     for (const std::size_t memory : {std::size_t{1}, std::size_t{5000}, std::size_t{1} << 30}) {
-        const auto source = open_stream(folder / "a.hgl", memory);
+        const auto source = open_stream(folder / "a.hgl", {.memory = memory});
         parallel_for(200, [&](std::size_t i) {
             HogelRange range{i % 7, i / 7 % 5, 0, 0};
             range.ns = 1 + i % (7 - range.s0);
@@ -106,6 +106,46 @@ TEST(Stream, every_truncation_and_every_flipped_byte_is_noticed) {
     longer.push_back(0);
     write_bytes(folder / "b.hgl", longer);
     EXPECT_EQ(outcome(folder / "b.hgl"), ErrorCode::bad_input);
+}
+
+// A file that was cut off is refused, unless no more is asked for than it has.
+TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
+    const TestFolder folder;
+    const LightField field = textured_planes(9, 5, 24, 16, 1);
+    for (const bool lossless : {false, true}) {
+        CompressionOptions options;
+        options.target.lossless = lossless;
+        if (!lossless) options.target.step = 0.02;
+        options.tile = HogelRange{0, 0, 5, 5};
+        compress(field, folder / "a.hgl", options);
+        const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
+        const StreamInfo info = read_stream_info(folder / "a.hgl");
+        const std::size_t layers = info.layer_ends.size();
+        ASSERT_EQ(layers, lossless ? 4u : 3u);
+        EXPECT_EQ(info.layers_there, layers);
+        EXPECT_EQ(info.layer_ends.back(), good.size());
+        double before = 0;
+        for (std::size_t layer = 1; layer <= layers; ++layer) {
+            const std::uint64_t end = info.layer_ends[layer - 1];
+            for (const std::uint64_t length : {end, end + 1}) {
+                if (length > good.size()) continue;
+                write_bytes(folder / "b.hgl", {good.begin(), good.begin() + std::ptrdiff_t(length)});
+                EXPECT_EQ(read_stream_info(folder / "b.hgl").layers_there, layer);
+                LightField coarse(field.grid());
+                copy(*open_stream(folder / "b.hgl", {.layers = layer}), coarse);
+                const double sqnr = sqnr_of(field, coarse);
+                EXPECT_GT(sqnr, length == end ? before : before - 1e-9);
+                before = sqnr;
+                if (layer < layers) {
+                    EXPECT_THROW(open_stream(folder / "b.hgl"), Error);
+                    EXPECT_THROW(open_stream(folder / "b.hgl", {.layers = layer + 1}), Error);
+                }
+            }
+        }
+        EXPECT_THROW(open_stream(folder / "a.hgl", {.layers = layers + 1}), Error);
+        write_bytes(folder / "b.hgl", {good.begin(), good.begin() + std::ptrdiff_t(info.layer_ends[0] - 1)});
+        EXPECT_THROW(read_stream_info(folder / "b.hgl"), Error);
+    }
 }
 
 // A header whose checksum is right may still lie; it may not make the reader take memory for what it claims.

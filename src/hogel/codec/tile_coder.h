@@ -13,6 +13,15 @@
 
 namespace hogel {
 
+/// A tile that is decoded where it is read.
+class TileDecoder {
+  public:
+    virtual ~TileDecoder() = default;
+    /// Fills the radiance of a part of the tile. Several threads may ask at once. Throws Error(bad_input) for bytes
+    /// that no encode() gives, where that shows.
+    virtual void read(LightFieldTile& part) = 0;
+};
+
 /// What turns a tile of a light field into bytes and back. Tiles are coded apart from each other, so that any of them
 /// can be decoded without the rest. May be used by several threads at once; the same bytes for any number of them.
 class TileCoder {
@@ -20,6 +29,7 @@ class TileCoder {
     struct Encoded {
         std::vector<std::uint8_t> bytes;
         double squared_error = 0;  ///< Σ (f − f')² over the tile's directions that count, of what decode() gives
+        std::vector<std::size_t> layers = {};  ///< where each layer ends in bytes; empty for one
     };
     static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
@@ -37,6 +47,12 @@ class TileCoder {
     virtual Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes = no_limit) const = 0;
     /// Fills the tile's radiance. Throws Error(bad_input) for bytes that no encode() gives, where that shows.
     virtual void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const = 0;
+    /// How many layers a tile has: the first ones alone give a coarser tile.
+    virtual std::size_t layers(const HogelRange&) const { return 1; }
+    /// Decodes the first layers of a tile as far as they are asked for; by default all at once.
+    /// @param layers   1 to layers(range); the bytes end with the last of them
+    virtual std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
+                                              const HogelRange& range, std::size_t layers) const;
     /// True where decode_coefficients() works: where hogels and directions are transformed apart.
     virtual bool directional() const { return false; }
     /// Fills the tile's radiance with coefficients instead: of √L, along the directions of each hogel, as they are
@@ -54,10 +70,14 @@ struct CodingMethod {
 /// hogel|threepass|ezw|jpeg4d|fringes. Streams also know lossless and bounded, which compress() makes of hogel.
 std::vector<std::string_view> coder_names();
 
+/// The version of the format that is written; older ones are read.
+constexpr std::uint32_t latest_version = 3;
+
 /// @param counted   the directions whose errors count
+/// @param version   of the format (docs/format.md); only of the latest one anything can be encoded
 /// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
-                                           const DirectionCross& counted = {});
+                                           const DirectionCross& counted = {}, std::uint32_t version = latest_version);
 
 /// The transform that a coder is used with where none is named.
 std::string_view default_transform(std::string_view coder);

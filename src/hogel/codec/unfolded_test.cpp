@@ -109,7 +109,7 @@ TEST(Hemicube, comes_back_in_either_layout) {
             options.layout = layout;
             options.tile = HogelRange{0, 0, 3, 4};
             const CompressionResult result = compress(sources(faces), folder / "a.hgl", options);
-            const auto decoded = open_stream_faces(folder / "a.hgl", 1);
+            const auto decoded = open_stream_faces(folder / "a.hgl", {.memory = 1});
             ASSERT_EQ(decoded.size(), 5u);
             double signal = 0, error = 0;
             for (std::size_t i = 0; i < 5; ++i) {

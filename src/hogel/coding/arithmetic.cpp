@@ -6,7 +6,6 @@
 namespace hogel {
 namespace {
 
-constexpr std::uint32_t least_range = 1u << 24;  // below it a byte is moved out
 constexpr std::uint32_t most_total = 1u << 16;
 constexpr std::uint32_t increment = 32;  // learns an alphabet of hundreds of symbols from some thousand of them
 
@@ -70,7 +69,7 @@ void ArithmeticEncoder::shift() {
 void ArithmeticEncoder::narrow(std::uint32_t start, std::uint32_t size) {
     low_ += start;
     range_ = size;
-    while (range_ < least_range) {
+    while (range_ < least_coding_range) {
         range_ <<= 8;
         shift();
     }
@@ -115,34 +114,6 @@ std::vector<std::uint8_t> ArithmeticEncoder::finish() {
 
 ArithmeticDecoder::ArithmeticDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
     for (int i = 0; i < 4; ++i) code_ = code_ << 8 | take();
-}
-
-std::uint32_t ArithmeticDecoder::take() {
-    const bool missing = next_ == bytes_.size();
-    unknown_ = unknown_ << 8 | (missing ? 0xFF : 0x00);
-    return missing ? 0 : bytes_[next_++];
-}
-
-void ArithmeticDecoder::narrow(std::uint32_t start, std::uint32_t size) {
-    code_ -= start;
-    range_ = size;
-    // With nothing missing, a code beyond the range is one that no encoder makes.
-    if (std::uint64_t{code_} + unknown_ >= range_) ended_ = true;
-    while (range_ < least_range) {
-        range_ <<= 8;
-        code_ = code_ << 8 | take();
-    }
-}
-
-bool ArithmeticDecoder::bit(BitModel& model) {
-    const std::uint32_t bound = (range_ >> 16) * model.zero();
-    const bool value = code_ >= bound;
-    if (value)
-        narrow(bound, range_ - bound);
-    else
-        narrow(0, bound);
-    model.learn(value);
-    return value;
 }
 
 std::size_t ArithmeticDecoder::symbol(SymbolModel& model) {

@@ -14,6 +14,9 @@ namespace hogel {
 /// The probability of a bit, learnt at two speeds.
 class BitModel {
   public:
+    BitModel() = default;
+    /// @param zero   probability of a zero to begin with, as a fraction of 2¹⁶; not 0
+    explicit BitModel(std::uint16_t zero) : fast_(zero), slow_(zero) {}
     /// Of a zero, as a fraction of 2¹⁶; never 0 or 1.
     std::uint32_t zero() const { return (std::uint32_t{fast_} + slow_) / 2; }
     void learn(bool bit) {
@@ -45,6 +48,9 @@ class SymbolModel {
     std::vector<std::uint32_t> frequency_, tree_;  // tree_: a Fenwick tree over frequency_, from index 1
     std::uint32_t total_ = 0;
 };
+
+/// Below this range a byte is moved out, or in.
+constexpr std::uint32_t least_coding_range = 1u << 24;
 
 class ArithmeticEncoder {
   public:
@@ -78,6 +84,7 @@ class ArithmeticDecoder {
     bool bit(BitModel& model);
     std::size_t symbol(SymbolModel& model);
     std::uint32_t raw(int count);
+    bool even();  ///< raw(1)
     bool ended() const { return ended_; }
     /// All bytes have been taken in: true at the end of a stream, unless something else follows.
     bool all_read() const { return next_ == bytes_.size(); }
@@ -92,5 +99,42 @@ class ArithmeticDecoder {
     std::uint32_t unknown_ = 0;  // ones where code_ lacks bits that lie past the end
     bool ended_ = false;
 };
+
+// Here for speed: most of what a decoder does.
+
+inline std::uint32_t ArithmeticDecoder::take() {
+    const bool missing = next_ == bytes_.size();
+    unknown_ = unknown_ << 8 | (missing ? 0xFF : 0x00);
+    return missing ? 0 : bytes_[next_++];
+}
+
+inline void ArithmeticDecoder::narrow(std::uint32_t start, std::uint32_t size) {
+    code_ -= start;
+    range_ = size;
+    // With nothing missing, a code beyond the range is one that no encoder makes.
+    if (std::uint64_t{code_} + unknown_ >= range_) ended_ = true;
+    while (range_ < least_coding_range) {
+        range_ <<= 8;
+        code_ = code_ << 8 | take();
+    }
+}
+
+inline bool ArithmeticDecoder::bit(BitModel& model) {
+    const std::uint32_t bound = (range_ >> 16) * model.zero();
+    const bool value = code_ >= bound;
+    if (value)
+        narrow(bound, range_ - bound);
+    else
+        narrow(0, bound);
+    model.learn(value);
+    return value;
+}
+
+inline bool ArithmeticDecoder::even() {
+    const std::uint32_t half = range_ >> 1;
+    const bool value = code_ >= half;
+    narrow(value ? half : 0, half);
+    return value;
+}
 
 }  // namespace hogel

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <memory>
 #include <utility>
 
 #include "hogel/coding/arithmetic.h"
@@ -16,65 +17,156 @@ namespace {
 constexpr int most_planes = 30;
 constexpr std::size_t header = 5;
 
-// Symbols from −1 to bits−1 for each number of bits, and the bits of levels by where they stand.
+// Models of the bits that symbols are told by.
 struct Models {
-    explicit Models(int planes) {
-        for (int bits = 0; bits <= planes; ++bits) {
-            for (auto& by_leaf : trees)
-                for (auto& by_previous : by_leaf) by_previous.emplace_back(static_cast<std::size_t>(bits) + 1);
-            node.emplace_back(static_cast<std::size_t>(bits) + 1);
-        }
+    using Unary = std::array<BitModel, most_planes>;
+    static constexpr std::size_t contexts = 6;  // what was told of the two coefficients before
+    // By bits of the parent's subtree, leaf, context.
+    std::array<std::array<std::array<BitModel, contexts>, 2>, most_planes + 1> tree_found;
+    std::array<std::array<std::array<Unary, contexts>, 2>, most_planes + 1> tree_less;
+    // By bits of the subtree, context.
+    std::array<std::array<BitModel, contexts>, most_planes + 1> node_found;
+    std::array<Unary, most_planes + 1> node_less;
+    std::array<Unary, most_planes + 1> magnitude;  // [bits of the level][which bit]
+};
+
+// The symbols of the third pass as bits, told to an encoder or by a decoder: the one description of both. Its
+// bit(model, value) and even(value) return the bit; an encoder's that which it is given.
+template <class Coder>
+class Symbols {
+  public:
+    explicit Symbols(Coder of) : coder(std::move(of)), models_(std::make_unique<Models>()) {}
+
+    int tree(int symbol, int above, bool leaf) {
+        // Near a coefficient that was found, and as large, others are likely.
+        const std::size_t before = tree_before_ == 0 ? 0u : tree_before_ < above ? 1u : 2u;
+        context_ = 2 * before + (tree_before_that_ > 0 ? 1u : 0u);
+        const auto up = static_cast<std::size_t>(above);
+        if (!coder.bit(models_->tree_found[up][leaf][context_], symbol >= 0))
+            symbol = -1;
+        else
+            symbol = unary(models_->tree_less[up][leaf][context_], symbol, above);
+        tree_before_that_ = tree_before_;
+        tree_before_ = symbol < 0 ? 0 : above - symbol;
+        return symbol;
     }
-    SymbolModel& tree(int above, bool leaf) { return trees[leaf][after_zerotree][static_cast<std::size_t>(above)]; }
-    bool after_zerotree = false;  // the tree symbol before this one was −1
-    std::array<std::array<std::vector<SymbolModel>, 2>, 2>
-        trees;  // [leaf][after_zerotree][bits of the parent's subtree]
-    std::vector<SymbolModel> node;
-    std::array<std::array<BitModel, most_planes>, most_planes + 1> magnitude;  // [bits of the level][which bit]
+    int node(int symbol, int tree_bits) {
+        const auto tree = static_cast<std::size_t>(tree_bits);
+        if (!coder.bit(models_->node_found[tree][context_], symbol >= 0)) return -1;
+        return unary(models_->node_less[tree], symbol, tree_bits);
+    }
+    std::pair<std::uint32_t, bool> magnitude(std::uint32_t level, int bits, bool negative) {
+        negative = coder.even(negative);
+        std::uint32_t result = 1;
+        for (int at = bits - 2; at >= 0; --at)
+            result = result << 1 | std::uint32_t{coder.bit(
+                                       models_->magnitude[static_cast<std::size_t>(bits)][static_cast<std::size_t>(at)],
+                                       (level >> at & 1) != 0)};
+        return {result, negative};
+    }
+
+    Coder coder;
+
+  private:
+    // 0 to most − 1.
+    int unary(Models::Unary& models, int symbol, int most) {
+        int result = 0;
+        while (result + 1 < most && coder.bit(models[static_cast<std::size_t>(result)], symbol > result)) ++result;
+        return result;
+    }
+
+    std::unique_ptr<Models> models_;
+    std::size_t context_ = 0;
+    int tree_before_ = 0, tree_before_that_ = 0;  // bits of the subtrees that were told last
+};
+
+struct BitEncoder {
+    ArithmeticEncoder encoder;
+    bool bit(BitModel& model, bool value) {
+        encoder.bit(model, value);
+        return value;
+    }
+    bool even(bool value) {
+        encoder.raw(value, 1);
+        return value;
+    }
+};
+
+struct BitDecoder {
+    ArithmeticDecoder decoder;
+    bool bit(BitModel& model, bool) { return decoder.bit(model); }
+    bool even(bool) { return decoder.even(); }
 };
 
 struct Encoding {
-    ArithmeticEncoder encoder;
-    Models models;
+    Symbols<BitEncoder> symbols{BitEncoder{}};
 
-    void tree(int symbol, int above, bool leaf) {
-        encoder.symbol(models.tree(above, leaf), static_cast<std::size_t>(symbol + 1));
-        models.after_zerotree = symbol < 0;
-    }
-    void node(int symbol, int tree_bits) {
-        encoder.symbol(models.node[static_cast<std::size_t>(tree_bits)], static_cast<std::size_t>(symbol + 1));
-    }
-    void magnitude(std::uint32_t level, int bits, bool negative) {
-        encoder.raw(negative, 1);
-        for (int at = bits - 2; at >= 0; --at)
-            encoder.bit(models.magnitude[static_cast<std::size_t>(bits)][static_cast<std::size_t>(at)],
-                        level >> at & 1);
-    }
+    void tree(int symbol, int above, bool leaf) { symbols.tree(symbol, above, leaf); }
+    void node(int symbol, int tree_bits) { symbols.node(symbol, tree_bits); }
+    void magnitude(std::uint32_t level, int bits, bool negative) { symbols.magnitude(level, bits, negative); }
 };
 
 struct Decoding {
-    ArithmeticDecoder decoder;
-    Models models;
+    Symbols<BitDecoder> symbols;
 
+    explicit Decoding(std::span<const std::uint8_t> code) : symbols(BitDecoder{ArithmeticDecoder(code)}) {}
+    const ArithmeticDecoder& decoder() const { return symbols.coder.decoder; }
+    // What lies past the end of a cut stream is read as zerotrees, which ends soon.
+    int tree(int above, bool leaf) { return decoder().ended() ? -1 : symbols.tree(0, above, leaf); }
+    int node(int tree_bits) { return symbols.node(0, tree_bits); }
+    std::pair<std::uint32_t, bool> magnitude(int bits) { return symbols.magnitude(0, bits, false); }
+};
+
+// The same as it once was, with symbols of alphabets from −1 to bits−1.
+class AlphabetDecoding {
+  public:
+    AlphabetDecoding(std::span<const std::uint8_t> code, int planes) : decoder_(code) {
+        for (int bits = 0; bits <= planes; ++bits) {
+            for (auto& by_leaf : trees_)
+                for (auto& by_previous : by_leaf) by_previous.emplace_back(static_cast<std::size_t>(bits) + 1);
+            nodes_.emplace_back(static_cast<std::size_t>(bits) + 1);
+        }
+    }
+    const ArithmeticDecoder& decoder() const { return decoder_; }
     int tree(int above, bool leaf) {
-        // What lies past the end of a cut stream is read as zerotrees, which ends soon.
-        if (decoder.ended()) return -1;
-        const int symbol = static_cast<int>(decoder.symbol(models.tree(above, leaf))) - 1;
-        models.after_zerotree = symbol < 0;
+        if (decoder_.ended()) return -1;
+        SymbolModel& model = trees_[leaf][after_zerotree_][static_cast<std::size_t>(above)];
+        const int symbol = static_cast<int>(decoder_.symbol(model)) - 1;
+        after_zerotree_ = symbol < 0;
         return symbol;
     }
     int node(int tree_bits) {
-        return static_cast<int>(decoder.symbol(models.node[static_cast<std::size_t>(tree_bits)])) - 1;
+        return static_cast<int>(decoder_.symbol(nodes_[static_cast<std::size_t>(tree_bits)])) - 1;
     }
     std::pair<std::uint32_t, bool> magnitude(int bits) {
-        const bool negative = decoder.raw(1) != 0;
+        const bool negative = decoder_.even();
         std::uint32_t level = 1;
         for (int at = bits - 2; at >= 0; --at)
-            level = level << 1 | std::uint32_t{decoder.bit(
-                                     models.magnitude[static_cast<std::size_t>(bits)][static_cast<std::size_t>(at)])};
+            level =
+                level << 1 |
+                std::uint32_t{decoder_.bit(magnitudes_[static_cast<std::size_t>(bits)][static_cast<std::size_t>(at)])};
         return {level, negative};
     }
+
+  private:
+    ArithmeticDecoder decoder_;
+    bool after_zerotree_ = false;  // the tree symbol before this one was −1
+    std::array<std::array<std::vector<SymbolModel>, 2>, 2>
+        trees_;                       // [leaf][after_zerotree][bits of the parent's subtree]
+    std::vector<SymbolModel> nodes_;  // by bits of the subtree
+    std::array<std::array<BitModel, most_planes>, most_planes + 1> magnitudes_;
 };
+
+[[noreturn]] void damaged(const char* what) {
+    throw Error(ErrorCode::bad_input, fmt::format("three-pass stream: {}, expected a whole undamaged one", what));
+}
+
+template <class Source>
+void read_all(const Pyramid& pyramid, float step, int planes, Source source, std::span<float> values) {
+    read_three_pass(Forest(pyramid), Quantiser(step), planes, source, values);
+    if (source.decoder().ended()) damaged("it ends too early or is damaged");
+    if (!source.decoder().all_read()) damaged("bytes are left over");
+}
 
 void check_size(const Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
@@ -123,27 +215,26 @@ std::vector<std::uint8_t> three_pass_encode(const Pyramid& pyramid, std::span<co
     std::vector<std::uint8_t> bytes;
     put_float(bytes, stored_step);
     bytes.push_back(static_cast<std::uint8_t>(planes));
-    Encoding encoding{{}, Models(planes)};
+    Encoding encoding;
     write_three_pass(Forest(pyramid), values, quantiser, planes, encoding);
-    const std::vector<std::uint8_t> code = encoding.encoder.finish();
+    const std::vector<std::uint8_t> code = encoding.symbols.coder.encoder.finish();
     bytes.insert(bytes.end(), code.begin(), code.end());
     return bytes;
 }
 
-void three_pass_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
+void three_pass_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
+                       ThreePassCode code) {
     check_size(pyramid, values.size());
-    const auto damaged = [](const char* what) {
-        throw Error(ErrorCode::bad_input, fmt::format("three-pass stream: {}, expected a whole undamaged one", what));
-    };
     if (bytes.size() < header) damaged("it ends within its header");
     const float step = get_float(bytes);
     const int planes = bytes[4];
     if (!(step > 0) || !std::isfinite(step)) damaged("its step is not a positive number");
     if (planes > most_planes) damaged("it has more than 30 bit planes");
-    Decoding decoding{ArithmeticDecoder(bytes.subspan(header)), Models(planes)};
-    read_three_pass(Forest(pyramid), Quantiser(step), planes, decoding, values);
-    if (decoding.decoder.ended()) damaged("it ends too early or is damaged");
-    if (!decoding.decoder.all_read()) damaged("bytes are left over");
+    const std::span<const std::uint8_t> rest = bytes.subspan(header);
+    if (code == ThreePassCode::bits)
+        read_all(pyramid, step, planes, Decoding(rest), values);
+    else
+        read_all(pyramid, step, planes, AlphabetDecoding(rest, planes), values);
 }
 
 double three_pass_step(std::span<const float> values, double bits, double c) {

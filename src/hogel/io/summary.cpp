@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -96,10 +97,15 @@ void describe(const StreamInfo& info, FileSummary& summary) {
     }
     summary.text.insert(summary.text.end(), {{"format", "hogel compressed light field"}, {"coder", info.method.coder}});
     if (!info.method.transform.empty()) summary.text.emplace_back("transform", info.method.transform);
-    summary.numbers.insert(summary.numbers.end(), {{"format_version", static_cast<double>(info.version())},
-                                                   {"tile_s", static_cast<double>(info.tile.ns)},
-                                                   {"tile_t", static_cast<double>(info.tile.nt)},
-                                                   {"pixels_per_bit", pixels / (8 * summary.numbers.front().second)}});
+    if (info.layer_ends.size() > 1) {
+        summary.text.emplace_back("layers", fmt::format("{} of {}", info.layers_there, info.layer_ends.size()));
+        summary.text.emplace_back("layers_end_at", fmt::format("{}", fmt::join(info.layer_ends, " ")));
+    }
+    summary.numbers.insert(summary.numbers.end(),
+                           {{"format_version", static_cast<double>(info.version)},
+                            {"tile_s", static_cast<double>(info.tile.ns)},
+                            {"tile_t", static_cast<double>(info.tile.nt)},
+                            {"pixels_per_bit", pixels / (8 * static_cast<double>(info.layer_ends.back()))}});
     summary.text.insert(summary.text.end(), info.metadata.begin(), info.metadata.end());
 }
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hogel/codec/block_syntax_internal.h"
+
+namespace hogel {
+
+// Where the models of all hogels of a level begin, so that each can be decoded without having seen the others: the
+// logarithm of zeros to ones, in quarters of a bit, of each model in order.
+class ModelStates {
+  public:
+    // Nothing is known.
+    ModelStates();
+    // Those that suit what was counted; as before where another is not worth telling.
+    ModelStates(BlockCounts& counts, const ModelStates& before);
+
+    BlockModels models() const;
+
+    // Writes them as what is new since `before`, or reads them.
+    template <class Coder>
+    void code(Coder& coder, const ModelStates& before);
+
+  private:
+    std::vector<std::int8_t> states_;
+};
+
+// The lengths of codes that follow each other.
+class CodeLengths {
+  public:
+    template <class Coder>
+    std::uint32_t code(Coder& coder, std::uint32_t length) {
+        return code_number(coder, models_, length);
+    }
+
+  private:
+    std::array<BitModel, most_number_bits + 1> models_;
+};
+
+extern template void ModelStates::code(BlockWriter&, const ModelStates&);
+extern template void ModelStates::code(BlockReader&, const ModelStates&);
+
+}  // namespace hogel

@@ -1,0 +1,18 @@
+#include "hogel/codec/pictures_internal.h"
+
+namespace hogel {
+
+Picture picture_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t) {
+    Picture picture = setup.blank();
+    for (std::size_t c = 0; c < picture.size(); ++c)
+        for (std::size_t v = 0; v < picture[c].height; ++v) {
+            const float* in = &tile.radiance(c, t, s, std::min(v, setup.height - 1), 0);
+            float* out = &picture[c].samples[v * picture[c].width];
+            std::copy_n(in, setup.width, out);
+            std::fill(out + setup.width, out + picture[c].width, in[setup.width - 1]);
+        }
+    if (picture.size() == 3) separate_colours(picture[0].samples, picture[1].samples, picture[2].samples);
+    return picture;
+}
+
+}  // namespace hogel

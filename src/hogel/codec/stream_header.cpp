@@ -1,0 +1,108 @@
+#include "hogel/codec/stream_header_internal.h"
+
+#include <algorithm>
+
+namespace hogel {
+namespace {
+
+constexpr std::uint32_t most_layers = 64;
+
+constexpr std::string_view layout_name(HemicubeLayout layout) {
+    return layout == HemicubeLayout::faces ? "faces" : "unfolded";
+}
+
+Face take_face(ByteReader& reader) {
+    const std::string face = reader.take_text();
+    const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return name(known); });
+    if (found == all_faces.end()) reader.damaged("its header names an unknown face of a hemicube");
+    return *found;
+}
+
+// What versions from 2 on have behind the rest.
+void put_sides(ByteWriter& fields, const StreamInfo& info) {
+    fields.put(layout_name(info.layout));
+    fields.put(static_cast<std::uint32_t>(info.sides.size()));
+    for (const LightFieldGrid& side : info.sides) {
+        fields.put(name(side.face));
+        for (const std::size_t count : {side.directions_u, side.directions_v}) fields.put(std::uint64_t{count});
+        for (const double number : {side.tan_half_u, side.tan_half_v, side.center_u, side.center_v}) fields.put(number);
+    }
+}
+
+void take_sides(ByteReader& reader, StreamInfo& info) {
+    const std::string layout = reader.take_text();
+    for (const HemicubeLayout known : {HemicubeLayout::faces, HemicubeLayout::unfolded})
+        if (layout == layout_name(known)) info.layout = known;
+    if (layout != layout_name(info.layout)) reader.damaged("its header names an unknown layout of a hemicube");
+    const auto count = reader.take<std::uint32_t>();
+    if ((count == 0 && info.version == 2) || count >= all_faces.size())
+        reader.damaged("its header has an impossible number of faces");
+    std::vector<Face> seen{info.grid.face};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        LightFieldGrid& side = info.sides.emplace_back(info.grid);
+        side.face = take_face(reader);
+        if (std::ranges::count(seen, side.face) > 0 || seen.front() != Face::front)
+            reader.damaged("its header names faces that make no hemicube");
+        seen.push_back(side.face);
+        for (std::size_t* number : {&side.directions_u, &side.directions_v}) *number = reader.take<std::uint64_t>();
+        for (double* number : {&side.tan_half_u, &side.tan_half_v, &side.center_u, &side.center_v})
+            *number = reader.take_double();
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> header_of(const StreamInfo& info) {
+    ByteWriter fields;
+    const LightFieldGrid& grid = info.grid;
+    for (const std::size_t count : {grid.channels, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v})
+        fields.put(std::uint64_t{count});
+    for (const double number : {grid.pitch, grid.tan_half_u, grid.tan_half_v, grid.center_u, grid.center_v})
+        fields.put(number);
+    fields.put(name(grid.face));
+    fields.put(std::uint64_t{info.tile.ns});
+    fields.put(std::uint64_t{info.tile.nt});
+    fields.put(std::string_view(info.method.coder));
+    fields.put(std::string_view(info.method.transform));
+    fields.put(static_cast<std::uint32_t>(info.metadata.size()));
+    for (const auto& [name, value] : info.metadata) {
+        fields.put(std::string_view(name));
+        fields.put(std::string_view(value));
+    }
+    put_sides(fields, info);
+    fields.put(static_cast<std::uint32_t>(info.layer_ends.size()));
+    ByteWriter header;
+    header.put(std::span(stream_magic));
+    header.put(latest_version);
+    header.put(static_cast<std::uint32_t>(fields.bytes.size()));
+    header.put(std::span(fields.bytes));
+    header.put(checksum(header.bytes));
+    return std::move(header.bytes);
+}
+
+StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
+    StreamInfo info;
+    info.version = version;
+    LightFieldGrid& grid = info.grid;
+    for (std::size_t* count : {&grid.channels, &grid.hogels_s, &grid.hogels_t, &grid.directions_u, &grid.directions_v})
+        *count = reader.take<std::uint64_t>();
+    for (double* number : {&grid.pitch, &grid.tan_half_u, &grid.tan_half_v, &grid.center_u, &grid.center_v})
+        *number = reader.take_double();
+    grid.face = take_face(reader);
+    info.tile.ns = reader.take<std::uint64_t>();
+    info.tile.nt = reader.take<std::uint64_t>();
+    info.method.coder = reader.take_text();
+    info.method.transform = reader.take_text();
+    const auto words = reader.take<std::uint32_t>();
+    for (std::uint32_t i = 0; i < words; ++i) {
+        std::string name = reader.take_text();
+        info.metadata.emplace_back(std::move(name), reader.take_text());
+    }
+    if (version > 1) take_sides(reader, info);
+    const auto layers = version > 2 ? reader.take<std::uint32_t>() : 1;
+    if (layers == 0 || layers > most_layers) reader.damaged("its header has an impossible number of layers");
+    info.layer_ends.resize(layers);
+    return info;
+}
+
+}  // namespace hogel
