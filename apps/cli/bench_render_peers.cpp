@@ -197,8 +197,9 @@ int bench_render_peers(const BenchRenderOptions& options, const Session& session
         const auto scene = untextured(bench_scene(session, name, render));
         for (const Counts& count : hogels) {
             render.hogels = count;
-            constexpr std::size_t most_hogels = 720;  // in rows that are kept
-            limits.rows = std::clamp<std::size_t>(most_hogels / count.columns, 1, 4);
+            // In rows that are kept: enough that threads share them evenly, as they would the whole light field.
+            constexpr std::size_t most_hogels = 2160, most_rows = 16;
+            limits.rows = std::clamp<std::size_t>(most_hogels / count.columns, 1, most_rows);
             const Race result = race(session, algorithm, peers, scene, render.grid(), limits);
             print_row(fmt::format("{}, {} triangles", name, scene->triangles.size()), render.grid(), peers, result);
             for (const Racer& racer : result.racers)

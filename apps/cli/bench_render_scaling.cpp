@@ -13,7 +13,8 @@
 namespace hogel::cli {
 namespace {
 
-constexpr std::size_t rows = 2;
+// Of hogels. More where threads share them, for one row may take twice as long as another.
+constexpr std::size_t few_rows = 2, rows_for_threads = 16;
 
 // Medians over rounds.
 Times times_of(const std::function<void()>& work, std::size_t rounds) {
@@ -28,7 +29,7 @@ Times times_of(const std::function<void()>& work, std::size_t rounds) {
 }
 
 Times times_of(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
-               const LightFieldGrid& grid, std::size_t rounds) {
+               const LightFieldGrid& grid, std::size_t rounds, std::size_t rows = few_rows) {
     const auto source = make_renderer(algorithm, scene, grid);
     HogelRows some(*source, rows);
     some.render();  // touches the memory
@@ -98,7 +99,9 @@ std::shared_ptr<const ShadedScene> wall(double size) {
 // In million samples a second: two triangles, and plain writing of as many samples.
 void print_limits(const std::string& algorithm, const LightFieldGrid& grid, double size, std::size_t rounds) {
     const auto source = make_renderer(algorithm, wall(size), grid);
-    HogelRows some(*source, rows);
+    // Far more than caches hold.
+    const std::size_t row_bytes = grid.hogels_s * grid.directions() * grid.channels * sizeof(float);
+    HogelRows some(*source, std::clamp<std::size_t>(defaults.bench_limit_bytes / row_bytes, few_rows, grid.hogels_t));
     some.render();
     const double rendering = times_of([&] { some.render(); }, rounds).processor;
     const double writing = times_of(
@@ -121,7 +124,7 @@ void print_threads(const std::string& algorithm, const std::shared_ptr<const Sha
     std::vector<double> seconds;
     for (const std::size_t threads : {1, 2}) {
         const ThreadLimit limit(threads);
-        seconds.push_back(times_of(algorithm, scene, grid, rounds).wall);
+        seconds.push_back(times_of(algorithm, scene, grid, rounds, rows_for_threads).wall);
     }
     fmt::print("Two threads are {:.2f} times as fast as one.\n\n", seconds[0] / seconds[1]);
 }

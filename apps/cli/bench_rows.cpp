@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 
 #include "hogel/core/parallel.h"
 #include "resources.h"
@@ -27,8 +29,10 @@ std::vector<HogelPlace> HogelRows::some(std::size_t count) const {
     const std::size_t width = source_.grid().hogels_s;
     std::vector<HogelPlace> hogels;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = (2 * i + 1) * this->hogels() / (2 * count);
-        hogels.push_back({at % width, places_[at / width]});
+        // Columns by the golden ratio, which no row repeats.
+        const double along = (static_cast<double>(i) + 0.5) * std::numbers::phi;
+        const auto column = static_cast<std::size_t>((along - std::floor(along)) * static_cast<double>(width));
+        hogels.push_back({column, places_[(2 * i + 1) * places_.size() / (2 * count)]});
     }
     return hogels;
 }

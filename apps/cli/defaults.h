@@ -49,6 +49,7 @@ struct Defaults {
     std::size_t bench_largest_region = 128;
     double bench_seconds = 8, bench_gigabytes = 6;
     std::size_t bench_peer_directions = 256;
+    std::size_t bench_limit_bytes = std::size_t{1} << 29;  // what is written to find the memory's speed
     std::size_t bench_few_hogels = 64;  ///< along a side, where peers are measured with few hogels and with many
     std::size_t bench_rounds = 5;
     double bench_peer_seconds = 1;
