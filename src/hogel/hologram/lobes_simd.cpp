@@ -59,15 +59,19 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
     transpose_plain(from, from_row, rows, columns, to, to_row);
 #else
     const hn::FixedTag<float, 4> quad;
+    // Four rows of four columns each, or of several such pieces side by side.
+    const auto turn = [&](auto d, auto a, auto b, auto c, auto e, float* out) {
+        const auto ac = hn::InterleaveLower(d, a, c), be = hn::InterleaveLower(d, b, e);
+        const auto ac_upper = hn::InterleaveUpper(d, a, c), be_upper = hn::InterleaveUpper(d, b, e);
+        hn::StoreU(hn::InterleaveLower(d, ac, be), d, out);
+        hn::StoreU(hn::InterleaveUpper(d, ac, be), d, out + to_row);
+        hn::StoreU(hn::InterleaveLower(d, ac_upper, be_upper), d, out + 2 * to_row);
+        hn::StoreU(hn::InterleaveUpper(d, ac_upper, be_upper), d, out + 3 * to_row);
+    };
     const auto four = [&](const float* in, float* out) {
         const auto a = hn::LoadU(quad, in), b = hn::LoadU(quad, in + from_row);
         const auto c = hn::LoadU(quad, in + 2 * from_row), e = hn::LoadU(quad, in + 3 * from_row);
-        const auto ac = hn::InterleaveLower(quad, a, c), be = hn::InterleaveLower(quad, b, e);
-        const auto ac_upper = hn::InterleaveUpper(quad, a, c), be_upper = hn::InterleaveUpper(quad, b, e);
-        hn::StoreU(hn::InterleaveLower(quad, ac, be), quad, out);
-        hn::StoreU(hn::InterleaveUpper(quad, ac, be), quad, out + to_row);
-        hn::StoreU(hn::InterleaveLower(quad, ac_upper, be_upper), quad, out + 2 * to_row);
-        hn::StoreU(hn::InterleaveUpper(quad, ac_upper, be_upper), quad, out + 3 * to_row);
+        turn(quad, a, b, c, e, out);
     };
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
     // Sixteen rows at once: their pieces of four columns become whole vectors of a column.
@@ -82,12 +86,7 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
             return hn::Combine(d, pair(row + 8), pair(row));
         };
         const auto a = pieces(0), b = pieces(1), c = pieces(2), e = pieces(3);
-        const auto ac = hn::InterleaveLower(d, a, c), be = hn::InterleaveLower(d, b, e);
-        const auto ac_upper = hn::InterleaveUpper(d, a, c), be_upper = hn::InterleaveUpper(d, b, e);
-        hn::StoreU(hn::InterleaveLower(d, ac, be), d, out);
-        hn::StoreU(hn::InterleaveUpper(d, ac, be), d, out + to_row);
-        hn::StoreU(hn::InterleaveLower(d, ac_upper, be_upper), d, out + 2 * to_row);
-        hn::StoreU(hn::InterleaveUpper(d, ac_upper, be_upper), d, out + 3 * to_row);
+        turn(d, a, b, c, e, out);
     };
 #endif
     // In squares of sixteen, along the lines that lie farther apart: whole cache lines of those are done with at once,

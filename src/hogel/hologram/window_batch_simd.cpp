@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "hogel/core/random.h"
+#include "hogel/hologram/philox_lanes_internal.h"
 #include "hogel/hologram/window_batch_internal.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -83,27 +84,15 @@ void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float*
                    0x1p-32f;
 }
 #else
-// A draw of Philox a hogel, in lanes of 64 bits. Of each word of the counter the lower half counts; the upper half may
-// hold anything, because the products are of lower halves alone.
+// A draw of Philox a hogel, in lanes of 64 bits.
 void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* turns) {
     const hn::CappedTag<std::uint64_t, width> d;
-    const hn::Repartition<std::uint32_t, decltype(d)> halves;
-    const auto times = [&](auto value, auto factor) {
-        return hn::MulEven(hn::BitCast(halves, value), hn::BitCast(halves, factor));
-    };
-    const auto a = hn::Set(d, 0xD2511F53u), b = hn::Set(d, 0xCD9E8D57u), low = hn::Set(d, 0xffffffffu);
+    const auto low = hn::Set(d, 0xffffffffu);
     HWY_ALIGN std::uint64_t drawn[width];
     for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
         auto c0 = hn::Iota(d, at.s + i), c1 = hn::Set(d, at.t), c2 = hn::Set(d, coefficient + std::uint64_t{1});
         auto c3 = hn::Set(d, at.series);
-        std::uint32_t k0 = at.key[0], k1 = at.key[1];
-        for (int round = 0; round < 10; ++round, k0 += 0x9E3779B9u, k1 += 0xBB67AE85u) {
-            const auto p = times(c0, a), q = times(c2, b);
-            c0 = hn::Xor(hn::Xor(hn::ShiftRight<32>(q), c1), hn::Set(d, k0));
-            c2 = hn::Xor(hn::Xor(hn::ShiftRight<32>(p), c3), hn::Set(d, k1));
-            c1 = q;
-            c3 = p;
-        }
+        philox_lanes(d, c0, c1, c2, c3, at.key);
         hn::Store(hn::And(c0, low), d, drawn + i);
     }
     for (std::size_t i = 0; i < width; ++i)

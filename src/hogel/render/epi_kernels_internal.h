@@ -48,6 +48,14 @@ constexpr std::uint32_t ordered_bits(float value) {
 struct ShadedPlane {
     float* values[4];
     std::size_t strides[4];
+
+    /// Whether all rows begin at multiples of so many floats.
+    bool begins_at_multiples(std::size_t floats) const {
+        for (int i = 0; i < 4; ++i)
+            if (reinterpret_cast<std::uintptr_t>(values[i]) % (floats * sizeof(float)) != 0 || strides[i] % floats != 0)
+                return false;
+        return true;
+    }
 };
 
 /// The inner loops, each plain and as fast as this processor allows. The twins give the same bits: they do the same

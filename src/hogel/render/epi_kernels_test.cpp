@@ -8,18 +8,10 @@
 
 #include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/test_plane_internal.h"
 
 namespace hogel {
 namespace {
-
-struct Plane {
-    std::vector<std::uint64_t> words;
-    EpipolarPlane plane;
-
-    Plane(std::size_t columns, std::size_t directions, std::int32_t first_column)
-        : words(columns * directions + EpipolarPlane::spare, EpipolarPlane::nothing),
-          plane{words.data(), columns, directions, first_column, 0.5f - 0.5f * float(directions)} {}
-};
 
 using Draw = void (*)(std::span<const Strip>, std::size_t, const EpipolarPlane&);
 
@@ -119,7 +111,7 @@ TEST_P(EveryTarget, vector_and_plain_drawings_are_the_same) {
         }
         const std::size_t columns = places.between(1, 45), directions = places.between(1, 80);
         const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
-        Plane fast(columns, directions, first), plain(columns, directions, first);
+        TestPlane fast(columns, directions, first), plain(columns, directions, first);
         draw(strips, 3, fast.plane);
         draw_plain(strips, 3, plain.plane);
         ASSERT_EQ(fast.words, plain.words) << round;  // what is to spare too
@@ -177,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(EpipolarKernels, EveryDraw, ::testing::Values(&draw, &d
 TEST_P(EveryDraw, gives_every_sample_to_one_strip_of_a_chain) {
     Places places(3);
     for (int round = 0; round < 60; ++round) {
-        Plane counted(30, 41, -11);
+        TestPlane counted(30, 41, -11);
         const float K_most = 20, slack = 1.01f;
         // A third of the chains lie on the samples themselves.
         const bool on_samples = round % 3 == 0;
@@ -208,7 +200,7 @@ TEST_P(EveryDraw, puts_the_depth_where_the_line_of_sight_meets_the_segment) {
     Places places(4);
     std::size_t covered = 0;
     for (int round = 0; round < 300; ++round) {
-        Plane seen(20, 31, -9);
+        TestPlane seen(20, 31, -9);
         const Strip strip{places.x(), places.z(), places.x(), places.z()};
         GetParam()({&strip, 1}, 7, seen.plane);
         for (std::size_t i = 0; i < 20 * 31; ++i) {
@@ -243,7 +235,7 @@ TEST_P(EveryTarget, vector_and_plain_shadings_are_the_same) {
     strips[7] = {3, 1, 0, 0, {1, 2, 3, 4}, {5, 6, 7, 8}};  // a point
     for (std::size_t directions = 1; directions < 150; directions = directions < 40 ? directions + 1 : directions + 8) {
         const std::size_t columns = 3, size = columns * directions;
-        Plane plane(columns, directions, -3);
+        TestPlane plane(columns, directions, -3);
         for (std::uint64_t& word : plane.words)
             if (places.coin()) word = std::uint64_t{12345} << 32 | places.between(0, 19);
         // Long runs of one strip, as large triangles make them.

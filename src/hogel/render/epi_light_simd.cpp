@@ -99,10 +99,7 @@ void ShadeLit(const EpipolarPlane& plane, std::span<const StripShades> strips, s
               const SampleSource& samples, const ShadedPlane& out) {
     const FloatTag d;
     const Four d4;
-    bool aligned = plane.directions % hn::Lanes(d) == 0;
-    for (int i = 0; i < 4; ++i)
-        aligned = aligned && reinterpret_cast<std::uintptr_t>(out.values[i]) % (hn::Lanes(d) * sizeof(float)) == 0 &&
-                  out.strides[i] % hn::Lanes(d) == 0;
+    const bool aligned = plane.directions % hn::Lanes(d) == 0 && out.begins_at_multiples(hn::Lanes(d));
     const auto background = hn::LoadU(d4, strips[EpipolarPlane::nobody].value0);
     HWY_ALIGN float values[block][4];
     for (std::size_t column = 0; column < plane.columns; ++column)

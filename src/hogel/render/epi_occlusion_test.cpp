@@ -4,17 +4,10 @@
 
 #include <random>
 
+#include "hogel/render/test_plane_internal.h"
+
 namespace hogel {
 namespace {
-
-struct Drawn {
-    std::vector<std::uint64_t> words;
-    EpipolarPlane plane;
-
-    Drawn(std::size_t columns, std::size_t directions, std::int32_t first)
-        : words(columns * directions + EpipolarPlane::spare, EpipolarPlane::nothing),
-          plane{words.data(), columns, directions, first, 0.5f - 0.5f * float(directions)} {}
-};
 
 // Whatever lies in a box that is hidden changes nothing when it is drawn after all, with whatever number. Boxes are
 // offered on both sides of the hologram, and some just as near as what is there.
@@ -25,7 +18,7 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
     };
     std::size_t hidden = 0, visible = 0;
     for (int round = 0; round < 400; ++round) {
-        Drawn drawn(1 + random() % 40, 1 + random() % 90, std::int32_t(random() % 40) - 30);
+        TestPlane drawn(1 + random() % 40, 1 + random() % 90, std::int32_t(random() % 40) - 30);
         std::vector<Strip> walls;
         for (int wall = 0; wall < 4; ++wall) {
             const float x = uniform(-120, 60), z = round % 2 == 0 ? 0.5f : uniform(-1, 1);
@@ -61,7 +54,7 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
 }
 
 TEST(Occlusion, an_empty_plane_hides_nothing) {
-    Drawn drawn(8, 16, 0);
+    TestPlane drawn(8, 16, 0);
     Occlusion occlusion;
     const TriangleClusters::Bounds far{0, 1, 0, 1, 1e6, 2e6};
     EXPECT_FALSE(occlusion.hides(far, drawn.plane));
@@ -73,7 +66,7 @@ TEST(Occlusion, cells_hold_the_farthest_depth_in_all_kernels) {
     std::mt19937 random(2);
     for (std::size_t columns : {1, 7, 8, 9, 24})
         for (std::size_t directions = 1; directions < 70; ++directions) {
-            Drawn drawn(columns, directions, 0);
+            TestPlane drawn(columns, directions, 0);
             for (std::uint64_t& word : drawn.words)
                 if (random() % 200 != 0) word = std::uint64_t{random() % 1000} << 32 | random();
             const std::size_t across = (directions + 15) / 16, size = (columns + 7) / 8 * across;

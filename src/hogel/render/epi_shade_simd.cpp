@@ -82,11 +82,8 @@ HWY_INLINE bool show_one_strip(const std::uint32_t* numbers) {
 
 void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     const FloatTag d;
-    const std::size_t lanes = hn::Lanes(d), vector = lanes * sizeof(float);
-    bool aligned = true;
-    for (int i = 0; i < 4; ++i)
-        aligned = aligned && reinterpret_cast<std::uintptr_t>(out.values[i]) % vector == 0 &&
-                  out.strides[i] * sizeof(float) % vector == 0;
+    const std::size_t lanes = hn::Lanes(d);
+    const bool aligned = out.begins_at_multiples(lanes);
     const Lanes background = one_strip(strips[EpipolarPlane::nobody]);
     Gathered gathered;
     HWY_ALIGN std::uint32_t numbers[run];

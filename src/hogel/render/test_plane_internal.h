@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "hogel/render/epi_kernels_internal.h"
+
+namespace hogel {
+
+/// An epipolar plane for tests, with its words, in which nothing is seen yet.
+struct TestPlane {
+    std::vector<std::uint64_t> words;
+    EpipolarPlane plane;
+
+    TestPlane(std::size_t columns, std::size_t directions, std::int32_t first_column)
+        : words(columns * directions + EpipolarPlane::spare, EpipolarPlane::nothing),
+          plane{words.data(), columns, directions, first_column, 0.5f - 0.5f * float(directions)} {}
+};
+
+}  // namespace hogel
