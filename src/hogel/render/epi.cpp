@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "hogel/render/epi_clusters_internal.h"
-#include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
 #include "hogel/render/epi_light_internal.h"
 #include "hogel/render/epi_occlusion_internal.h"
+#include "hogel/render/epi_set_up_internal.h"
 #include "hogel/render/sample_store_internal.h"
 
 namespace hogel {
@@ -18,35 +18,24 @@ namespace {
 // So many samples of an epipolar plane are drawn at once that their words stay in the second level cache.
 constexpr std::size_t most_words = std::size_t{96} << 10;
 
+// So many triangles, or a few more, are set up together.
+constexpr std::size_t most_waiting = 64;
+
 // A thread that copies a light field holds one tile.
-constexpr std::size_t most_tile_bytes = std::size_t{96} << 20;
+constexpr std::size_t most_tile_bytes = std::size_t{400} << 20;
 
 // After so many strips, or more if a plane has many samples, it is looked again which samples are covered: often enough
 // to leave little in vain, and seldom enough to cost little.
 constexpr std::size_t fewest_between_updates = 128, samples_between_updates = 256;
 
-// Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
-// it and the next corner, end 1 between it and the last.
-struct StripOrigin {
-    float weight0, weight1;  // of the lone corner, at the two ends
-    std::uint32_t triangle;
-    std::uint32_t lone;  // 0, 1 or 2
-
-    // Of the triangle's vertices, at this part of the way from end 0 to end 1.
-    std::array<float, 3> weights(float part) const {
-        std::array<float, 3> b;
-        b[lone] = (1 - part) * weight0 + part * weight1;
-        b[(lone + 1) % 3] = (1 - part) * (1 - weight0);
-        b[(lone + 2) % 3] = part * (1 - weight1);
-        return b;
-    }
-};
-
 class EpiRenderer final : public LightFieldSource {
   public:
     EpiRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), axes_(grid), frame_(grid), clusters_(*scene_, frame_) {
-        set_values(background_.value0, scene_->background, std::numeric_limits<double>::infinity());
+        : scene_(std::move(scene)), grid_(grid), axes_(grid), frame_(grid), clusters_(*scene_, frame_, grid.channels) {
+        const Rgb sky = scene_->background;
+        const bool grey = grid.channels == 1;
+        const float values[] = {grey ? luminance(sky) : sky.r, sky.g, sky.b, std::numeric_limits<float>::infinity()};
+        std::ranges::copy(values, background_.value0);
         if (needs_samples_)
             for (const std::uint32_t triangle : clusters_.triangles) lights_.push_back(light_of(triangle));
     }
@@ -110,114 +99,90 @@ class EpiRenderer final : public LightFieldSource {
 
     // The strips of one epipolar plane; number 0 is the background.
     struct Work {
+        std::size_t count = 0;
         std::vector<Strip> strips;
         std::vector<StripShades, CacheLineAllocator<StripShades>> shades;
         std::vector<StripOrigin> origins;
         std::vector<StripLight, CacheLineAllocator<StripLight>> lights;
         Occlusion occlusion;
+        std::vector<std::uint32_t> clusters;       // that the plane crosses
+        std::vector<std::uint32_t> waiting;        // triangles that it crosses, on their way from memory
         std::array<std::vector<float>, 4> turned;  // values of a plane whose columns lie far apart in the tile
-    };
-
-    // The triangles of a cluster that a plane crosses, as bits.
-    struct Crossed {
-        std::uint32_t cluster;
-        std::uint64_t triangles;
     };
 
     // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
     void draw_plane(const EpipolarPlane& plane, const EpipolarFrame::Plane& place, Work& work) const {
-        const double row = place.row, slope = place.slope;
-        work.strips.assign(1, {});
-        work.shades.assign(1, background_);
-        work.origins.assign(1, {});
-        work.lights.assign(1, {});
+        const double n_first = plane.first_column, k_first = plane.first_direction;
+        const PlaneRays rays{place.row,
+                             place.slope,
+                             place.shift,
+                             place.z0,
+                             n_first,
+                             n_first + static_cast<double>(plane.columns) - 1,
+                             k_first,
+                             k_first + static_cast<double>(plane.directions) - 1,
+                             place.deepening * frame_.metres(1)};
         work.occlusion.clear();
+        work.count = 0;
+        make_room(work, 1);
+        work.strips[0] = {};
+        work.shades[0] = background_;
+        work.count = 1;
         const std::size_t between_updates =
             std::max(fewest_between_updates, plane.columns * plane.directions / samples_between_updates);
         std::size_t drawn = 1;
         const auto draw_rest = [&] {
-            draw(std::span(work.strips).subspan(drawn), drawn, plane);
-            drawn = work.strips.size();
+            draw(std::span(work.strips).subspan(drawn, work.count - drawn), drawn, plane);
+            drawn = work.count;
         };
-        const auto may_show = [&](const TriangleClusters::Bounds& bounds) {
-            return bounds.may_cross(row, slope) && !work.occlusion.hides(bounds, plane, place.shift, place.z0);
-        };
-        // The last cluster that was crossed, whose triangles are on their way from memory.
-        Crossed waiting{0, 0};
-        for (const TriangleClusters::Group& group : clusters_.groups) {
-            if (!may_show(group.bounds)) continue;
-            for (const std::uint32_t cluster : group.clusters) {
-                if (!may_show(clusters_.bounds[cluster])) continue;
-                const Crossed next{cluster, crossing(clusters_.corners[cluster], row, slope)};
-                if (next.triangles == 0) continue;
-                prefetch(next);
-                add_strips(waiting, place, work);
-                waiting = next;
+        work.clusters.clear();
+        clusters_crossed(clusters_.bounds, rays, work.clusters);
+        for (const std::uint32_t cluster : work.clusters) {
+            if (work.occlusion.hides(clusters_.bounds[cluster], plane, place.shift, place.z0)) continue;
+            const std::uint32_t first = cluster * cluster_size;
+            for (std::uint64_t rest = crossing(clusters_.corners[cluster], place.row, place.slope); rest != 0;
+                 rest &= rest - 1) {
+                work.waiting.push_back(first + static_cast<std::uint32_t>(std::countr_zero(rest)));
+                __builtin_prefetch(&clusters_.others[work.waiting.back()]);
             }
-            if (work.strips.size() < drawn + between_updates) continue;
+            if (work.waiting.size() < most_waiting) continue;
+            add_strips(work, rays);
+            if (work.count < drawn + between_updates) continue;
             draw_rest();
             work.occlusion.update(plane);
         }
-        add_strips(waiting, place, work);
+        add_strips(work, rays);
         draw_rest();
     }
 
-    void prefetch(const Crossed& crossed) const {
-        for (std::uint64_t rest = crossed.triangles; rest != 0; rest &= rest - 1) {
-            const auto number = static_cast<std::size_t>(std::countr_zero(rest));
-            __builtin_prefetch(&clusters_.others[crossed.cluster * cluster_size + number]);
-        }
-    }
-
-    void add_strips(const Crossed& crossed, const EpipolarFrame::Plane& place, Work& work) const {
-        for (std::uint64_t rest = crossed.triangles; rest != 0; rest &= rest - 1)
-            add_strip(crossed.cluster, static_cast<std::size_t>(std::countr_zero(rest)), place, work);
-    }
-
-    void add_strip(std::size_t cluster, std::size_t number, const EpipolarFrame::Plane& place, Work& work) const {
-        const ClusterCorners& all = clusters_.corners[cluster];
-        const std::size_t index = cluster * cluster_size + number;
-        const TriangleCorners& own = clusters_.others[index];
-        std::array<double, 3> x, z, height;
-        for (std::size_t i = 0; i < 3; ++i) {
-            x[i] = own.x[i];
-            z[i] = all.z[i][number];
-            // As in `crossing`, to the last bit.
-            height[i] = (all.y[i][number] - place.slope * z[i]) - place.row;
-        }
-        auto [lone, next, last, end0, end1] = cut_triangle(x, z, height);
-        for (Cut* end : {&end0, &end1}) {
-            end->x += place.shift;
-            end->z -= place.z0;
-        }
-        work.strips.push_back({static_cast<float>(end0.x), static_cast<float>(end0.z), static_cast<float>(end1.x),
-                               static_cast<float>(end1.z)});
-
-        const auto& radiance = own.radiance;
-        const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
-        StripShades& shades = work.shades.emplace_back();
-        shades.x0 = static_cast<float>(end0.x);
-        shades.z0 = static_cast<float>(end0.z);
-        shades.dx = static_cast<float>(end1.x - end0.x);
-        shades.dz = static_cast<float>(end1.z - end0.z);
-        set_values(shades.value0, w0 * radiance[lone] + (1 - w0) * radiance[next], place.deepening * end0.z);
-        set_values(shades.difference, w1 * radiance[lone] + (1 - w1) * radiance[last], place.deepening * end1.z);
-        for (int i = 0; i < 4; ++i) shades.difference[i] -= shades.value0[i];
-        if (needs_samples_) {
-            const StripOrigin& from = work.origins.emplace_back(StripOrigin{w0, w1, clusters_.triangles[index], lone});
-            const auto& [source, grid] = lights_[index];
+    // Of the triangles that wait.
+    void add_strips(Work& work, const PlaneRays& rays) const {
+        const std::size_t first = work.count;
+        make_room(work, work.waiting.size());
+        set_up(clusters_, work.waiting, rays, &work.strips[first], &work.shades[first],
+               needs_samples_ ? &work.origins[first] : nullptr);
+        work.count += work.waiting.size();
+        for (std::size_t i = 0; needs_samples_ && i < work.waiting.size(); ++i) {
+            const auto& [source, grid] = lights_[work.waiting[i]];
+            const StripOrigin& from = work.origins[first + i];
+            StripLight& light = work.lights[first + i];
             if (source == StripLight::From::points)
-                work.lights.push_back(light_of_points(grid, from.weights(0), from.weights(1)));
+                light = light_of_points(grid, from.weights(0), from.weights(1));
             else
-                work.lights.emplace_back().from = source;
+                (light = {}).from = source;
         }
+        work.waiting.clear();
     }
 
-    void set_values(float (&values)[4], Rgb radiance, double z) const {
-        values[0] = grid_.channels == 1 ? luminance(radiance) : radiance.r;
-        values[1] = radiance.g;
-        values[2] = radiance.b;
-        values[3] = static_cast<float>(frame_.metres(z));
+    void make_room(Work& work, std::size_t more) const {
+        const std::size_t needed = work.count + more;
+        if (needed <= work.strips.size()) return;
+        const std::size_t size = std::max(needed, 2 * work.strips.size());
+        work.strips.resize(size);
+        work.shades.resize(size);
+        if (!needs_samples_) return;
+        work.origins.resize(size);
+        work.lights.resize(size);
     }
 
     // The first sample of a plane, as the axes number hogels and directions.

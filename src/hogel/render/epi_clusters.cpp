@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "hogel/render/epi_clusters_internal.h"
+#include "hogel/render/sample_store_internal.h"
 
 namespace hogel {
 namespace {
@@ -45,17 +46,55 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene) {
     return order;
 }
 
+// The clusters of triangles in that order, nearest first, are what is left in `order`: whole ones, and the rest of the
+// last at the end.
+void sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, const EpipolarFrame& frame) {
+    std::vector<std::pair<double, std::size_t>> nearest(order.size() / cluster_size);
+    for (std::size_t cluster = 0; cluster < nearest.size(); ++cluster) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = cluster * cluster_size; i < (cluster + 1) * cluster_size; ++i)
+            for (const std::uint32_t vertex : scene.triangles[order[i]].vertices)
+                least = std::min(least, frame.in_samples(scene.positions[vertex]).z);
+        nearest[cluster] = {least, cluster};
+    }
+    std::sort(nearest.begin(), nearest.end());
+    std::vector<std::uint32_t> sorted;
+    sorted.reserve(order.size());
+    const auto append = [&](std::size_t begin, std::size_t end) {
+        sorted.insert(sorted.end(), order.begin() + static_cast<std::ptrdiff_t>(begin),
+                      order.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    for (const auto& [least, cluster] : nearest) append(cluster * cluster_size, (cluster + 1) * cluster_size);
+    append(nearest.size() * cluster_size, order.size());
+    order = std::move(sorted);
+}
+
 }  // namespace
 
-TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame)
-    : triangles(morton_order(scene)) {
-    const std::size_t count = (triangles.size() + cluster_size - 1) / cluster_size;
+void ClusterBounds::resize(std::size_t count) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr Bounds empty{infinity, -infinity, infinity, -infinity, infinity, -infinity};
+    constexpr std::size_t most_lanes = 32;
+    const std::size_t filled = (count + most_lanes - 1) / most_lanes * most_lanes;
+    for (Numbers* low : {&x_low, &y_low, &z_low}) low->assign(filled, infinity);
+    for (Numbers* high : {&x_high, &y_high, &z_high}) high->assign(filled, -infinity);
+}
+
+void ClusterBounds::include(std::size_t i, const Vec3& p) {
+    x_low[i] = std::min(x_low[i], p.x);
+    x_high[i] = std::max(x_high[i], p.x);
+    y_low[i] = std::min(y_low[i], p.y);
+    y_high[i] = std::max(y_high[i], p.y);
+    z_low[i] = std::min(z_low[i], p.z);
+    z_high[i] = std::max(z_high[i], p.z);
+}
+
+TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame, std::size_t channels)
+    : triangles(morton_order(scene)) {
+    sort_clusters(triangles, scene, frame);
+    const std::size_t count = (triangles.size() + cluster_size - 1) / cluster_size;
     corners.resize(count);
     others.resize(triangles.size());
-    bounds.assign(count, empty);
-    groups.assign((count + group_size - 1) / group_size, {empty, {}});
+    bounds.resize(count);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const std::size_t cluster = i / cluster_size, place = i % cluster_size;
         const auto& vertices = scene.triangles[triangles[i]].vertices;
@@ -64,19 +103,11 @@ TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame
             corners[cluster].y[corner][place] = p.y;
             corners[cluster].z[corner][place] = p.z;
             others[i].x[corner] = p.x;
-            others[i].radiance[corner] = scene.radiance[vertices[corner]];
-            for (Bounds* box : {&bounds[cluster], &groups[cluster / group_size].bounds})
-                *box = {std::min(box->x_low, p.x),  std::max(box->x_high, p.x), std::min(box->y_low, p.y),
-                        std::max(box->y_high, p.y), std::min(box->z_low, p.z),  std::max(box->z_high, p.z)};
+            const Rgb radiance = scene.radiance[vertices[corner]];
+            others[i].radiance[corner] = channels == 1 ? Rgb{luminance(radiance), 0, 0} : radiance;
+            bounds.include(cluster, p);
         }
     }
-    for (std::uint32_t cluster = 0; cluster < count; ++cluster)
-        groups[cluster / group_size].clusters.push_back(cluster);
-    for (Group& group : groups)
-        std::stable_sort(group.clusters.begin(), group.clusters.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return bounds[a].z_low < bounds[b].z_low; });
-    std::stable_sort(groups.begin(), groups.end(),
-                     [](const Group& a, const Group& b) { return a.bounds.z_low < b.bounds.z_low; });
 }
 
 }  // namespace hogel

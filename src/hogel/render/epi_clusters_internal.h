@@ -22,39 +22,36 @@ struct ClusterCorners {
 struct alignas(64) TriangleCorners {
     double x[3];
     Rgb radiance[3];
+    float unused = 0;  ///< four floats may be read from where a radiance stands
 };
 
-/// The triangles of a scene in the units of an EpipolarFrame, neighbours together: in clusters, and clusters in groups.
-/// What comes nearest to the viewer comes first, among the groups and among the clusters of a group. The last cluster
-/// is filled up with triangles that are a single point, which no ray meets.
-struct TriangleClusters {
-    /// What a range of triangles lies between.
-    struct Bounds {
+/// What the triangles of each cluster lie between. There are as many boxes as fill vectors; those at the end are empty,
+/// and no plane crosses them.
+struct ClusterBounds {
+    struct Box {
         double x_low, x_high, y_low, y_high, z_low, z_high;
-
-        /// Whether the plane y = row + slope z may meet what is inside. Exact about rounding: never false for a cluster
-        /// one of whose triangles `crossing` reports.
-        bool may_cross(double row, double slope) const {
-            const double a = slope * z_low, b = slope * z_high;
-            const double least = a < b ? a : b, most = a < b ? b : a;
-            return (y_low - most) - row < 0 && (y_high - least) - row >= 0;
-        }
     };
+    using Numbers = std::vector<double, CacheLineAllocator<double>>;
+    Numbers x_low, x_high, y_low, y_high, z_low, z_high;
 
-    static constexpr std::size_t group_size = 4;  ///< clusters
+    std::size_t size() const { return x_low.size(); }
+    void resize(std::size_t count);
+    Box operator[](std::size_t i) const { return {x_low[i], x_high[i], y_low[i], y_high[i], z_low[i], z_high[i]}; }
+    /// Makes box i include a point.
+    void include(std::size_t i, const Vec3& p);
+};
 
+/// The triangles of a scene in the units of an EpipolarFrame, neighbours together in clusters. The cluster that comes
+/// nearest to the viewer is the first. The last place are filled up with triangles that are a single point, which no
+/// ray meets.
+struct TriangleClusters {
     std::vector<ClusterCorners, CacheLineAllocator<ClusterCorners>> corners;
     std::vector<TriangleCorners, CacheLineAllocator<TriangleCorners>> others;  ///< cluster by cluster
     std::vector<std::uint32_t> triangles;  ///< which triangle of the scene stands in each place
-    std::vector<Bounds> bounds;            ///< of the clusters
+    ClusterBounds bounds;
 
-    struct Group {
-        Bounds bounds;
-        std::vector<std::uint32_t> clusters;
-    };
-    std::vector<Group> groups;
-
-    TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame);
+    /// @param channels  of the light field: with one, r of each radiance is its luminance
+    TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame, std::size_t channels);
 };
 
 }  // namespace hogel

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <random>
-#include <stdexcept>
 
 #include "hogel/render/epi_clusters_internal.h"
-#include "hogel/render/epi_kernels_internal.h"
 
 namespace hogel {
 namespace {
@@ -30,7 +28,7 @@ ShadedScene scattered_triangles(std::size_t count) {
 TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
     const ShadedScene scene = scattered_triangles(1000);
     const EpipolarFrame frame(grid);
-    const TriangleClusters clusters(scene, frame);
+    const TriangleClusters clusters(scene, frame, 3);
     ASSERT_EQ(clusters.triangles.size(), 1000u);
     std::vector<std::uint32_t> sorted = clusters.triangles;
     std::sort(sorted.begin(), sorted.end());
@@ -46,29 +44,27 @@ TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
     }
 }
 
-TEST(TriangleClusters, are_passed_over_only_if_no_triangle_is_crossed_and_mostly_then) {
+TEST(TriangleClusters, come_nearest_first_and_lie_in_their_boxes) {
     const EpipolarFrame frame(grid);
-    const TriangleClusters clusters(scattered_triangles(6000), frame);
-    const auto group_of = [&](std::size_t cluster) -> const TriangleClusters::Group& {
-        for (const auto& group : clusters.groups)
-            if (std::ranges::count(group.clusters, cluster) == 1) return group;
-        throw std::logic_error("a cluster without a group");
-    };
-    std::size_t crossed = 0, passed_over = 0, in_vain = 0;
-    for (std::size_t t = 0; t < grid.hogels_t; ++t)
-        for (std::size_t v = 0; v < grid.directions_v; ++v) {
-            const EpipolarFrame::Plane plane = frame.plane(t, v);
-            for (std::size_t i = 0; i < clusters.corners.size(); ++i) {
-                const bool meets = crossing_plain(clusters.corners[i], plane.row, plane.slope) != 0;
-                const bool may = clusters.bounds[i].may_cross(plane.row, plane.slope);
-                ASSERT_TRUE(may || !meets) << t << " " << v << " " << i;
-                ASSERT_TRUE(group_of(i).bounds.may_cross(plane.row, plane.slope) || !meets);
-                (meets ? crossed : may ? in_vain : passed_over) += 1;
-            }
+    const TriangleClusters clusters(scattered_triangles(1000), frame, 3);
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const ClusterBounds::Box box = clusters.bounds[i / cluster_size];
+        for (int corner = 0; corner < 3; ++corner) {
+            const double y = clusters.corners[i / cluster_size].y[corner][i % cluster_size];
+            const double z = clusters.corners[i / cluster_size].z[corner][i % cluster_size];
+            EXPECT_TRUE(box.y_low <= y && y <= box.y_high && box.z_low <= z && z <= box.z_high);
+            EXPECT_TRUE(box.x_low <= clusters.others[i].x[corner] && clusters.others[i].x[corner] <= box.x_high);
         }
-    EXPECT_GT(crossed, 1000u);
-    EXPECT_GT(passed_over, 2 * crossed);
-    EXPECT_LT(in_vain, crossed);
+    }
+    // The last is what was left over.
+    for (std::size_t i = 2; i < clusters.corners.size(); ++i)
+        EXPECT_LE(clusters.bounds[i - 2].z_low, clusters.bounds[i - 1].z_low);
+}
+
+TEST(TriangleClusters, hold_the_luminance_if_there_is_one_channel) {
+    const TriangleClusters clusters(scattered_triangles(10), EpipolarFrame(grid), 1);
+    for (std::size_t i = 0; i < 10; ++i)
+        EXPECT_FLOAT_EQ(clusters.others[i].radiance[1].r, 0.2126f * float(clusters.triangles[i]) + 0.7152f);
 }
 
 // The points of a ray of any face lie in its epipolar plane, and the ray is straight there.

@@ -26,31 +26,6 @@ using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using FloatMask = hn::Mask<FloatTag>;
 
-// The truth of up to 64 lanes as bits.
-template <class D, class M>
-HWY_INLINE std::uint64_t bits_of(D d, M mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    std::uint64_t bits = 0;
-    for (std::size_t byte = 0; 8 * byte < hn::Lanes(d); ++byte) bits |= std::uint64_t{bytes[byte]} << 8 * byte;
-    return bits;
-}
-
-std::uint64_t Crossing(const ClusterCorners& corners, double row, double slope) {
-    const hn::ScalableTag<double> d;
-    const auto rows = hn::Set(d, row), slopes = hn::Set(d, slope), zero = hn::Zero(d);
-    std::uint64_t crossed = 0;
-    for (std::size_t i = 0; i < cluster_size; i += hn::Lanes(d)) {
-        const auto below = [&](int corner) HWY_ATTR {
-            const auto y = hn::Load(d, corners.y[corner] + i), z = hn::Load(d, corners.z[corner] + i);
-            return hn::Lt(hn::Sub(hn::Sub(y, hn::Mul(slopes, z)), rows), zero);
-        };
-        const auto first = below(0), second = below(1), third = below(2);
-        crossed |= bits_of(d, hn::Or(hn::Xor(first, second), hn::Xor(second, third))) << i;
-    }
-    return crossed;
-}
-
 // Where points (x, z) of strips are seen in direction K.
 HWY_INLINE Floats c_of(Floats x, Floats z, Floats K) { return hn::Sub(x, hn::Mul(K, z)); }
 
@@ -61,7 +36,7 @@ HWY_INLINE Ints ordered_bits_of(Floats z) {
 }
 
 // How many hits or candidates are kept before they are worked off, and what a vector may write beyond them.
-constexpr std::size_t most_waiting = 256, vector_room = HWY_MAX_BYTES / 4;
+constexpr std::size_t most_waiting = 1024, vector_room = HWY_MAX_BYTES / 4;
 
 // Hits whose words lie anywhere. They are kept first, for a loop over the few hits of a vector at a time would end
 // where no processor expects it.
@@ -72,29 +47,40 @@ class Hits {
     // The lanes that are hits; `offsets` are those of the words.
     HWY_INLINE void add(FloatMask hit, Floats z, Ints offsets, Ints numbers) {
         const IntTag di;
-        const auto mask = hn::RebindMask(di, hit);
-        hn::StoreU(hn::Compress(ordered_bits_of(z), mask), di, depths_ + count_);
-        hn::StoreU(hn::Compress(offsets, mask), di, offsets_ + count_);
-        hn::StoreU(hn::Compress(numbers, mask), di, numbers_ + count_);
-        count_ += hn::CountTrue(FloatTag(), hit);
-        if (count_ >= most_waiting) draw();
+        add_compressed(hit, z, offsets, hn::Compress(numbers, hn::RebindMask(di, hit)));
+    }
+
+    // The same of a single strip.
+    HWY_INLINE void add(FloatMask hit, Floats z, Ints offsets, std::uint32_t number) {
+        add_compressed(hit, z, offsets, hn::Set(IntTag(), static_cast<std::int32_t>(number)));
     }
 
     void draw() {
         for (std::size_t i = 0; i < count_; ++i) {
             std::uint64_t& word = words_[offsets_[i]];
-            const std::uint64_t seen =
-                std::uint64_t{static_cast<std::uint32_t>(depths_[i])} << 32 | static_cast<std::uint32_t>(numbers_[i]);
+            std::uint64_t seen;
+            std::memcpy(&seen, seen_[i], sizeof(seen));
             word = seen < word ? seen : word;
         }
         count_ = 0;
     }
 
   private:
+    HWY_INLINE void add_compressed(FloatMask hit, Floats z, Ints offsets, Ints numbers) {
+        const IntTag di;
+        const auto mask = hn::RebindMask(di, hit);
+        const Ints depths = hn::Compress(ordered_bits_of(z), mask);
+        static_assert(std::endian::native == std::endian::little, "a word's lower half comes first");
+        hn::StoreInterleaved2(numbers, depths, di, seen_[count_]);
+        hn::StoreU(hn::Compress(offsets, mask), di, offsets_ + count_);
+        count_ += hn::CountTrue(FloatTag(), hit);
+        if (count_ >= most_waiting) draw();
+    }
+
     std::uint64_t* words_;
     std::size_t count_ = 0;
-    HWY_ALIGN std::int32_t depths_[most_waiting + vector_room], offsets_[most_waiting + vector_room],
-        numbers_[most_waiting + vector_room];
+    HWY_ALIGN std::int32_t offsets_[most_waiting + vector_room];
+    HWY_ALIGN std::int32_t seen_[most_waiting + vector_room][2];  // as words
 };
 
 // Samples that thin strips may cover, of many strips together, for each has few of a vector's.
@@ -152,6 +138,11 @@ class Candidates {
     HWY_ALIGN float ends_[most_waiting + 2 * vector_room][4];
 };
 
+// Of the samples of a plane.
+struct Extent {
+    float n_first, n_last, k_first, k_last;
+};
+
 // What the loops below need to know of a strip and the plane that it is drawn into.
 struct Drawing {
     const Strip& strip;
@@ -159,7 +150,7 @@ struct Drawing {
     const EpipolarPlane& plane;
     Hits& hits;
     Candidates& candidates;
-    float n_first, n_last, k_first, k_last;  // of the plane
+    const Extent& extent;
 };
 
 #if HWY_TARGET != HWY_SCALAR
@@ -173,7 +164,7 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
     const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
                  z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
     const Floats one = hn::Set(d, 1.0f), far = hn::Set(d, std::numeric_limits<float>::infinity());
-    const Floats n_first = hn::Set(d, on.n_first), n_last = hn::Set(d, on.n_last);
+    const Floats n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
     const Ints nothing = hn::Set(di, -1);
     const auto number = hn::Set(d64, on.number);
     const std::size_t half = hn::Lanes(d64);
@@ -187,8 +178,8 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
         const Floats first = hn::IfThenElse(any, from, far), last = hn::IfThenElse(any, to, hn::Neg(far));
         const float n_end = hn::GetLane(hn::MaxOfLanes(d, last));
         float n = hn::GetLane(hn::MinOfLanes(d, first));
-        std::uint64_t* words = on.plane.words + static_cast<std::size_t>(n - on.n_first) * on.plane.directions +
-                               static_cast<std::size_t>(begin - on.k_first);
+        std::uint64_t* words = on.plane.words + static_cast<std::size_t>(n - on.extent.n_first) * on.plane.directions +
+                               static_cast<std::size_t>(begin - on.extent.k_first);
         for (; n <= n_end; n += 1, words += on.plane.directions) {
             const Floats ns = hn::Set(d, n);
             const auto hit = hn::RebindMask(di, hn::And(hn::Le(first, ns), hn::Le(ns, last)));
@@ -207,11 +198,11 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
 void along_directions(const Drawing& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
-    const Ints number = hn::Set(di, static_cast<std::int32_t>(on.number));
     const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
                  z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
-    const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.n_first), n_last = hn::Set(d, on.n_last);
-    const Floats none = hn::Set(d, on.n_first - 1), K_last = hn::Set(d, K_end), k_first = hn::Set(d, on.k_first);
+    const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
+    const Floats none = hn::Set(d, on.extent.n_first - 1), K_last = hn::Set(d, K_end),
+                 k_first = hn::Set(d, on.extent.k_first);
     const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
     for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats K = hn::Iota(d, begin);
@@ -222,32 +213,49 @@ void along_directions(const Drawing& on, float K_begin, float K_end) {
         for (FloatMask hit = hn::Le(n, end); !hn::AllFalse(d, hit); hit = hn::Le(n, end)) {
             const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
             on.hits.add(hit, hn::Add(z0, hn::Mul(hn::Sub(n, c0), slope)), hn::Add(hn::Mul(column, directions), k),
-                        number);
+                        on.number);
             n = hn::Add(n, one);
         }
     }
 }
 
-// One column a lane: candidates are the directions from K_0 to K_1, the ends' own, and a margin to either side.
+// One column a lane: candidates are the directions from K_0 to K_1, the ends' own, and a margin to either side. Where
+// only a few lanes have one, they are kept.
 void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, float per_z1, float margin) {
     const FloatTag d;
-    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1);
+    const IntTag di;
+    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
+                 z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
     const Floats steep0 = hn::Set(d, per_z0), steep1 = hn::Set(d, per_z1), margins = hn::Set(d, margin);
-    const Floats one = hn::Set(d, 1.0f), k_first = hn::Set(d, on.k_first);
-    const Floats k_last = hn::Set(d, on.k_last - on.k_first), none = hn::Set(d, -1.0f), columns_end = hn::Set(d, n_end);
+    const Floats one = hn::Set(d, 1.0f), k_first = hn::Set(d, on.extent.k_first),
+                 n_first = hn::Set(d, on.extent.n_first);
+    const Floats k_last = hn::Set(d, on.extent.k_last - on.extent.k_first), none = hn::Set(d, -1.0f),
+                 columns_end = hn::Set(d, n_end);
+    const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
+    const std::size_t few = hn::Lanes(d) / 4;
     for (float begin = n_begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats n = hn::Iota(d, begin);
         const Floats K0 = hn::Mul(hn::Sub(x0, n), steep0), K1 = hn::Mul(hn::Sub(x1, n), steep1);
         const Floats low = hn::Sub(hn::Sub(hn::Min(K0, K1), margins), k_first);
         const Floats high = hn::Sub(hn::Add(hn::Max(K0, K1), margins), k_first);
         const Floats end = hn::IfThenElse(hn::Le(n, columns_end), hn::Min(k_last, high), none);
+        const Ints rows = hn::Mul(hn::ConvertTo(di, hn::Sub(n, n_first)), directions);
         Floats k = hn::Max(hn::Zero(d), hn::Ceil(low));
         FloatMask candidate = hn::Le(k, end);
+        std::size_t count = hn::CountTrue(d, candidate);
         do {
-            on.candidates.add(candidate, n, k, on.index);
+            if (count <= few) {
+                on.candidates.add(candidate, n, k, on.index);
+            } else {
+                const Floats K = hn::Add(k, k_first), c0 = c_of(x0, z0, K), c1 = c_of(x1, z1, K);
+                const FloatMask hit = hn::And(candidate, hn::Xor(hn::Lt(c0, n), hn::Lt(c1, n)));
+                const Floats z = hn::Add(z0, hn::Mul(hn::Sub(n, c0), hn::Div(dz, hn::Sub(c1, c0))));
+                on.hits.add(hit, z, hn::Add(rows, hn::ConvertTo(di, k)), on.number);
+            }
             k = hn::Add(k, one);
             candidate = hn::Le(k, end);
-        } while (!hn::AllFalse(d, candidate));
+            count = hn::CountTrue(d, candidate);
+        } while (count != 0);
     }
 }
 
@@ -255,56 +263,123 @@ void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, 
 // itself, a column of directions at once.
 constexpr float cost_of_vector = 20, cost_of_candidates = 12, cost_of_hit = 3, cost_of_row = 8;
 
-// Bounds what a strip can cover, and goes over it in the way that takes least.
-void draw_strip(const Drawing& on) {
-    const auto [x0, z0, x1, z1] = on.strip;
-    // c is linear in K: these bound the columns that see the strip.
-    const auto [low, high] =
-        std::minmax({x0 - on.k_first * z0, x0 - on.k_last * z0, x1 - on.k_first * z1, x1 - on.k_last * z1});
-    if (!(high >= on.n_first && low < on.n_last)) return;
-    const float n_begin = std::max(on.n_first, std::floor(low)), n_end = std::min(on.n_last, std::floor(high));
+// Bounds of what a vector of strips can cover, and the way to go over each that takes least.
+struct Bounded {
+    enum Way : std::int32_t { nowhere, rows, directions, columns };
+    static constexpr std::size_t most_lanes = HWY_MAX_BYTES / 4;
+    HWY_ALIGN float n_begin[most_lanes], n_end[most_lanes], per_z0[most_lanes], per_z1[most_lanes], margin[most_lanes],
+        K_begin[most_lanes], K_end[most_lanes];
+    HWY_ALIGN std::int32_t way[most_lanes];
+};
+
+// @param ends  x0, z0, x1, z1 of a vector of strips
+void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
+    const FloatTag d;
+    const IntTag di;
+    Floats x0, z0, x1, z1;
+    hn::LoadInterleaved4(d, ends, x0, z0, x1, z1);
+    const Floats n_first = hn::Set(d, plane.n_first), n_last = hn::Set(d, plane.n_last);
+    const Floats k_first = hn::Set(d, plane.k_first), k_last = hn::Set(d, plane.k_last);
+    const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f), lanes = hn::Set(d, static_cast<float>(hn::Lanes(d)));
+    const auto least = [](Floats a, Floats b, Floats c, Floats e)
+                           HWY_ATTR { return hn::Min(hn::Min(a, b), hn::Min(c, e)); };
+    const auto most = [](Floats a, Floats b, Floats c, Floats e)
+                          HWY_ATTR { return hn::Max(hn::Max(a, b), hn::Max(c, e)); };
+
+    // c is linear in K: these bound the columns that see a strip.
+    const Floats c0 = c_of(x0, z0, k_first), c1 = c_of(x0, z0, k_last), c2 = c_of(x1, z1, k_first),
+                 c3 = c_of(x1, z1, k_last);
+    const Floats low = least(c0, c1, c2, c3), high = most(c0, c1, c2, c3);
+    const FloatMask seen = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
+    const Floats n_begin = hn::Max(n_first, hn::Floor(low)), n_end = hn::Min(n_last, hn::Floor(high));
 
     // Column n sees p in direction (x_p − n) / z_p. If both ends lie on one side of the hologram, the directions that
     // see the strip lie between; else outside, up to infinity.
-    const float per_z0 = 1 / z0, per_z1 = 1 / z1;
-    const float steepest = std::max(std::abs(per_z0), std::abs(per_z1));
+    const Floats per_z0 = hn::Div(one, z0), per_z1 = hn::Div(one, z1);
+    const Floats steepest = hn::Max(hn::Abs(per_z0), hn::Abs(per_z1));
     // Many times the rounding of these directions and of c.
-    const float margin =
-        0.01f + 1e-6f * (std::max(std::abs(on.n_first), std::abs(on.n_last)) + on.k_last) * (1 + steepest);
-    if ((z0 > 0) != (z1 > 0) || !(margin < 0.5f)) return along_directions(on, on.k_first, on.k_last);
-    const auto [K_low, K_high] =
-        std::minmax({(x0 - n_begin) * per_z0, (x0 - n_end) * per_z0, (x1 - n_begin) * per_z1, (x1 - n_end) * per_z1});
+    const float farthest = std::max(std::abs(plane.n_first), std::abs(plane.n_last)) + plane.k_last;
+    const Floats margin = hn::Add(hn::Set(d, 0.01f), hn::Mul(hn::Set(d, 1e-6f * farthest), hn::Add(one, steepest)));
+    const FloatMask one_side = hn::Not(hn::Xor(hn::Gt(z0, zero), hn::Gt(z1, zero)));
+    const FloatMask bounded = hn::And(one_side, hn::Lt(margin, hn::Set(d, 0.5f)));
+    const Floats K0 = hn::Mul(hn::Sub(x0, n_begin), per_z0), K1 = hn::Mul(hn::Sub(x0, n_end), per_z0),
+                 K2 = hn::Mul(hn::Sub(x1, n_begin), per_z1), K3 = hn::Mul(hn::Sub(x1, n_end), per_z1);
     // Directions are whole steps from the first one.
-    const float K_begin = on.k_first + std::max(0.0f, std::ceil(K_low - margin - on.k_first));
-    const float K_end = std::min(on.k_last, K_high + margin);
-    if (!(K_begin <= K_end)) return;
+    const Floats K_low = hn::Ceil(hn::Sub(hn::Sub(least(K0, K1, K2, K3), margin), k_first));
+    const Floats K_begin = hn::IfThenElse(bounded, hn::Add(k_first, hn::Max(zero, K_low)), k_first);
+    const Floats K_end = hn::IfThenElse(bounded, hn::Min(k_last, hn::Add(most(K0, K1, K2, K3), margin)), k_last);
 
-    const auto lanes = static_cast<float>(hn::Lanes(FloatTag()));
-    const float K_vectors = (K_end - K_begin) / lanes + 1, n_vectors = (n_end - n_begin) / lanes + 1;
-    const float columns_across = std::abs((x1 - x0) - 0.5f * (K_begin + K_end) * (z1 - z0));
-    const float hits = cost_of_hit * columns_across * (K_end - K_begin + 1);
-    const float by_directions = K_vectors * (cost_of_vector + cost_of_candidates * (columns_across + 1)) + hits;
-    const float by_columns = n_vectors * (cost_of_vector + cost_of_candidates * (columns_across * steepest + 1)) + hits;
+    const Floats directions = hn::Sub(K_end, K_begin), columns = hn::Sub(n_end, n_begin);
+    const Floats K_vectors = hn::Add(hn::Div(directions, lanes), one);
+    const Floats n_vectors = hn::Add(hn::Div(columns, lanes), one);
+    const Floats middle = hn::Mul(hn::Set(d, 0.5f), hn::Add(K_begin, K_end));
+    const Floats across = hn::Abs(hn::Sub(hn::Sub(x1, x0), hn::Mul(middle, hn::Sub(z1, z0))));
+    const Floats hits = hn::Mul(hn::Set(d, cost_of_hit), hn::Mul(across, hn::Add(directions, one)));
+    const auto each = [&](Floats of_one) HWY_ATTR {
+        return hn::Add(hn::Set(d, cost_of_vector), hn::Mul(hn::Set(d, cost_of_candidates), hn::Add(of_one, one)));
+    };
+    const Floats by_directions = hn::Add(hn::Mul(K_vectors, each(across)), hits);
+    const Floats by_columns = hn::Add(hn::Mul(n_vectors, each(hn::Mul(across, steepest))), hits);
+    Ints way = hn::IfThenElse(hn::RebindMask(di, hn::And(bounded, hn::Lt(by_columns, by_directions))),
+                              hn::Set(di, Bounded::columns), hn::Set(di, Bounded::directions));
 #if HWY_TARGET != HWY_SCALAR
-    const float rows = columns_across + lanes * std::max(std::abs(z0), std::abs(z1)) + 1;
-    const float by_rows = K_vectors * (2 * cost_of_vector + cost_of_row * rows);
-    if (by_rows < by_directions && by_rows < by_columns) return along_rows(on, K_begin, K_end);
+    const Floats deepest = hn::Max(hn::Abs(z0), hn::Abs(z1));
+    const Floats steps = hn::Add(hn::Add(across, hn::Mul(lanes, deepest)), one);
+    const Floats by_rows =
+        hn::Mul(K_vectors, hn::Add(hn::Set(d, 2 * cost_of_vector), hn::Mul(hn::Set(d, cost_of_row), steps)));
+    const FloatMask rows = hn::And(bounded, hn::Lt(by_rows, hn::Min(by_directions, by_columns)));
+    way = hn::IfThenElse(hn::RebindMask(di, rows), hn::Set(di, Bounded::rows), way);
 #endif
-    if (by_columns < by_directions)
-        along_columns(on, n_begin, n_end, per_z0, per_z1, margin);
-    else
-        along_directions(on, K_begin, K_end);
+    way = hn::IfThenElseZero(hn::RebindMask(di, hn::And(seen, hn::Le(K_begin, K_end))), way);
+    hn::Store(n_begin, d, to.n_begin);
+    hn::Store(n_end, d, to.n_end);
+    hn::Store(per_z0, d, to.per_z0);
+    hn::Store(per_z1, d, to.per_z1);
+    hn::Store(margin, d, to.margin);
+    hn::Store(K_begin, d, to.K_begin);
+    hn::Store(K_end, d, to.K_end);
+    hn::Store(way, di, to.way);
 }
 
 void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
     const auto n_first = static_cast<float>(plane.first_column);
-    const float n_last = n_first + static_cast<float>(plane.columns) - 1;
-    const float k_last = plane.first_direction + static_cast<float>(plane.directions) - 1;
+    const Extent extent{n_first, n_first + static_cast<float>(plane.columns) - 1, plane.first_direction,
+                        plane.first_direction + static_cast<float>(plane.directions) - 1};
     Hits hits(plane);
     Candidates candidates(plane, strips, first, hits);
-    for (std::size_t i = 0; i < strips.size(); ++i)
-        draw_strip({strips[i], static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(first + i), plane, hits,
-                    candidates, n_first, n_last, plane.first_direction, k_last});
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    Bounded bounded;
+    HWY_ALIGN Strip last[Bounded::most_lanes];
+    for (std::size_t begin = 0; begin < strips.size(); begin += lanes) {
+        const std::size_t count = std::min(lanes, strips.size() - begin);
+        const Strip* some = strips.data() + begin;
+        if (count < lanes) {
+            std::fill(last, last + lanes, *some);
+            some = std::copy(some, some + count, last) - count;
+        }
+        bound_strips(&some->x0, extent, bounded);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto index = static_cast<std::uint32_t>(begin + i);
+            const Drawing on{some[i],    index, static_cast<std::uint32_t>(first) + index, plane, hits,
+                             candidates, extent};
+            switch (bounded.way[i]) {
+#if HWY_TARGET != HWY_SCALAR
+                case Bounded::rows:
+                    along_rows(on, bounded.K_begin[i], bounded.K_end[i]);
+                    break;
+#endif
+                case Bounded::directions:
+                    along_directions(on, bounded.K_begin[i], bounded.K_end[i]);
+                    break;
+                case Bounded::columns:
+                    along_columns(on, bounded.n_begin[i], bounded.n_end[i], bounded.per_z0[i], bounded.per_z1[i],
+                                  bounded.margin[i]);
+                    break;
+                default:
+                    break;
+            }
+        }
+    }
     candidates.draw();
     hits.draw();
 }
@@ -339,13 +414,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace hogel {
 
-HWY_EXPORT(Crossing);
 HWY_EXPORT(Draw);
 HWY_EXPORT(Farthest);
-
-std::uint64_t crossing(const ClusterCorners& corners, double row, double slope) {
-    return HWY_DYNAMIC_DISPATCH(Crossing)(corners, row, slope);
-}
 
 void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
     HWY_DYNAMIC_DISPATCH(Draw)(strips, first, plane);

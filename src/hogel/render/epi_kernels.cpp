@@ -5,15 +5,6 @@
 
 namespace hogel {
 
-std::uint64_t crossing_plain(const ClusterCorners& corners, double row, double slope) {
-    std::uint64_t crossed = 0;
-    for (std::size_t i = 0; i < cluster_size; ++i) {
-        const auto below = [&](int corner) { return (corners.y[corner][i] - slope * corners.z[corner][i]) - row < 0; };
-        if (below(0) != below(1) || below(1) != below(2)) crossed |= std::uint64_t{1} << i;
-    }
-    return crossed;
-}
-
 void draw_plain(std::span<const Strip> strips, std::size_t first_number, const EpipolarPlane& plane) {
     const auto first = static_cast<float>(plane.first_column);
     const float last = first + static_cast<float>(plane.columns) - 1;

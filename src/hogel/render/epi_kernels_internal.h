@@ -6,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "hogel/render/epi_clusters_internal.h"
-
 namespace hogel {
 
 /// What is left of a triangle in an epipolar plane: the segment between two points (x, z), in the units of an
@@ -61,11 +59,6 @@ struct ShadedPlane {
 /// The inner loops, each plain and as fast as this processor allows. The twins give the same bits: they do the same
 /// operations in the same order, none of them fused, and where vector code finds candidates by a shorter way it finds
 /// too many and puts them to the same test.
-
-/// Which triangles of a cluster the plane y = row + slope z separates: bit i for triangle i. A corner is below if
-/// (y − slope z) − row < 0.
-std::uint64_t crossing_plain(const ClusterCorners& corners, double row, double slope);
-std::uint64_t crossing(const ClusterCorners& corners, double row, double slope);
 
 /// Draws strips number `first`, first + 1, … into a plane: wherever strip i is nearer than what is there (or as near,
 /// with a smaller number), the word becomes ordered_bits(z) · 2³² + i.

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "hogel/core/array.h"
 #include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
 #include "hogel/render/test_plane_internal.h"
@@ -56,44 +57,6 @@ TEST(EpipolarKernels, ordered_bits_are_in_the_order_of_the_floats) {
     const float infinity = std::numeric_limits<float>::infinity();
     const float values[] = {-infinity, -1e30f, -2, -1, -1e-30f, 0, 1e-30f, 1, 1.0000001f, 1e30f, infinity};
     for (std::size_t i = 1; i < std::size(values); ++i) EXPECT_LT(ordered_bits(values[i - 1]), ordered_bits(values[i]));
-}
-
-TEST_P(EveryTarget, vector_and_plain_crossings_are_the_same) {
-    Places places(1);
-    const auto corners = std::make_unique<ClusterCorners>();
-    std::size_t crossed = 0;
-    for (int round = 0; round < 200; ++round) {
-        for (int corner = 0; corner < 3; ++corner)
-            for (std::size_t i = 0; i < cluster_size; ++i) {
-                corners->y[corner][i] = places.x();
-                corners->z[corner][i] = places.z();
-            }
-        const double row = places.whole_or_half(10), slope = places.whole_or_half(10);
-        const std::uint64_t bits = crossing(*corners, row, slope);
-        EXPECT_EQ(bits, crossing_plain(*corners, row, slope)) << round;
-        crossed += std::size_t(std::popcount(bits));
-    }
-    EXPECT_GT(crossed, 1000u);
-}
-
-TEST(EpipolarKernels, a_plane_crosses_the_triangles_with_corners_on_both_sides_and_a_corner_in_it_is_above) {
-    const auto corners = std::make_unique<ClusterCorners>();
-    const auto triangle = [&](std::size_t i, double a, double b, double c) {
-        const double heights[] = {a, b, c};
-        for (int corner = 0; corner < 3; ++corner) {
-            corners->z[corner][i] = corner + 1.0;
-            corners->y[corner][i] = heights[corner] + 3 + 2 * (corner + 1.0);
-        }
-    };
-    for (std::size_t i = 0; i < cluster_size; ++i) triangle(i, 1, 2, 3);
-    triangle(0, -1, -2, -3);
-    triangle(5, -1, 0, 1);
-    triangle(17, 0, 0, -1);
-    triangle(62, 0, 1, 0);
-    triangle(63, 1, -1, 1);
-    const std::uint64_t expected = std::uint64_t{1} << 5 | std::uint64_t{1} << 17 | std::uint64_t{1} << 63;
-    EXPECT_EQ(crossing_plain(*corners, 3, 2), expected);
-    EXPECT_EQ(crossing(*corners, 3, 2), expected);
 }
 
 TEST_P(EveryTarget, vector_and_plain_drawings_are_the_same) {
