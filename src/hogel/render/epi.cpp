@@ -61,8 +61,8 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t columns = std::min(hogels, std::max<std::size_t>(16, most_words / directions));
         const std::size_t first_row = axes_.turned() ? range.s0 : range.t0;
         const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
-        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions +
-                                                                            EpipolarPlane::spare);
+        std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions + EpipolarPlane::spare,
+                                                                            EpipolarPlane::nothing);
         Work work;
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow)
             for (std::size_t row = 0; row < axes_.slow_hogels(range); ++row) {
@@ -71,7 +71,6 @@ class EpiRenderer final : public LightFieldSource {
                     const EpipolarPlane plane{words.data(), std::min(columns, hogels - column), directions,
                                               frame_.first_column() + static_cast<std::int32_t>(first_column + column),
                                               frame_.first_direction()};
-                    std::fill(words.begin(), words.end(), EpipolarPlane::nothing);
                     draw_plane(plane, place, work);
                     if (axes_.turned())
                         shade_turned_plane(tile, plane, work, {first_row + row, first_column + column, slow});
@@ -128,7 +127,7 @@ class EpiRenderer final : public LightFieldSource {
         work.strips[0] = {};
         work.shades[0] = background_;
         work.count = 1;
-        const std::size_t between_updates =
+        std::size_t between_updates =
             std::max(fewest_between_updates, plane.columns * plane.directions / samples_between_updates);
         std::size_t drawn = 1;
         const auto draw_rest = [&] {
@@ -150,6 +149,7 @@ class EpiRenderer final : public LightFieldSource {
             if (work.count < drawn + between_updates) continue;
             draw_rest();
             work.occlusion.update(plane);
+            between_updates += between_updates / 2;
         }
         add_strips(work, rays);
         draw_rest();

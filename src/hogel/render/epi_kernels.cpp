@@ -38,7 +38,9 @@ void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells) 
 void shade_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     for (std::size_t column = 0; column < plane.columns; ++column)
         for (std::size_t k = 0; k < plane.directions; ++k) {
-            const StripShades& strip = strips[plane.words[column * plane.directions + k] & 0xffffffff];
+            std::uint64_t& word = plane.words[column * plane.directions + k];
+            const StripShades& strip = strips[word & 0xffffffff];
+            word = EpipolarPlane::nothing;
             const float n = static_cast<float>(plane.first_column) + static_cast<float>(column);
             const float part = part_of_strip(strip, n, plane.first_direction + static_cast<float>(k));
             for (int i = 0; i < 4; ++i)

@@ -71,7 +71,7 @@ constexpr std::size_t cell_columns = 8, cell_directions = 16;
 void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
 void farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
 
-/// The values of what each sample of the plane sees, by the numbers of the strips.
+/// The values of what each sample of the plane sees, by the numbers of the strips. Afterwards nothing is seen in it.
 void shade_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);
 void shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);
 

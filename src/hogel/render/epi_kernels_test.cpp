@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -215,8 +216,15 @@ TEST_P(EveryTarget, vector_and_plain_shadings_are_the_same) {
                 return ShadedPlane{{&rows[0][offset], &rows[1][offset], &rows[2][offset], &rows[3][offset]},
                                    {directions, directions, directions, directions}};
             };
+            const std::vector<std::uint64_t> words = plane.words;
+            std::vector<std::uint64_t> emptied = words;
+            std::fill_n(emptied.begin(), size, EpipolarPlane::nothing);
             shade(plane.plane, strips, out(fast));
+            ASSERT_EQ(plane.words, emptied) << directions;
+            std::ranges::copy(words, plane.words.begin());
             shade_plain(plane.plane, strips, out(plain));
+            ASSERT_EQ(plane.words, emptied) << directions;
+            std::ranges::copy(words, plane.words.begin());
             ASSERT_EQ(fast, plain) << directions;
             for (std::size_t i = 0; i < 4; ++i) {
                 if (i == 1 && directions % 5 == 0) continue;

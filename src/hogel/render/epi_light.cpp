@@ -40,7 +40,9 @@ void shade_lit_plain(const EpipolarPlane& plane, std::span<const StripShades> st
                      std::span<const StripLight> lights, const SampleSource& samples, const ShadedPlane& out) {
     for (std::size_t column = 0; column < plane.columns; ++column)
         for (std::size_t k = 0; k < plane.directions; ++k) {
-            const std::size_t number = plane.words[column * plane.directions + k] & 0xffffffff;
+            std::uint64_t& word = plane.words[column * plane.directions + k];
+            const std::size_t number = word & 0xffffffff;
+            word = EpipolarPlane::nothing;
             const StripShades& strip = strips[number];
             const StripLight& light = lights[number];
             const float n = static_cast<float>(plane.first_column) + static_cast<float>(column);

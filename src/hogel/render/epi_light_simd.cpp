@@ -105,7 +105,7 @@ void ShadeLit(const EpipolarPlane& plane, std::span<const StripShades> strips, s
     for (std::size_t column = 0; column < plane.columns; ++column)
         for (std::size_t first = 0; first < plane.directions; first += block) {
             const std::size_t count = std::min(block, plane.directions - first);
-            const std::uint64_t* words = plane.words + column * plane.directions + first;
+            std::uint64_t* words = plane.words + column * plane.directions + first;
             const float n = static_cast<float>(plane.first_column) + static_cast<float>(column);
             for (std::size_t i = 0; i < count; ++i) {
                 const std::size_t number = words[i] & 0xffffffff;
@@ -115,6 +115,7 @@ void ShadeLit(const EpipolarPlane& plane, std::span<const StripShades> strips, s
                                                                        column, first + i, samples, out),
                           d4, values[i]);
             }
+            std::fill(words, words + count, EpipolarPlane::nothing);
             float* to[4];
             for (int i = 0; i < 4; ++i)
                 to[i] = out.values[i] ? out.values[i] + column * out.strides[i] + first : nullptr;

@@ -128,8 +128,13 @@ TEST_P(EveryTargetOfLight, vector_and_plain_shadings_are_the_same_and_show_what_
                     Values fast(size, directions, offset, colour, depth),
                         plain(size, directions, offset, colour, depth);
                     // In the first round the points have yet to be made.
+                    const std::vector<std::uint64_t> before = words, emptied(size, EpipolarPlane::nothing);
                     shade_lit(plane, strips.shades, strips.lights, strips, fast.plane);
+                    ASSERT_EQ(words, emptied);
+                    std::ranges::copy(before, words.begin());
                     shade_lit_plain(plane, strips.shades, strips.lights, strips, plain.plane);
+                    ASSERT_EQ(words, emptied);
+                    std::ranges::copy(before, words.begin());
                     ASSERT_EQ(fast.rows, plain.rows) << directions;
                     for (std::size_t i = 0; i < size; ++i) {
                         const std::size_t number = words[i] & 0xffffffff;

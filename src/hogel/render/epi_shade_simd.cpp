@@ -91,8 +91,9 @@ void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, cons
     for (std::size_t column = 0; column < plane.columns; ++column)
         for (std::size_t begin = 0; begin < plane.directions; begin += run) {
             const std::size_t size = std::min(run, plane.directions - begin);
-            const std::uint64_t* words = plane.words + column * plane.directions + begin;
+            std::uint64_t* words = plane.words + column * plane.directions + begin;
             for (std::size_t j = 0; j < size; ++j) numbers[j] = static_cast<std::uint32_t>(words[j]);
+            std::fill(words, words + size, EpipolarPlane::nothing);
             std::fill(numbers + size, numbers + run, EpipolarPlane::nobody);
             for (std::size_t j = 0; j < size; j += lanes) {
                 one[j] = show_one_strip(numbers + j);
