@@ -22,7 +22,7 @@ constexpr std::size_t most_words = std::size_t{96} << 10;
 constexpr std::size_t most_waiting = 64;
 
 // A thread that copies a light field holds one tile.
-constexpr std::size_t most_tile_bytes = std::size_t{400} << 20;
+constexpr std::size_t most_tile_bytes = std::size_t{384} << 20;
 
 // After so many strips, or more if a plane has many samples, it is looked again which samples are covered: often enough
 // to leave little in vain, and seldom enough to cost little.

@@ -1,5 +1,4 @@
-// The vector twins of epi_kernels.cpp that find what is seen, compiled for every instruction set and chosen when first
-// called.
+// The vector twin of draw_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi_draw_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -7,136 +6,16 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
+#include "hogel/render/epi_hits_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using FloatTag = hn::ScalableTag<float>;
-using IntTag = hn::RebindToSigned<FloatTag>;
-using NumberTag = hn::RebindToUnsigned<FloatTag>;
-using Floats = hn::Vec<FloatTag>;
-using Ints = hn::Vec<IntTag>;
-using FloatMask = hn::Mask<FloatTag>;
-
-// Where points (x, z) of strips are seen in direction K.
-HWY_INLINE Floats c_of(Floats x, Floats z, Floats K) { return hn::Sub(x, hn::Mul(K, z)); }
-
-HWY_INLINE Ints ordered_bits_of(Floats z) {
-    const IntTag di;
-    const Ints bits = hn::BitCast(di, z);
-    return hn::Xor(bits, hn::Or(hn::BroadcastSignBit(bits), hn::Set(di, std::numeric_limits<std::int32_t>::min())));
-}
-
-// How many hits or candidates are kept before they are worked off, and what a vector may write beyond them.
-constexpr std::size_t most_waiting = 1024, vector_room = HWY_MAX_BYTES / 4;
-
-// Hits whose words lie anywhere. They are kept first, for a loop over the few hits of a vector at a time would end
-// where no processor expects it.
-class Hits {
-  public:
-    explicit Hits(const EpipolarPlane& plane) : words_(plane.words) {}
-
-    // The lanes that are hits; `offsets` are those of the words.
-    HWY_INLINE void add(FloatMask hit, Floats z, Ints offsets, Ints numbers) {
-        const IntTag di;
-        add_compressed(hit, z, offsets, hn::Compress(numbers, hn::RebindMask(di, hit)));
-    }
-
-    // The same of a single strip.
-    HWY_INLINE void add(FloatMask hit, Floats z, Ints offsets, std::uint32_t number) {
-        add_compressed(hit, z, offsets, hn::Set(IntTag(), static_cast<std::int32_t>(number)));
-    }
-
-    void draw() {
-        for (std::size_t i = 0; i < count_; ++i) {
-            std::uint64_t& word = words_[offsets_[i]];
-            std::uint64_t seen;
-            std::memcpy(&seen, seen_[i], sizeof(seen));
-            word = seen < word ? seen : word;
-        }
-        count_ = 0;
-    }
-
-  private:
-    HWY_INLINE void add_compressed(FloatMask hit, Floats z, Ints offsets, Ints numbers) {
-        const IntTag di;
-        const auto mask = hn::RebindMask(di, hit);
-        const Ints depths = hn::Compress(ordered_bits_of(z), mask);
-        static_assert(std::endian::native == std::endian::little, "a word's lower half comes first");
-        hn::StoreInterleaved2(numbers, depths, di, seen_[count_]);
-        hn::StoreU(hn::Compress(offsets, mask), di, offsets_ + count_);
-        count_ += hn::CountTrue(FloatTag(), hit);
-        if (count_ >= most_waiting) draw();
-    }
-
-    std::uint64_t* words_;
-    std::size_t count_ = 0;
-    HWY_ALIGN std::int32_t offsets_[most_waiting + vector_room];
-    HWY_ALIGN std::int32_t seen_[most_waiting + vector_room][2];  // as words
-};
-
-// Samples that thin strips may cover, of many strips together, for each has few of a vector's.
-class Candidates {
-  public:
-    Candidates(const EpipolarPlane& plane, std::span<const Strip> strips, std::size_t first, Hits& hits)
-        : plane_(plane), strips_(strips), first_(first), hits_(hits) {}
-
-    // The lanes that are candidates, in columns n and directions k.
-    HWY_INLINE void add(FloatMask candidate, Floats n, Floats k, std::uint32_t strip) {
-        const FloatTag d;
-        hn::StoreU(hn::Compress(n, candidate), d, n_ + count_);
-        hn::StoreU(hn::Compress(k, candidate), d, k_ + count_);
-        hn::StoreU(hn::Set(NumberTag(), strip), NumberTag(), of_ + count_);
-        count_ += hn::CountTrue(d, candidate);
-        if (count_ >= most_waiting) draw();
-    }
-
-    void draw() {
-        const FloatTag d;
-        const IntTag di;
-        const std::size_t lanes = hn::Lanes(d);
-        if (count_ == 0) return;
-        // What fills up the last vector is no sample.
-        hn::StoreU(hn::Zero(NumberTag()), NumberTag(), of_ + count_);
-        hn::StoreU(hn::Set(d, -1.0f), d, k_ + count_);
-        hn::StoreU(hn::Zero(d), d, n_ + count_);
-        for (std::size_t i = 0; i < count_ + lanes - 1; ++i) std::memcpy(ends_[i], &strips_[of_[i]], sizeof(Strip));
-        const Floats k_first = hn::Set(d, plane_.first_direction);
-        const Floats n_first = hn::Set(d, static_cast<float>(plane_.first_column));
-        const Ints directions = hn::Set(di, static_cast<std::int32_t>(plane_.directions));
-        for (std::size_t i = 0; i < count_; i += lanes) {
-            Floats x0, z0, x1, z1;
-            hn::LoadInterleaved4(d, ends_[i], x0, z0, x1, z1);
-            const Floats n = hn::Load(d, n_ + i), k = hn::Load(d, k_ + i), K = hn::Add(k, k_first);
-            const Floats c0 = c_of(x0, z0, K), c1 = c_of(x1, z1, K);
-            const FloatMask hit = hn::And(hn::Ge(k, hn::Zero(d)), hn::Xor(hn::Lt(c0, n), hn::Lt(c1, n)));
-            const Floats z = hn::Add(z0, hn::Mul(hn::Sub(n, c0), hn::Div(hn::Sub(z1, z0), hn::Sub(c1, c0))));
-            const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
-            hits_.add(hit, z, hn::Add(hn::Mul(column, directions), hn::ConvertTo(di, k)),
-                      hn::Add(hn::Load(di, reinterpret_cast<const std::int32_t*>(of_ + i)),
-                              hn::Set(di, static_cast<std::int32_t>(first_))));
-        }
-        count_ = 0;
-    }
-
-  private:
-    const EpipolarPlane& plane_;
-    std::span<const Strip> strips_;
-    std::size_t first_;
-    Hits& hits_;
-    std::size_t count_ = 0;
-    HWY_ALIGN float n_[most_waiting + 2 * vector_room], k_[most_waiting + 2 * vector_room];
-    HWY_ALIGN std::uint32_t of_[most_waiting + 2 * vector_room];
-    HWY_ALIGN float ends_[most_waiting + 2 * vector_room][4];
-};
 
 // Of the samples of a plane.
 struct Extent {
@@ -161,8 +40,7 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
     const IntTag di;
     const hn::ScalableTag<std::uint64_t> d64;
     const hn::Half<NumberTag> du_half;
-    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
-                 z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
+    const StripLanes strip = in_all_lanes(on.strip);
     const Floats one = hn::Set(d, 1.0f), far = hn::Set(d, std::numeric_limits<float>::infinity());
     const Floats n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
     const Ints nothing = hn::Set(di, -1);
@@ -170,7 +48,7 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
     const std::size_t half = hn::Lanes(d64);
     for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats K = hn::Iota(d, begin);
-        const Floats c0 = c_of(x0, z0, K), c1 = c_of(x1, z1, K), slope = hn::Div(dz, hn::Sub(c1, c0));
+        const Floats c0 = strip.c0(K), c1 = strip.c1(K), slope = strip.slope(c0, c1);
         const Floats from = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
         const Floats to = hn::Min(n_last, hn::Floor(hn::Max(c0, c1)));
         const FloatMask any = hn::And(hn::Le(from, to), hn::Le(K, hn::Set(d, K_end)));
@@ -183,7 +61,7 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
         for (; n <= n_end; n += 1, words += on.plane.directions) {
             const Floats ns = hn::Set(d, n);
             const auto hit = hn::RebindMask(di, hn::And(hn::Le(first, ns), hn::Le(ns, last)));
-            const Ints ordered = ordered_bits_of(hn::Add(z0, hn::Mul(hn::Sub(ns, c0), slope)));
+            const Ints ordered = ordered_bits_of(strip.depth(ns, c0, slope));
             const auto depths = hn::BitCast(NumberTag(), hn::IfThenElse(hit, ordered, nothing));
             const auto low = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(d64, hn::LowerHalf(du_half, depths))), number);
             const auto high = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(d64, hn::UpperHalf(du_half, depths))), number);
@@ -198,22 +76,20 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
 void along_directions(const Drawing& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
-    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
-                 z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
+    const StripLanes strip = in_all_lanes(on.strip);
     const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
     const Floats none = hn::Set(d, on.extent.n_first - 1), K_last = hn::Set(d, K_end),
                  k_first = hn::Set(d, on.extent.k_first);
     const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
     for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats K = hn::Iota(d, begin);
-        const Floats c0 = c_of(x0, z0, K), c1 = c_of(x1, z1, K), slope = hn::Div(dz, hn::Sub(c1, c0));
+        const Floats c0 = strip.c0(K), c1 = strip.c1(K), slope = strip.slope(c0, c1);
         const Floats end = hn::IfThenElse(hn::Le(K, K_last), hn::Min(n_last, hn::Floor(hn::Max(c0, c1))), none);
         const Ints k = hn::ConvertTo(di, hn::Sub(K, k_first));
         Floats n = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
         for (FloatMask hit = hn::Le(n, end); !hn::AllFalse(d, hit); hit = hn::Le(n, end)) {
             const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
-            on.hits.add(hit, hn::Add(z0, hn::Mul(hn::Sub(n, c0), slope)), hn::Add(hn::Mul(column, directions), k),
-                        on.number);
+            on.hits.add(hit, strip.depth(n, c0, slope), hn::Add(hn::Mul(column, directions), k), on.number);
             n = hn::Add(n, one);
         }
     }
@@ -224,8 +100,7 @@ void along_directions(const Drawing& on, float K_begin, float K_end) {
 void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, float per_z1, float margin) {
     const FloatTag d;
     const IntTag di;
-    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1), z0 = hn::Set(d, on.strip.z0),
-                 z1 = hn::Set(d, on.strip.z1), dz = hn::Sub(z1, z0);
+    const StripLanes strip = in_all_lanes(on.strip);
     const Floats steep0 = hn::Set(d, per_z0), steep1 = hn::Set(d, per_z1), margins = hn::Set(d, margin);
     const Floats one = hn::Set(d, 1.0f), k_first = hn::Set(d, on.extent.k_first),
                  n_first = hn::Set(d, on.extent.n_first);
@@ -235,7 +110,7 @@ void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, 
     const std::size_t few = hn::Lanes(d) / 4;
     for (float begin = n_begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats n = hn::Iota(d, begin);
-        const Floats K0 = hn::Mul(hn::Sub(x0, n), steep0), K1 = hn::Mul(hn::Sub(x1, n), steep1);
+        const Floats K0 = hn::Mul(hn::Sub(strip.x0, n), steep0), K1 = hn::Mul(hn::Sub(strip.x1, n), steep1);
         const Floats low = hn::Sub(hn::Sub(hn::Min(K0, K1), margins), k_first);
         const Floats high = hn::Sub(hn::Add(hn::Max(K0, K1), margins), k_first);
         const Floats end = hn::IfThenElse(hn::Le(n, columns_end), hn::Min(k_last, high), none);
@@ -247,10 +122,10 @@ void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, 
             if (count <= few) {
                 on.candidates.add(candidate, n, k, on.index);
             } else {
-                const Floats K = hn::Add(k, k_first), c0 = c_of(x0, z0, K), c1 = c_of(x1, z1, K);
-                const FloatMask hit = hn::And(candidate, hn::Xor(hn::Lt(c0, n), hn::Lt(c1, n)));
-                const Floats z = hn::Add(z0, hn::Mul(hn::Sub(n, c0), hn::Div(dz, hn::Sub(c1, c0))));
-                on.hits.add(hit, z, hn::Add(rows, hn::ConvertTo(di, k)), on.number);
+                const Floats K = hn::Add(k, k_first), c0 = strip.c0(K), c1 = strip.c1(K);
+                const FloatMask hit = hn::And(candidate, StripLanes::covers(n, c0, c1));
+                on.hits.add(hit, strip.depth(n, c0, strip.slope(c0, c1)), hn::Add(rows, hn::ConvertTo(di, k)),
+                            on.number);
             }
             k = hn::Add(k, one);
             candidate = hn::Le(k, end);
@@ -276,8 +151,8 @@ struct Bounded {
 void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
     const FloatTag d;
     const IntTag di;
-    Floats x0, z0, x1, z1;
-    hn::LoadInterleaved4(d, ends, x0, z0, x1, z1);
+    const StripLanes strip = strip_a_lane(ends);
+    const auto& [x0, z0, x1, z1] = strip;
     const Floats n_first = hn::Set(d, plane.n_first), n_last = hn::Set(d, plane.n_last);
     const Floats k_first = hn::Set(d, plane.k_first), k_last = hn::Set(d, plane.k_last);
     const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f), lanes = hn::Set(d, static_cast<float>(hn::Lanes(d)));
@@ -287,9 +162,8 @@ void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
                           HWY_ATTR { return hn::Max(hn::Max(a, b), hn::Max(c, e)); };
 
     // c is linear in K: these bound the columns that see a strip.
-    const Floats c0 = c_of(x0, z0, k_first), c1 = c_of(x0, z0, k_last), c2 = c_of(x1, z1, k_first),
-                 c3 = c_of(x1, z1, k_last);
-    const Floats low = least(c0, c1, c2, c3), high = most(c0, c1, c2, c3);
+    const Floats c[] = {strip.c0(k_first), strip.c0(k_last), strip.c1(k_first), strip.c1(k_last)};
+    const Floats low = least(c[0], c[1], c[2], c[3]), high = most(c[0], c[1], c[2], c[3]);
     const FloatMask seen = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
     const Floats n_begin = hn::Max(n_first, hn::Floor(low)), n_end = hn::Min(n_last, hn::Floor(high));
 
@@ -384,29 +258,6 @@ void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane&
     hits.draw();
 }
 
-void Farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
-    const hn::ScalableTag<std::uint64_t> d;
-    const std::size_t lanes = hn::Lanes(d);
-    std::size_t cell = 0;
-    for (std::size_t c0 = 0; c0 < plane.columns; c0 += cell_columns)
-        for (std::size_t k0 = 0; k0 < plane.directions; k0 += cell_directions, ++cell) {
-            const std::size_t c1 = std::min(c0 + cell_columns, plane.columns);
-            const std::size_t k1 = std::min(k0 + cell_directions, plane.directions);
-            auto most = hn::Zero(d);
-            std::uint64_t rest = 0;
-            for (std::size_t column = c0; column < c1; ++column) {
-                const std::uint64_t* row = plane.words + column * plane.directions;
-                std::size_t k = k0;
-                for (; k + lanes <= k1; k += lanes) most = hn::Max(most, hn::LoadU(d, row + k));
-                for (; k < k1; ++k) rest = std::max(rest, row[k]);
-            }
-            HWY_ALIGN std::uint64_t lane[HWY_MAX_BYTES / 8];
-            hn::Store(most, d, lane);
-            for (std::size_t i = 0; i < lanes; ++i) rest = std::max(rest, lane[i]);
-            cells[cell] = static_cast<std::uint32_t>(rest >> 32);
-        }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel
 HWY_AFTER_NAMESPACE();
@@ -415,14 +266,9 @@ HWY_AFTER_NAMESPACE();
 namespace hogel {
 
 HWY_EXPORT(Draw);
-HWY_EXPORT(Farthest);
 
 void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
     HWY_DYNAMIC_DISPATCH(Draw)(strips, first, plane);
-}
-
-void farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
-    HWY_DYNAMIC_DISPATCH(Farthest)(plane, cells);
 }
 
 std::vector<std::int64_t> kernel_targets() { return hwy::SupportedAndGeneratedTargets(); }
