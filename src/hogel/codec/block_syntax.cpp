@@ -109,13 +109,6 @@ void code_disparity(Coder& coder, typename Coder::Models& models, std::size_t ar
 
 }  // namespace
 
-void Candidates::add(int value) {
-    const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
-    for (std::size_t k = 0; k < count; ++k)
-        if (disparity[k] == clamped) return;
-    disparity[count++] = clamped;
-}
-
 std::size_t Candidates::spread() const {
     int most = 0;
     for (std::size_t k = 1; k < count; ++k) most = std::max(most, std::abs(disparity[k] - disparity[0]));

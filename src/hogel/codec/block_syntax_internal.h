@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -44,7 +45,12 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
 struct Candidates {
     std::array<std::int16_t, 5> disparity{};
     std::size_t count = 0;
-    void add(int value);
+    void add(int value) {
+        const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
+        for (std::size_t k = 0; k < count; ++k)
+            if (disparity[k] == clamped) return;
+        disparity[count++] = clamped;
+    }
     // How far they are from each other: 0 for not at all, 1 for nearly so, 2 for one surface, 3.
     std::size_t spread() const;
 };

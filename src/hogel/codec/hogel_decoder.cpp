@@ -80,10 +80,9 @@ void HogelDecoder::read(LightFieldTile& part) {
         }
         parallel_for(wanted.size(), [&](std::size_t n) {
             const std::size_t s = n % part.range.ns, t = n / part.range.ns;
-            for_each_row(pictures_[wanted[n]], setup_,
-                         [&](std::size_t c, std::size_t v, const std::vector<float>& row) {
-                             std::ranges::copy(row, &part.radiance(c, t, s, v, 0));
-                         });
+            for_each_row(pictures_[wanted[n]], setup_, [&](std::size_t c, std::size_t v, std::span<const float> row) {
+                std::ranges::copy(row, &part.radiance(c, t, s, v, 0));
+            });
         });
     });
 }

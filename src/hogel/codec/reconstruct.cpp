@@ -91,24 +91,27 @@ bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hoge
     if (choice.count == 2) {
         BlockSamples other;
         fetch(1, other);
-        for (std::size_t k = 0; k < block_samples; ++k)
-            block[k] = choice.weight[0] * block[k] + choice.weight[1] * other[k];
+        mix_blocks(block, other, choice.weight[0], choice.weight[1], block);
     }
     return true;
 }
 
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
                  float step) {
-    BlockSamples residual{};
+    BlockSamples residual;
     if (levels) {
         BlockSamples coefficients;
         for (std::size_t k = 0; k < block_samples; ++k) coefficients[k] = static_cast<float>((*levels)[k]) * step;
         inverse_transform_block(coefficients, residual);
     }
-    for (std::size_t r = 0; r < block_side; ++r)
-        for (std::size_t c = 0; c < block_side; ++c)
-            plane.samples[(y + r) * plane.width + x + c] =
-                prediction[r * block_side + c] + residual[r * block_side + c];
+    for (std::size_t r = 0; r < block_side; ++r) {
+        float* row = &plane.samples[(y + r) * plane.width + x];
+        const float* predicted = &prediction[r * block_side];
+        if (levels)
+            for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + residual[r * block_side + c];
+        else
+            for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + 0.0f;  // no −0, as with levels
+    }
 }
 
 void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,
@@ -127,13 +130,13 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
             continue;
         }
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
-        ReferenceWeights::Choice choice;
+        const ReferenceWeights::Choice* choice = nullptr;
         if (block.mode > 0)
-            choice = weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
+            choice = &weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
         for (std::size_t c = 0; c < setup.grid.channels; ++c) {
-            if (block.mode == 0)
+            if (!choice)
                 predict_within(picture[c], x, y, block.within, prediction);
-            else if (!predict_across(pictures, place, choice, c, x, y, prediction))
+            else if (!predict_across(pictures, place, *choice, c, x, y, prediction))
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
             place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step);
         }
