@@ -13,47 +13,50 @@ namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Row = hn::CappedTag<float, block_side>;  // a row of a block, or an even part of one
+using Row = hn::CappedTag<float, block_side>;       // a row of a block, or an even part of one
+using Rows = hn::CappedTag<float, 2 * block_side>;  // or two of them, one after the other
 
-void InterpolateBlock(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
-                      BlockSamples& block) {
+// Rows of a block, from those of a window at their place along u.
+HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t count, const Taps* weights, float* out) {
     const Row d;
-    HWY_ALIGN float across[window_side * block_side];
-    const std::size_t first = along_v ? 0 : taps_before, last = along_v ? window_side : taps_before + block_side;
     for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
-        const float* in = rows + first * stride + c;
-        if (along_u) {
-            const auto w0 = hn::Set(d, (*along_u)[0]), w1 = hn::Set(d, (*along_u)[1]), w2 = hn::Set(d, (*along_u)[2]);
-            const auto w3 = hn::Set(d, (*along_u)[3]), w4 = hn::Set(d, (*along_u)[4]), w5 = hn::Set(d, (*along_u)[5]);
-            for (std::size_t r = first; r < last; ++r, in += stride) {
-                auto sum = hn::Mul(w0, hn::LoadU(d, in));
-                sum = hn::Add(sum, hn::Mul(w1, hn::LoadU(d, in + 1)));
-                sum = hn::Add(sum, hn::Mul(w2, hn::LoadU(d, in + 2)));
-                sum = hn::Add(sum, hn::Mul(w3, hn::LoadU(d, in + 3)));
-                sum = hn::Add(sum, hn::Mul(w4, hn::LoadU(d, in + 4)));
-                sum = hn::Add(sum, hn::Mul(w5, hn::LoadU(d, in + 5)));
-                hn::Store(sum, d, across + r * block_side + c);
-            }
-        } else {
-            for (std::size_t r = first; r < last; ++r, in += stride)
-                hn::Store(hn::LoadU(d, in + taps_before), d, across + r * block_side + c);
+        const float* in = rows + c;
+        float* to = out + c;
+        if (!weights) {
+            for (std::size_t r = 0; r < count; ++r, in += stride, to += block_side)
+                hn::StoreU(hn::LoadU(d, in + taps_before), d, to);
+            continue;
         }
-        for (std::size_t r = 0; r < block_side; ++r) {
-            float* out = &block[r * block_side + c];
-            if (!along_v) {
-                hn::StoreU(hn::Load(d, across + (r + taps_before) * block_side + c), d, out);
-                continue;
-            }
-            auto sum = hn::Mul(hn::Set(d, (*along_v)[0]), hn::Load(d, across + r * block_side + c));
-            for (std::size_t k = 1; k < taps; ++k)
-                sum = hn::Add(sum, hn::Mul(hn::Set(d, (*along_v)[k]), hn::Load(d, across + (r + k) * block_side + c)));
-            hn::StoreU(sum, d, out);
+        const auto w0 = hn::Set(d, (*weights)[0]), w1 = hn::Set(d, (*weights)[1]), w2 = hn::Set(d, (*weights)[2]);
+        const auto w3 = hn::Set(d, (*weights)[3]), w4 = hn::Set(d, (*weights)[4]), w5 = hn::Set(d, (*weights)[5]);
+        for (std::size_t r = 0; r < count; ++r, in += stride, to += block_side) {
+            auto sum = hn::Mul(w0, hn::LoadU(d, in));
+            sum = hn::Add(sum, hn::Mul(w1, hn::LoadU(d, in + 1)));
+            sum = hn::Add(sum, hn::Mul(w2, hn::LoadU(d, in + 2)));
+            sum = hn::Add(sum, hn::Mul(w3, hn::LoadU(d, in + 3)));
+            sum = hn::Add(sum, hn::Mul(w4, hn::LoadU(d, in + 4)));
+            sum = hn::Add(sum, hn::Mul(w5, hn::LoadU(d, in + 5)));
+            hn::StoreU(sum, d, to);
         }
     }
 }
 
+void InterpolateBlock(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
+                      BlockSamples& block) {
+    if (!along_v) return AlongRows(rows + taps_before * stride, stride, block_side, along_u, block.data());
+    HWY_ALIGN float across[window_side * block_side];
+    AlongRows(rows, stride, window_side, along_u, across);
+    const Rows d;
+    for (std::size_t n = 0; n < block_samples; n += hn::Lanes(d)) {
+        auto sum = hn::Mul(hn::Set(d, (*along_v)[0]), hn::LoadU(d, across + n));
+        for (std::size_t k = 1; k < taps; ++k)
+            sum = hn::Add(sum, hn::Mul(hn::Set(d, (*along_v)[k]), hn::LoadU(d, across + n + k * block_side)));
+        hn::StoreU(sum, d, &block[n]);
+    }
+}
+
 void MixBlocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
-    const Row d;
+    const Rows d;
     const auto of_a = hn::Set(d, weight_a), of_b = hn::Set(d, weight_b);
     for (std::size_t k = 0; k < block_samples; k += hn::Lanes(d))
         hn::StoreU(hn::Add(hn::Mul(of_a, hn::LoadU(d, &a[k])), hn::Mul(of_b, hn::LoadU(d, &b[k]))), d, &out[k]);

@@ -64,10 +64,12 @@ void BlockSearch::try_any_side(int disparity, float bits) {
     const auto& choice = weights_.choose(disparity, ReferenceWeights::Side::any);
     if (choice.count == 0) return;
     BlockSamples& spare = kept_[best_.prediction == &kept_[0] ? 1 : 0];
-    spare = seen(disparity, choice.reference[0], choice.shift[0]);
+    const BlockSamples& first = seen(disparity, choice.reference[0], choice.shift[0]);
     if (choice.count == 2)
-        mix_blocks(spare, seen(disparity, choice.reference[1], choice.shift[1]), choice.weight[0], choice.weight[1],
+        mix_blocks(first, seen(disparity, choice.reference[1], choice.shift[1]), choice.weight[0], choice.weight[1],
                    spare);
+    else
+        spare = first;
     take_if_better(spare, bits + best_of_all_sides, 0, disparity);
 }
 

@@ -35,6 +35,7 @@ class BlockSearch {
 
   private:
     bool may_win(float bits) const { return least_error_ + worth_ * bits < best_.cost; }
+    // Stays as it is while less than `most_seen` others are looked at.
     const BlockSamples& seen(int disparity, std::uint32_t reference, Shift shift);
     bool take_if_better(const BlockSamples& prediction, float bits, int side, int disparity);
     void try_any_side(int disparity, float bits);

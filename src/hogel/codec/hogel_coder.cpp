@@ -89,6 +89,7 @@ class TileEncoder {
         coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
                             k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, effort_, pictures_);
         errors_[k] = squared_error(pictures_[k], setup_, tile_, hogel.s, hogel.t, counted_);
+        if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = {};  // nothing comes after it
     }
 
     template <class Coder>

@@ -52,14 +52,9 @@ ReferenceWeights::Side side_of(const HogelOrder::Reference& reference) {
 
 }  // namespace
 
-PlaneWindow::PlaneWindow(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side) {
+void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side) {
     const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
     const auto reach = static_cast<std::ptrdiff_t>(side);
-    if (x >= 0 && y >= 0 && x + reach <= width && y + reach <= height) {
-        rows_ = &plane.samples[static_cast<std::size_t>(y * width + x)];
-        stride_ = plane.width;
-        return;
-    }
     std::array<std::ptrdiff_t, window_side> column;
     for (std::size_t c = 0; c < side; ++c)
         column[c] = std::clamp<std::ptrdiff_t>(x + static_cast<std::ptrdiff_t>(c), 0, width - 1);

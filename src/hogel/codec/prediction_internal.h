@@ -25,13 +25,24 @@ struct Plane {
 class PlaneWindow {
   public:
     // @param side   at most window_side
-    PlaneWindow(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side);
+    PlaneWindow(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side) {
+        const auto reach = static_cast<std::ptrdiff_t>(side);
+        const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
+        if (x < 0 || y < 0 || x + reach > width || y + reach > height) {
+            copy(plane, x, y, side);
+            return;
+        }
+        rows_ = &plane.samples[static_cast<std::size_t>(y * width + x)];
+        stride_ = plane.width;
+    }
     const float* rows() const { return rows_; }
     std::size_t stride() const { return stride_; }
     PlaneWindow(const PlaneWindow&) = delete;
     PlaneWindow& operator=(const PlaneWindow&) = delete;
 
   private:
+    void copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side);
+
     const float* rows_;
     std::size_t stride_;
     std::array<float, window_side * window_side> copy_;
