@@ -82,6 +82,7 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
             float sum = 0;
             for (const auto& axis : neighbours) {
                 std::array<float, 6> errors;
+                errors.fill(std::numeric_limits<float>::infinity());
                 for (std::size_t n = 0; n < axis.size(); ++n) {
                     const Plane& plane = axis[n].picture[0];
                     const Shift shift = shift_of(disparity, axis[n].place, setup.aspect);
@@ -95,8 +96,11 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
                         errors[n] = squared_difference(other, block);
                     }
                 }
-                std::sort(errors.begin(), errors.begin() + axis.size());
-                for (std::size_t n = 0; n < (axis.size() + 1) / 2; ++n) sum += errors[n];
+                for (std::size_t n = 0; n < (axis.size() + 1) / 2; ++n) {
+                    const auto smallest = std::ranges::min_element(errors);
+                    sum += *smallest;
+                    *smallest = std::numeric_limits<float>::infinity();
+                }
             }
             return sum;
         };

@@ -27,8 +27,9 @@ template <class Coder>
 void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels& levels) {
     // The place of the last level, as a path through a binary tree.
     std::size_t last = 0;
-    for (std::size_t n = 0; n < block_samples; ++n)
-        if (levels[zigzag[n]] != 0) last = n;
+    if constexpr (!Coder::reads)
+        for (std::size_t n = 0; n < block_samples; ++n)
+            if (levels[zigzag[n]] != 0) last = n;
     std::size_t node = 1;
     for (int bit = 5; bit >= 0; --bit) node = node * 2 + coder.bit(models.last[node], last >> bit & 1);
     last = node - block_samples;

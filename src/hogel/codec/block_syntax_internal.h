@@ -138,6 +138,7 @@ struct BlockCounts : ModelsOf<BitCount> {
 class BlockCounter {
   public:
     using Models = BlockCounts;
+    static constexpr bool reads = false;
     bool bit(BitCount& count, bool value) {
         ++count[value ? 1 : 0];
         return value;
@@ -148,6 +149,7 @@ class BlockCounter {
 class BlockWriter {
   public:
     using Models = BlockModels;
+    static constexpr bool reads = false;
     bool bit(BitModel& model, bool value) {
         encoder_.bit(model, value);
         return value;
@@ -165,6 +167,7 @@ class BlockWriter {
 class BlockReader {
   public:
     using Models = BlockModels;
+    static constexpr bool reads = true;
     explicit BlockReader(std::span<const std::uint8_t> bytes) : decoder_(bytes) {}
     bool bit(BitModel& model, bool) { return decoder_.bit(model); }
     bool even(bool) { return decoder_.even(); }

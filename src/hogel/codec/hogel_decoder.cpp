@@ -102,6 +102,8 @@ void HogelDecoder::tell(std::size_t k) {
     const auto moved = moved_disparities(hogel, coded_, setup_.grid, setup_.aspect);
     if (k < codes_.size()) {
         BlockReader reader(codes_[k]);
+        constexpr std::size_t bytes_of_levels = 4;  // of a block, about
+        coded_[k].levels.reserve(std::min(codes_[k].size() / bytes_of_levels, setup_.grid.count()));
         BlockModels models = models_[static_cast<std::size_t>(hogel.level)];
         code_hogel(reader, models, setup_.grid, hogel, moved, beside(k), coded_[k]);
         const ByteReader whole({}, "tile");
