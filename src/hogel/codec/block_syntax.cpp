@@ -27,8 +27,9 @@ template <class Coder>
 void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels& levels) {
     // The place of the last level, as a path through a binary tree.
     std::size_t last = 0;
-    for (std::size_t n = 0; n < block_samples; ++n)
-        if (levels[zigzag[n]] != 0) last = n;
+    if constexpr (!Coder::reads)
+        for (std::size_t n = 0; n < block_samples; ++n)
+            if (levels[zigzag[n]] != 0) last = n;
     std::size_t node = 1;
     for (int bit = 5; bit >= 0; --bit) node = node * 2 + coder.bit(models.last[node], last >> bit & 1);
     last = node - block_samples;
@@ -108,13 +109,6 @@ void code_disparity(Coder& coder, typename Coder::Models& models, std::size_t ar
 }
 
 }  // namespace
-
-void Candidates::add(int value) {
-    const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
-    for (std::size_t k = 0; k < count; ++k)
-        if (disparity[k] == clamped) return;
-    disparity[count++] = clamped;
-}
 
 std::size_t Candidates::spread() const {
     int most = 0;

@@ -33,7 +33,9 @@ TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_
       width(directions_u),
       height(directions_v),
       aspect(v_per_u),
-      step(static_cast<std::size_t>(order.levels()), finest_step) {
+      step(static_cast<std::size_t>(order.levels()), finest_step),
+      memory(std::make_unique<PictureMemory>(grid.count() * block_samples * sizeof(float),
+                                             order.hogels().size() * grid.channels)) {
     for (std::size_t level = step.size() - 1; level-- > 0;) step[level] = step[level + 1] / step_growth;
     for (const HogelOrder::Hogel& hogel : order.hogels()) {
         const float ratio = step[static_cast<std::size_t>(hogel.level)] / step[0];
@@ -42,7 +44,10 @@ TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_
 }
 
 Picture TileSetup::blank() const {
-    return Picture(grid.channels, Plane(grid.columns * block_side, grid.rows * block_side));
+    Picture picture;
+    for (std::size_t c = 0; c < grid.channels; ++c)
+        picture.emplace_back(grid.columns * block_side, grid.rows * block_side, memory.get());
+    return picture;
 }
 
 void transform_block(const BlockSamples& in, BlockSamples& out) {
@@ -91,24 +96,27 @@ bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hoge
     if (choice.count == 2) {
         BlockSamples other;
         fetch(1, other);
-        for (std::size_t k = 0; k < block_samples; ++k)
-            block[k] = choice.weight[0] * block[k] + choice.weight[1] * other[k];
+        mix_blocks(block, other, choice.weight[0], choice.weight[1], block);
     }
     return true;
 }
 
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
                  float step) {
-    BlockSamples residual{};
+    BlockSamples residual;
     if (levels) {
         BlockSamples coefficients;
         for (std::size_t k = 0; k < block_samples; ++k) coefficients[k] = static_cast<float>((*levels)[k]) * step;
         inverse_transform_block(coefficients, residual);
     }
-    for (std::size_t r = 0; r < block_side; ++r)
-        for (std::size_t c = 0; c < block_side; ++c)
-            plane.samples[(y + r) * plane.width + x + c] =
-                prediction[r * block_side + c] + residual[r * block_side + c];
+    for (std::size_t r = 0; r < block_side; ++r) {
+        float* row = &plane.samples[(y + r) * plane.width + x];
+        const float* predicted = &prediction[r * block_side];
+        if (levels)
+            for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + residual[r * block_side + c];
+        else
+            for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + 0.0f;  // no −0, as with levels
+    }
 }
 
 void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,
@@ -127,13 +135,13 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
             continue;
         }
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
-        ReferenceWeights::Choice choice;
+        const ReferenceWeights::Choice* choice = nullptr;
         if (block.mode > 0)
-            choice = weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
+            choice = &weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
         for (std::size_t c = 0; c < setup.grid.channels; ++c) {
-            if (block.mode == 0)
+            if (!choice)
                 predict_within(picture[c], x, y, block.within, prediction);
-            else if (!predict_across(pictures, place, choice, c, x, y, prediction))
+            else if (!predict_across(pictures, place, *choice, c, x, y, prediction))
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
             place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step);
         }
