@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -47,6 +48,13 @@ class FrequencyGrid {
     /// The same for many hogels, radiances[hogel][v u] to moduli[hogel][j_y j_x], sixteen at once.
     void amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const;
 
+    /// Where a row of frequencies of sixteen hogels goes, [j_x mod n][hogel]. The row before is complete when the next
+    /// is asked for.
+    using PlaceOfRow = std::function<float*(std::size_t row)>;
+    /// The same for up to sixteen hogels row by row of those frequencies that carry light, which are neighbours but
+    /// once; hogels that do not exist have anything. Where `of_roots`, radiances are roots: see amplitudes_of_roots.
+    void amplitudes_by_rows(View<const float, 2> radiances, bool of_roots, const PlaceOfRow& place) const;
+
     /// From amplitudes √L instead of radiances, which are averaged as they are: λ/d · √(cos θ)/cos θ times the lobe's
     /// mean of √L. A linear map, which basis fringes need; darker than amplitudes() where the radiance varies in a
     /// lobe.
@@ -70,16 +78,17 @@ class FrequencyGrid {
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
                   double wavelength, Between between);
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
+    void average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots, float* out) const;
 
-    // Lobes one after the other with what they need of the light field, few enough for the nearer caches.
+    // Whole rows of lobes one after the other with what they need of the light field, few enough for the nearer caches.
     struct Band {
         std::size_t lobe0 = 0, lobes = 0;
         std::size_t ray0 = 0, rays = 0;
         std::size_t run0 = 0, runs = 0;
     };
-    // Coefficients side by side.
+    // Lobes of coefficients side by side in a row.
     struct Run {
-        std::uint32_t coefficient, count;
+        std::uint32_t lobe, row, column, count;
     };
     void list_bands();
     void list_runs();
@@ -95,7 +104,6 @@ class FrequencyGrid {
     std::vector<float> weights_;
     std::vector<Band> bands_;
     std::vector<Run> runs_;  // of the lobes of each band, in their order
-    std::vector<Run> dark_;  // coefficients without a lobe
 };
 
 /// Whether a light field's directions are those of the hogels' Fourier transform at this wavelength.

@@ -88,18 +88,18 @@ ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t 
     return result;
 }
 
-void average_scattered(const ScatteredLobes& lobes, View<const float, 2> values, bool of_roots, View<float, 2> out) {
+void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size_t count, View<const float, 2> values,
+                       bool of_roots, float* out) {
     const std::size_t hogels = values.extent(1);
-    float* to = out.data();
-    for (const ScatteredLobes::Lobe& lobe : lobes.lobes) {
-        std::fill_n(to, hogels, 0.0f);
+    for (const ScatteredLobes::Lobe& lobe : std::span(lobes.lobes).subspan(first, count)) {
+        std::fill_n(out, hogels, 0.0f);
         for (std::uint32_t i = lobe.first; i < lobe.first + lobe.count; ++i) {
             const float* from = &values(lobes.rays[i], 0);
-            for (std::size_t h = 0; h < hogels; ++h) to[h] += lobes.weights[i] * from[h];
+            for (std::size_t h = 0; h < hogels; ++h) out[h] += lobes.weights[i] * from[h];
         }
         for (std::size_t h = 0; h < hogels; ++h)
-            to[h] = of_roots ? to[h] * std::sqrt(lobe.scale) : std::sqrt(std::max(to[h], 0.0f) * lobe.scale);
-        to += hogels;
+            out[h] = of_roots ? out[h] * std::sqrt(lobe.scale) : std::sqrt(std::max(out[h], 0.0f) * lobe.scale);
+        out += hogels;
     }
 }
 

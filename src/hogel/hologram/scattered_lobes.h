@@ -26,7 +26,9 @@ struct ScatteredLobes {
 
 ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
 
-/// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]), or where the values are roots already √scale · Σ.
-void average_scattered(const ScatteredLobes& lobes, View<const float, 2> values, bool of_roots, View<float, 2> out);
+/// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) of `count` lobes from number `first` on, or where the
+/// values are roots already √scale · Σ.
+void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size_t count, View<const float, 2> values,
+                       bool of_roots, float* out);
 
 }  // namespace hogel

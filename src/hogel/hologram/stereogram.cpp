@@ -71,14 +71,20 @@ class Stereogram final : public FieldSource {
             write(prepare(hogels)->values, hogels, 0, look, region, room->square, out);
             return;
         }
-        read_rays(hogels, room->rays);
+        const View<const float, 5> whole = rays_in_memory(hogels);
+        if (whole.size() == 0) read_rays(hogels, room->rays);
         // What one look alone needs stays in the cache, a few hogels at a time.
         const std::size_t values = synthesis_->prepared_size();
         if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
         for (std::size_t first = 0; first < hogels.hogels(); first += hogels_together) {
             const View<float, 2> some(room->prepared.data(),
                                       {std::min(hogels_together, hogels.hogels() - first), values});
-            prepare(room->rays, first, some);
+            if (whole.size() > 0)
+                synthesis_->prepare(
+                    {&whole(options_.channel, hogels.t0, hogels.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {},
+                    some);
+            else
+                prepare(room->rays, first, some);
             write(some, hogels, first, look, region, room->square, out);
         }
     }
@@ -94,6 +100,12 @@ class Stereogram final : public FieldSource {
         Array<float, 2> prepared;          // [hogels_together][...]
         Array<Complex, 2> square;          // a hogel
     };
+
+    // All rays where they lie, if they need not be read: in memory, and those of the hogels one after the other.
+    View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
+        if (faces_.size() > 1 || needs_depth(options_) || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
+        return faces_.front()->in_memory();
+    }
 
     void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles) const {
         tiles.resize(faces_.size());

@@ -106,6 +106,8 @@ class LightFieldSource {
     virtual bool has_depth() const { return false; }
     /// The size of tile (s0 = t0 = 0) that this source reads at the least cost per hogel; any other works too.
     virtual HogelRange preferred_tile() const { return default_tile(grid()); }
+    /// All radiances where they lie, [c][t][s][v][u], if they are whole in memory; otherwise no elements.
+    virtual View<const float, 5> in_memory() const { return {}; }
     /// Fills the tile's radiance for tile.range, and its depth where the tile has room for it and has_depth().
     virtual void read(LightFieldTile& tile) const = 0;
 };
@@ -129,6 +131,7 @@ class LightField final : public LightFieldSource, public LightFieldSink {
     explicit LightField(const LightFieldGrid& grid, bool with_depth = false);
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return depth.size() > 0; }
+    View<const float, 5> in_memory() const override { return radiance.view(); }
     void read(LightFieldTile& tile) const override;
     void write(const LightFieldTile& tile) override;
     bool wants_depth() const override { return has_depth(); }
