@@ -97,11 +97,10 @@ std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFiel
                                               0, options);
 }
 
-std::unique_ptr<HogelSynthesis> make_line_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                     std::size_t lines, const StereogramOptions& options) {
     return std::make_unique<FourierSynthesis>(
-        FrequencyGrid::of_line(light_field, samples, light_field.pitch / static_cast<double>(lines),
-                               options.wavelength),
+        FrequencyGrid::of_line(faces, samples, faces.front().pitch / static_cast<double>(lines), options.wavelength),
         lines, options);
 }
 

@@ -78,16 +78,21 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samp
     : FrequencyGrid(light_field, samples, samples, wavelength / light_field.pitch, wavelength, between) {}
 
 FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength)
-    : rows_(samples), columns_(samples), rays_(0), row_length_(0) {
+    : FrequencyGrid(faces, samples, samples, wavelength / faces.front().pitch, wavelength) {}
+
+FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns,
+                             double step_up, double wavelength)
+    : rows_(rows), columns_(columns), rays_(0), row_length_(0) {
     for (const LightFieldGrid& face : faces) rays_ += face.directions();
-    scattered_ = scatter_lobes(faces, samples, wavelength);
+    scattered_ = scatter_lobes(faces, columns, step_up, rows == 1, wavelength);
     bands_ = {{0, scattered_.lobes.size(), 0, rays_}};
     list_runs();
 }
 
-FrequencyGrid FrequencyGrid::of_line(const LightFieldGrid& light_field, std::size_t samples, double line_pitch,
+FrequencyGrid FrequencyGrid::of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                      double wavelength) {
-    return {light_field, 1, samples, wavelength / line_pitch, wavelength, Between::linear};
+    if (faces.size() > 1) return {faces, 1, samples, wavelength / line_pitch, wavelength};
+    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, Between::linear};
 }
 
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,

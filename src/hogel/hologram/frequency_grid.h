@@ -35,8 +35,9 @@ class FrequencyGrid {
 
     /// Of one line of a hologram with horizontal parallax only, whose light field has one row of directions:
     /// frequencies along x alone. A line takes the place of `line_pitch` in the amplitude: √(λ/d · λ/line_pitch), so
-    /// that lines whose phases do not know of each other have the same radiance in all directions up and down.
-    static FrequencyGrid of_line(const LightFieldGrid& light_field, std::size_t samples, double line_pitch,
+    /// that lines whose phases do not know of each other have the same radiance in all directions up and down. Of a
+    /// front alone, or with sides that have one row too.
+    static FrequencyGrid of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                  double wavelength);
 
     /// Turns the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a backward
@@ -77,6 +78,8 @@ class FrequencyGrid {
   private:
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
                   double wavelength, Between between);
+    FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns, double step_up,
+                  double wavelength);
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
     void average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots, float* out) const;
 

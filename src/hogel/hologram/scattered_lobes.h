@@ -24,7 +24,10 @@ struct ScatteredLobes {
     std::vector<float> weights;
 };
 
-ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
+/// @param step_up  the height of a cell as a direction sine; of a line of frequencies its factor in the scale
+/// @param line     frequencies along x alone, of faces with one row of directions
+ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
+                             double wavelength);
 
 /// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) of `count` lobes from number `first` on, or where the
 /// values are roots already √scale · Σ.

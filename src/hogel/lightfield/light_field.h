@@ -64,7 +64,8 @@ bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
 
 /// The five faces of a hemicube around the hogels of `grid`, front first: all directions with ζ > 0, the front |U|, |V|
 /// <= 1 with the directions of `grid`, the sides with as many along the front's edges and half as many away from it.
-/// Throws Error(usage) unless the numbers of directions are even.
+/// Of one row of directions a hemisquare, for horizontal parallax only: the front and its sides left and right, each
+/// with the row V = 0. Throws Error(usage) unless the numbers of directions are even, or that of rows one.
 std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid);
 
 /// A rectangle of hogels with all their directions: the unit of work.
