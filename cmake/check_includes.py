@@ -11,7 +11,7 @@ import sys
 
 THIRD_PARTY = {  # first part of the include path -> the modules whose .cpp files may name it
     "tbb": {"core"}, "fftw3.h": {"math"}, "OpenImageIO": {"image"}, "assimp": {"scene"}, "embree3": {"trace"},
-    "hdf5.h": {"io"}, "hwy": {"codec", "core", "hologram", "math", "optics", "render", "shading"}, "fmt": None,
+    "hdf5.h": {"io"}, "hwy": {"codec", "core", "direct", "hologram", "math", "optics", "render", "shading"}, "fmt": None,
     "gtest": None,
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

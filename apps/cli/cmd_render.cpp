@@ -98,7 +98,9 @@ int render(const Options& options, const Session& session) {
     const LightFieldGrid& front = grids.front();
     session.say(fmt::format("{}: {}x{} hogels of {}x{} directions{}, {}", options.output, front.hogels_s,
                             front.hogels_t, front.directions_u, front.directions_v,
-                            grids.size() == 1 ? "" : " and four sides",
+                            grids.size() == 1   ? ""
+                            : grids.size() == 3 ? " and two sides"
+                                                : " and four sides",
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
     return 0;
 }

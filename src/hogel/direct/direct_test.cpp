@@ -8,6 +8,7 @@
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/units.h"
+#include "hogel/direct/exact_sums_internal.h"
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
 #include "hogel/direct/scene_points_internal.h"
@@ -199,6 +200,26 @@ TEST(Fresnel, of_a_small_patch_is_the_sum_of_its_points_and_so_is_fraunhofer) {
         // √L λ/δ · δ²/(λ r): the sample's whole cell shines.
         EXPECT_NEAR(std::sqrt(energy / other), pitch, 0.01 * pitch);
     }
+}
+
+TEST(AddWave, twins_agree_with_and_without_a_normal_behind_and_before_the_hologram) {
+    const FieldGrid grid{{64, 64, 2_um, 3_um, 0, 0}, 633_nm};
+    const SampleRow row{-30_um, 12_um, 2_um};
+    std::array<bool, tile_side> hidden{};
+    hidden[3] = hidden[17] = true;
+    for (const double z : {-0.2_mm, 0.15_mm, -30_mm})
+        for (const Vec3 normal : {Vec3{}, normalize(Vec3{0.3, -0.2, 1})})
+            for (const bool* mask : {static_cast<const bool*>(nullptr), static_cast<const bool*>(hidden.data())}) {
+                const Vec3 at{5_um, -7_um, z};
+                const ScenePoint point{at, at, normal, 2, 0.3};
+                std::array<double, tile_side> re{}, im{}, fast_re{}, fast_im{};
+                add_wave_plain(point, grid, row, mask, re.data(), im.data());
+                add_wave(point, grid, row, mask, fast_re.data(), fast_im.data());
+                for (std::size_t i = 0; i < tile_side; ++i) {
+                    EXPECT_NEAR(re[i], fast_re[i], 1e-9 * 2 / std::abs(z)) << i << " " << z;
+                    EXPECT_NEAR(im[i], fast_im[i], 1e-9 * 2 / std::abs(z)) << i << " " << z;
+                }
+            }
 }
 
 // A field is cut into tiles for the threads; what they draw is keyed by the point, never by the order of work.

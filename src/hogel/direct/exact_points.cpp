@@ -1,35 +1,62 @@
 #include <cmath>
-#include <complex>
 #include <numbers>
 
-#include "hogel/direct/scene_points_internal.h"
+#include "hogel/direct/exact_sums_internal.h"
 
 namespace hogel {
 namespace {
 
-// The sum of the points' spherical waves sample by sample, over the points that the rule lets through.
-template <class Rule>
-Field sum_exactly(const std::vector<ScenePoint>& points, const FieldGrid& grid, const Progress& progress, Rule passes) {
-    return sum_over_samples(grid, progress, [&](Vec3 place) {
-        std::complex<double> sum = 0;
-        for (const ScenePoint& point : points) {
-            const auto ray = passage(point.position, place, grid);
-            if (!ray || !passes(point, place, ray->way)) continue;
-            const double turns = ray->path / grid.wavelength + point.turns;
-            sum += std::polar(modulus(point, *ray), 2 * std::numbers::pi * (turns - std::round(turns)));
-        }
-        return sum;
+// The sum of the points' spherical waves tile by tile; `add` takes a tile's sums and a point.
+template <class Add>
+Field sum_exactly(const std::vector<ScenePoint>& points, const FieldGrid& grid, const Progress& progress, Add add) {
+    return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
+        ExactSums sums(grid, region);
+        for (const ScenePoint& point : points)
+            if (sums.reached_from(point.position)) add(sums, point);
+        for (std::size_t row = 0; row < region.height; ++row)
+            for (std::size_t column = 0; column < region.width; ++column) values(row, column) = sums(row, column);
     });
 }
 
-bool always(const ScenePoint&, Vec3, Vec3) { return true; }
+void add_all(ExactSums& sums, const ScenePoint& point) { sums.add(point); }
 
 }  // namespace
+
+void add_wave_plain(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden,
+                    double* real, double* imaginary) {
+    for (std::size_t i = 0; i < tile_side; ++i) {
+        const auto ray = passage(point.position, {row.x + static_cast<double>(i) * row.pitch, row.y, 0}, grid);
+        if (!ray || (hidden && hidden[i])) continue;
+        const double turns = ray->path / grid.wavelength + point.turns;
+        const std::complex<double> wave =
+            std::polar(modulus(point, *ray), 2 * std::numbers::pi * (turns - std::round(turns)));
+        real[i] += wave.real();
+        imaginary[i] += wave.imag();
+    }
+}
+
+void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibility) {
+    std::array<Vec3, tile_side> ways;
+    std::array<bool, tile_side> hidden;
+    for (std::size_t row = 0; row < region_.height; ++row) {
+        const SampleRow places = row_of(row);
+        bool lit = false;
+        for (std::size_t i = 0; i < tile_side; ++i) {
+            const Passage ray =
+                unlimited_passage(point.position, {places.x + static_cast<double>(i) * places.pitch, places.y, 0});
+            ways[i] = ray.way;
+            lit = lit || !too_steep(ray, grid_);
+        }
+        if (!lit) continue;
+        visibility.hide(point.surface, ways, hidden);
+        add_wave(point, grid_, places, hidden.data(), real_[row].data(), imaginary_[row].data());
+    }
+}
 
 // [K] (3.5): everything shines through everything.
 Field exact_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
-    return sum_exactly(surface_points(scene, grid, options), grid, progress, always);
+    return sum_exactly(surface_points(scene, grid, options), grid, progress, add_all);
 }
 
 // [K] (3.6): a ray for each point and sample.
@@ -37,13 +64,13 @@ Field exact_visible_points(const ShadedScene& scene, const FieldGrid& grid, cons
                            const Progress& progress) {
     const Visibility visibility(scene);
     return sum_exactly(surface_points(scene, grid, options), grid, progress,
-                       [&](const ScenePoint& point, Vec3, Vec3 way) { return visibility.sees(point.surface, way); });
+                       [&](ExactSums& sums, const ScenePoint& point) { sums.add_visible(point, visibility); });
 }
 
 // Surfaces are given up for the points along their edges, which shine through everything. Source: Waters 1966.
 Field points_along_edges(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                          const Progress& progress) {
-    return sum_exactly(edge_points(scene, grid, options), grid, progress, always);
+    return sum_exactly(edge_points(scene, grid, options), grid, progress, add_all);
 }
 
 }  // namespace hogel

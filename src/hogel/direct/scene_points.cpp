@@ -126,23 +126,6 @@ std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& g
     return points;
 }
 
-Passage unlimited_passage(Vec3 point, Vec3 place) {
-    const Vec3 way = point.z < 0 ? place - point : point - place;
-    const double distance = length(way);
-    return {point.z < 0 ? distance : -distance, way / distance};
-}
-
-bool too_steep(const Passage& passage, const FieldGrid& grid) {
-    return std::abs(passage.way.x) * 2 * grid.plane.pitch_x > grid.wavelength ||
-           std::abs(passage.way.y) * 2 * grid.plane.pitch_y > grid.wavelength;
-}
-
-std::optional<Passage> passage(Vec3 point, Vec3 place, const FieldGrid& grid) {
-    const Passage passage = unlimited_passage(point, place);
-    if (too_steep(passage, grid)) return {};
-    return passage;
-}
-
 double modulus(const ScenePoint& point, const Passage& passage) {
     const double cosine = point.normal == Vec3{} ? 1 : std::abs(dot(point.normal, passage.way));
     return point.amplitude * std::sqrt(cosine) / std::abs(passage.path);
@@ -161,7 +144,7 @@ Visibility::Visibility(const ShadedScene& scene) : caster_(all_triangles(scene))
 
 Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
                      const std::function<void(const Region&, View<std::complex<float>, 2>)>& add) {
-    constexpr std::size_t side = 32;
+    constexpr std::size_t side = tile_side;
     validate(grid, ErrorCode::usage, "hologram");
     Field field(grid);
     const std::size_t across = (grid.plane.width + side - 1) / side, down = (grid.plane.height + side - 1) / side;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -48,10 +49,24 @@ struct Passage {
     Vec3 way;     ///< unit length, towards the viewer
 };
 
-/// Nothing where the light would be too steep for the hologram's pitch.
-Passage unlimited_passage(Vec3 point, Vec3 place);
-bool too_steep(const Passage& passage, const FieldGrid& grid);
-std::optional<Passage> passage(Vec3 point, Vec3 place, const FieldGrid& grid);
+inline Passage unlimited_passage(Vec3 point, Vec3 place) {
+    const Vec3 way = point.z < 0 ? place - point : point - place;
+    const double distance = length(way);
+    return {point.z < 0 ? distance : -distance, (1 / distance) * way};
+}
+
+/// Whether the light is too steep for the hologram's pitch.
+inline bool too_steep(const Passage& passage, const FieldGrid& grid) {
+    return std::abs(passage.way.x) * 2 * grid.plane.pitch_x > grid.wavelength ||
+           std::abs(passage.way.y) * 2 * grid.plane.pitch_y > grid.wavelength;
+}
+
+/// Nothing where it is.
+inline std::optional<Passage> passage(Vec3 point, Vec3 place, const FieldGrid& grid) {
+    const Passage passage = unlimited_passage(point, place);
+    if (too_steep(passage, grid)) return {};
+    return passage;
+}
 
 /// The modulus of a point's wave there.
 double modulus(const ScenePoint& point, const Passage& passage);
@@ -62,12 +77,19 @@ class Visibility {
     explicit Visibility(const ShadedScene& scene);
     /// Whether nothing lies between the point and a viewer far along the way.
     bool sees(Vec3 point, Vec3 way) const { return !caster_.occluded(point, way, margin_, far_); }
+    /// Which of many viewers does not.
+    void hide(Vec3 point, std::span<const Vec3> ways, std::span<bool> hidden) const {
+        caster_.occluded(point, ways, margin_, far_, hidden);
+    }
     const RayCaster& caster() const { return caster_; }
 
   private:
     RayCaster caster_;
     double margin_ = 0, far_ = 0;
 };
+
+/// The side of a tile of sum_over_tiles().
+inline constexpr std::size_t tile_side = 32;
 
 /// Sums what `add` says over all tiles of a field, on all threads: add(region, values of the region).
 Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,

@@ -3,13 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/direct/exact_sums_internal.h"
 #include "hogel/direct/scene_points_internal.h"
 #include "hogel/hologram/unit_roots.h"
 
 namespace hogel {
 namespace {
 
-constexpr std::size_t side = 32;           // of a tile
+constexpr std::size_t side = tile_side;
 constexpr double most_turns_wrong = 0.01;  // a quarter of a degree in the mean
 
 // How much of a tile a point's light reaches.
@@ -34,19 +35,18 @@ struct Chirp {
 class Tile {
   public:
     Tile(const UnitRoots& roots, const FieldGrid& grid, const Region& region)
-        : roots_(roots), grid_(grid), region_(region) {
-        const Grid cut = part(grid.plane, region);
-        middle_ = {cut.center_x, cut.center_y, 0};
-        reach_x_ = 0.5 * cut.size_x();
-        reach_y_ = 0.5 * cut.size_y();
-    }
+        : roots_(roots),
+          grid_(grid),
+          region_(region),
+          exact_(grid, region),
+          middle_(exact_.middle()),
+          reach_x_(exact_.reach_x()),
+          reach_y_(exact_.reach_y()) {}
     Vec3 middle() const { return middle_; }
 
     // By the tile's corners, and its place that is nearest to the point.
     Zone zone(Vec3 point) const {
-        const Vec3 nearest{std::clamp(point.x, middle_.x - reach_x_, middle_.x + reach_x_),
-                           std::clamp(point.y, middle_.y - reach_y_, middle_.y + reach_y_), 0};
-        if (!passage(point, nearest, grid_)) return Zone::dark;
+        if (!exact_.reached_from(point)) return Zone::dark;
         for (const double x : {-reach_x_, reach_x_})
             for (const double y : {-reach_y_, reach_y_})
                 if (!passage(point, middle_ + Vec3{x, y, 0}, grid_)) return Zone::edge;
@@ -81,28 +81,18 @@ class Tile {
     void write(View<std::complex<float>, 2> values) const {
         for (std::size_t row = 0; row < region_.height; ++row)
             for (std::size_t column = 0; column < region_.width; ++column)
-                values(row, column) = {real_[row][column], imaginary_[row][column]};
+                values(row, column) =
+                    std::complex<float>(real_[row][column], imaginary_[row][column]) + exact_(row, column);
     }
 
     // Sample by sample: a point too near for the expansion, or one that lights a part of the tile.
-    void add_exactly(const ScenePoint& point) {
-        for (std::size_t row = 0; row < region_.height; ++row)
-            for (std::size_t column = 0; column < region_.width; ++column) {
-                const Vec3 place{grid_.plane.x(static_cast<double>(region_.x0 + column)),
-                                 grid_.plane.y(static_cast<double>(region_.y0 + row)), 0};
-                const auto ray = passage(point.position, place, grid_);
-                if (!ray) continue;
-                const std::complex<float> wave =
-                    static_cast<float>(modulus(point, *ray)) * roots_(ray->path / grid_.wavelength + point.turns);
-                real_[row][column] += wave.real();
-                imaginary_[row][column] += wave.imag();
-            }
-    }
+    void add_exactly(const ScenePoint& point) { exact_.add(point); }
 
   private:
     const UnitRoots& roots_;
     const FieldGrid& grid_;
     Region region_;
+    ExactSums exact_;
     Vec3 middle_;
     double reach_x_, reach_y_;
     std::array<std::array<float, side>, side> real_{}, imaginary_{};

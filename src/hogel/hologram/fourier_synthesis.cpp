@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "hogel/hologram/direction_phases_internal.h"
+#include "hogel/hologram/fast_squares_internal.h"
 #include "hogel/hologram/hogel_synthesis_internal.h"
 
 namespace hogel {
@@ -18,15 +20,16 @@ class FourierSynthesis final : public HogelSynthesis {
           lines_(lines),
           fft_(frequencies_.rows(), frequencies_.columns()) {
         if (options.phases != Phases::random) directions_ = direction_phases(frequencies_, fft_, options);
+        if (lines == 0 && FastSquares::can(frequencies_.columns())) fast_.emplace(frequencies_.columns(), directions_);
     }
 
     std::size_t prepared_size() const override { return frequencies_.coefficients(); }
 
     void prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const override {
-        if (options_.average == Average::radiance) return frequencies_.amplitudes(radiances, prepared);
+        if (options_.average == Average::radiance) return prepare(radiances, false, prepared);
         Array<float, 2> roots(radiances.shape());
         for (std::size_t i = 0; i < roots.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
-        frequencies_.amplitudes_of_roots(roots, prepared);
+        prepare(roots, true, prepared);
     }
 
     // Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.
@@ -36,6 +39,9 @@ class FourierSynthesis final : public HogelSynthesis {
 
     void synthesise_to(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> room, Complex* to,
                        std::size_t to_row) const override {
+        if (fast_)
+            return fast_->synthesise(moduli, phase_series(options_, place.s, place.t, place.look), place.look, to,
+                                     to_row);
         if (lines_ == 0) return transform(moduli, place, room, to, to_row);
         // Lines do not know of each other.
         for (std::size_t line = 0; line < lines_; ++line)
@@ -44,6 +50,15 @@ class FourierSynthesis final : public HogelSynthesis {
     }
 
   private:
+    void prepare(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {
+        if (fast_)
+            fast_->prepare(frequencies_, values, of_roots, moduli);
+        else if (of_roots)
+            frequencies_.amplitudes_of_roots(values, moduli);
+        else
+            frequencies_.amplitudes(values, moduli);
+    }
+
     void transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values, Complex* to,
                    std::size_t to_row) const {
         if (directions_.empty()) {
@@ -68,7 +83,8 @@ class FourierSynthesis final : public HogelSynthesis {
     FrequencyGrid frequencies_;
     std::size_t lines_;
     Fft2 fft_;
-    DirectionPhases directions_;  // empty where every hogel has phases of its own
+    DirectionPhases directions_;       // empty where every hogel has phases of its own
+    std::optional<FastSquares> fast_;  // where a hogel's side is one of its own
 };
 
 }  // namespace
@@ -81,11 +97,10 @@ std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFiel
                                               0, options);
 }
 
-std::unique_ptr<HogelSynthesis> make_line_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                     std::size_t lines, const StereogramOptions& options) {
     return std::make_unique<FourierSynthesis>(
-        FrequencyGrid::of_line(light_field, samples, light_field.pitch / static_cast<double>(lines),
-                               options.wavelength),
+        FrequencyGrid::of_line(faces, samples, faces.front().pitch / static_cast<double>(lines), options.wavelength),
         lines, options);
 }
 

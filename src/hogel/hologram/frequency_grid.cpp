@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "hogel/hologram/lobes.h"
 
@@ -77,16 +78,21 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samp
     : FrequencyGrid(light_field, samples, samples, wavelength / light_field.pitch, wavelength, between) {}
 
 FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength)
-    : rows_(samples), columns_(samples), rays_(0), row_length_(0) {
+    : FrequencyGrid(faces, samples, samples, wavelength / faces.front().pitch, wavelength) {}
+
+FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns,
+                             double step_up, double wavelength)
+    : rows_(rows), columns_(columns), rays_(0), row_length_(0) {
     for (const LightFieldGrid& face : faces) rays_ += face.directions();
-    scattered_ = scatter_lobes(faces, samples, wavelength);
+    scattered_ = scatter_lobes(faces, columns, step_up, rows == 1, wavelength);
     bands_ = {{0, scattered_.lobes.size(), 0, rays_}};
     list_runs();
 }
 
-FrequencyGrid FrequencyGrid::of_line(const LightFieldGrid& light_field, std::size_t samples, double line_pitch,
+FrequencyGrid FrequencyGrid::of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                      double wavelength) {
-    return {light_field, 1, samples, wavelength / line_pitch, wavelength, Between::linear};
+    if (faces.size() > 1) return {faces, 1, samples, wavelength / line_pitch, wavelength};
+    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, Between::linear};
 }
 
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
@@ -168,25 +174,18 @@ void FrequencyGrid::list_bands() {
 }
 
 void FrequencyGrid::list_runs() {
-    std::vector<bool> lit(coefficients());
     for (Band& band : bands_) {
         band.run0 = runs_.size();
         for (std::size_t lobe = band.lobe0; lobe < band.lobe0 + band.lobes; ++lobe) {
-            const std::uint32_t at = coefficient(lobe);
-            lit[at] = true;
-            if (runs_.size() > band.run0 && runs_.back().coefficient + runs_.back().count == at)
+            const auto row = static_cast<std::uint32_t>(coefficient(lobe) / columns_),
+                       column = static_cast<std::uint32_t>(coefficient(lobe) % columns_);
+            if (runs_.size() > band.run0 && runs_.back().row == row &&
+                runs_.back().column + runs_.back().count == column)
                 ++runs_.back().count;
             else
-                runs_.push_back({at, 1});
+                runs_.push_back({static_cast<std::uint32_t>(lobe), row, column, 1});
         }
         band.runs = runs_.size() - band.run0;
-    }
-    for (std::uint32_t at = 0; at < lit.size(); ++at) {
-        if (lit[at]) continue;
-        if (!dark_.empty() && dark_.back().coefficient + dark_.back().count == at)
-            ++dark_.back().count;
-        else
-            dark_.push_back({at, 1});
     }
 }
 
@@ -212,35 +211,52 @@ void FrequencyGrid::amplitudes_of_roots(View<const float, 2> roots, View<float, 
     average(roots, true, moduli);
 }
 
-// Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
 void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {
-    std::size_t most_rays = 0, most_lobes = 0;
-    for (const Band& band : bands_) {
-        most_rays = std::max(most_rays, band.rays);
-        most_lobes = std::max(most_lobes, band.lobes);
-    }
-    thread_local Array<float, 1> room;
-    if (room.size() < (most_rays + most_lobes) * hogels_at_once)
-        room = Array<float, 1>({(most_rays + most_lobes) * hogels_at_once});
-    const View<float, 2> beside(room.data(), {most_rays, hogels_at_once}),
-        averages(room.data() + beside.size(), {most_lobes, hogels_at_once});
-    const std::size_t rays = values.extent(1), count = coefficients();
+    std::fill(moduli.elements().begin(), moduli.elements().end(), 0.0f);
+    Array<float, 2> line({columns_, hogels_at_once});
     for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
         const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
-        for (std::size_t h = 0; h < hogels; ++h)
-            for (const Run& run : dark_) std::fill_n(&moduli(first + h, run.coefficient), run.count, 0.0f);
-        for (const Band& band : bands_) {
-            transpose(&values(first, band.ray0), rays, hogels, band.rays, beside.data(), hogels_at_once);
-            if (lobes_.empty())
-                average_scattered(scattered_, beside, of_roots, averages);
-            else
-                average_lobes(std::span(lobes_).subspan(band.lobe0, band.lobes), weights_.data(), beside.data(),
-                              row_length_, of_roots, averages.data());
-            const float* from = averages.data();
-            for (const Run& run : std::span(runs_).subspan(band.run0, band.runs)) {
-                transpose(from, hogels_at_once, run.count, hogels, &moduli(first, run.coefficient), count);
-                from += run.count * hogels_at_once;
-            }
+        std::optional<std::size_t> complete;
+        const auto put_away = [&] {
+            if (complete)
+                transpose(line.data(), hogels_at_once, columns_, hogels, &moduli(first, *complete * columns_),
+                          coefficients());
+        };
+        amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, [&](std::size_t row) {
+            put_away();
+            complete = row;
+            return line.data();
+        });
+        put_away();
+    }
+}
+
+void FrequencyGrid::average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots,
+                                float* out) const {
+    if (lobes_.empty())
+        average_scattered(scattered_, lobe, count, beside, of_roots, out);
+    else
+        average_lobes(std::span(lobes_).subspan(lobe, count), weights_.data(), beside.data(), row_length_, of_roots,
+                      out);
+}
+
+// Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
+void FrequencyGrid::amplitudes_by_rows(View<const float, 2> values, bool of_roots, const PlaceOfRow& place) const {
+    std::size_t most_rays = 0;
+    for (const Band& band : bands_) most_rays = std::max(most_rays, band.rays);
+    thread_local Array<float, 1> room;
+    if (room.size() < most_rays * hogels_at_once) room = Array<float, 1>({most_rays * hogels_at_once});
+    const View<float, 2> beside(room.data(), {most_rays, hogels_at_once});
+    for (const Band& band : bands_) {
+        transpose(&values(0, band.ray0), rays_, values.extent(0), band.rays, beside.data(), hogels_at_once);
+        const std::span runs = std::span(runs_).subspan(band.run0, band.runs);
+        for (std::size_t first = 0, end = 0; first < runs.size(); first = end) {
+            std::size_t lit = 0;
+            for (end = first; end < runs.size() && runs[end].row == runs[first].row; ++end) lit += runs[end].count;
+            float* line = place(runs[first].row);
+            if (lit < columns_) std::fill_n(line, columns_ * hogels_at_once, 0.0f);
+            for (const Run& run : runs.subspan(first, end - first))
+                average_run(run.lobe, run.count, beside, of_roots, line + run.column * hogels_at_once);
         }
     }
 }

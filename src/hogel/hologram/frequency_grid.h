@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,9 @@ class FrequencyGrid {
 
     /// Of one line of a hologram with horizontal parallax only, whose light field has one row of directions:
     /// frequencies along x alone. A line takes the place of `line_pitch` in the amplitude: √(λ/d · λ/line_pitch), so
-    /// that lines whose phases do not know of each other have the same radiance in all directions up and down.
-    static FrequencyGrid of_line(const LightFieldGrid& light_field, std::size_t samples, double line_pitch,
+    /// that lines whose phases do not know of each other have the same radiance in all directions up and down. Of a
+    /// front alone, or with sides that have one row too.
+    static FrequencyGrid of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                  double wavelength);
 
     /// Turns the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a backward
@@ -46,6 +48,13 @@ class FrequencyGrid {
 
     /// The same for many hogels, radiances[hogel][v u] to moduli[hogel][j_y j_x], sixteen at once.
     void amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const;
+
+    /// Where a row of frequencies of sixteen hogels goes, [j_x mod n][hogel]. The row before is complete when the next
+    /// is asked for.
+    using PlaceOfRow = std::function<float*(std::size_t row)>;
+    /// The same for up to sixteen hogels row by row of those frequencies that carry light, which are neighbours but
+    /// once; hogels that do not exist have anything. Where `of_roots`, radiances are roots: see amplitudes_of_roots.
+    void amplitudes_by_rows(View<const float, 2> radiances, bool of_roots, const PlaceOfRow& place) const;
 
     /// From amplitudes √L instead of radiances, which are averaged as they are: λ/d · √(cos θ)/cos θ times the lobe's
     /// mean of √L. A linear map, which basis fringes need; darker than amplitudes() where the radiance varies in a
@@ -69,17 +78,20 @@ class FrequencyGrid {
   private:
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
                   double wavelength, Between between);
+    FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns, double step_up,
+                  double wavelength);
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
+    void average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots, float* out) const;
 
-    // Lobes one after the other with what they need of the light field, few enough for the nearer caches.
+    // Whole rows of lobes one after the other with what they need of the light field, few enough for the nearer caches.
     struct Band {
         std::size_t lobe0 = 0, lobes = 0;
         std::size_t ray0 = 0, rays = 0;
         std::size_t run0 = 0, runs = 0;
     };
-    // Coefficients side by side.
+    // Lobes of coefficients side by side in a row.
     struct Run {
-        std::uint32_t coefficient, count;
+        std::uint32_t lobe, row, column, count;
     };
     void list_bands();
     void list_runs();
@@ -95,7 +107,6 @@ class FrequencyGrid {
     std::vector<float> weights_;
     std::vector<Band> bands_;
     std::vector<Run> runs_;  // of the lobes of each band, in their order
-    std::vector<Run> dark_;  // coefficients without a lobe
 };
 
 /// Whether a light field's directions are those of the hogels' Fourier transform at this wavelength.

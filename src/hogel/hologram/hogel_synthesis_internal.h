@@ -44,7 +44,7 @@ std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFiel
                                                        const StereogramOptions& options);
 
 /// The same with horizontal parallax only: each of a hogel's lines for itself, by one FFT along it, [K] (3.23).
-std::unique_ptr<HogelSynthesis> make_line_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                     std::size_t lines, const StereogramOptions& options);
 
 /// What a synthesis gets as the values of a light field's rays.

@@ -228,6 +228,51 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
     EXPECT_NEAR(seen(0, above, 0).y, 0, 6_um);
 }
 
+// A ball beyond the front's edge, on a side of a hemisquare: where geometry says across, at its own height up and down,
+// and as wide as what a hogel diffracts.
+TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
+    const LightFieldGrid grid{16, 12, 36_um, 64, 1, 1, 0.1, 1};
+    for (const double side : {1.0, -1.0}) {
+        const double angle = side * 50_deg;
+        const Vec3 ball{2_mm * std::sin(angle), 72_um, 2_mm * std::cos(angle)};
+        const Hemicube light(grid, [&](Vec3 hogel, Vec3 way) {
+            const Vec3 to = ball - hogel, flat{to.x, 0, to.z};
+            const double along = dot(flat, way) / dot(way, way);
+            return along > 0 && length(flat - along * way) < 90_um && std::abs(to.y) < 90_um ? 1.0 : 0.0;
+        });
+        ASSERT_EQ(light.faces.size(), 3u);
+        StereogramOptions options;
+        options.pitch = 0.36_um;
+        options.line_pitch = 4_um;
+        options.looks = 4;
+        const auto hologram = make_stereogram(light.sources, options);
+        Camera camera;
+        camera.eye = {-100_mm * std::sin(angle), 0, 100_mm * std::cos(angle)};
+        camera.pupil = 3_mm;
+        camera.focus_depth = ball.z;
+        camera.picture = {48, 36, 12_um, 12_um, 0, 0};
+        const Spot seen = spot_of(photograph(*hologram, std::span(&camera, 1))[0], camera.picture);
+        const double way = camera.eye.z / (camera.eye.z + ball.z);
+        EXPECT_NEAR(seen.x, camera.eye.x + way * (ball.x - camera.eye.x), 20_um);
+        EXPECT_NEAR(seen.y, ball.y, 12_um);
+        const double wide = 2 * 90_um / std::cos(angle) / std::sqrt(12.0);
+        EXPECT_NEAR(seen.wide, wide, 0.35 * wide);
+    }
+    const Hemicube even(grid, [](Vec3, Vec3) { return 0.5; });
+    StereogramOptions options;
+    options.pitch = 0.36_um;
+    options.line_pitch = 4_um;
+    options.looks = 6;
+    const auto hologram = make_stereogram(even.sources, options);
+    for (const double angle : {0_deg, 45_deg, -55_deg}) {
+        Camera camera;
+        camera.eye = {100_mm * std::sin(angle), 0, 100_mm * std::cos(angle)};
+        camera.pupil = 3_mm;
+        camera.picture = {10, 10, 36_um, 36_um, 0, 0};
+        EXPECT_NEAR(mean_of(photograph(*hologram, std::span(&camera, 1))[0]), 0.5, 0.04) << angle;
+    }
+}
+
 TEST(HorizontalParallax, is_as_bright_as_the_light_field_says_whatever_the_distance_of_lines) {
     const LightFieldGrid grid{8, 8, 160_um, 30, 1, 0.12, 0.01, 1};
     const LightField light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
@@ -335,6 +380,8 @@ TEST(StereogramOfAnyKind, refuses_what_cannot_be_with_what_would_do) {
     options.pitch = 3_um;
     options.line_pitch = 9_um;
     expect_usage(only, options, "8x1 directions would do");
+    const Hemicube whole({2, 2, 36_um, 8, 8, 1, 1, 1}, light);
+    expect_usage(whole.sources, options, "8x1 directions would do");
     options.phases = Phases::added;
     expect_usage(only, options, "random, fixed or designed phases");
 

@@ -9,43 +9,41 @@
 #include <hwy/highway.h>
 
 #include "hogel/hologram/lobes.h"
+#include "hogel/hologram/turn_lanes_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The mean over one lobe for as many hogels as a vector holds. Most lobes have the same few directions across, which
-// the compiler then knows; 0: any number.
-template <std::uint32_t across, class D>
-HWY_INLINE hn::Vec<D> Mean(D d, const FrequencyGrid::Lobe& lobe, const float* u, const float* rays,
-                           std::size_t row_length) {
-    const std::uint32_t nu = across > 0 ? across : lobe.nu;
-    const float* v = u + lobe.nu;
-    auto sum = hn::Zero(d);
-    for (std::uint32_t l = 0; l < lobe.nv; ++l) {
-        const float* row = rays + l * row_length * hogels_at_once;
-        auto line = hn::Mul(hn::Set(d, u[0]), hn::LoadU(d, row));
-        for (std::uint32_t k = 1; k < nu; ++k)
-            line = hn::MulAdd(hn::Set(d, u[k]), hn::LoadU(d, row + k * hogels_at_once), line);
-        sum = hn::MulAdd(hn::Set(d, v[l]), line, sum);
-    }
+// The mean over one lobe for as many hogels as a vector holds; `across` and `down` are its directions.
+template <class D>
+HWY_INLINE hn::Vec<D> Mean(D d, std::uint32_t across, std::uint32_t down, const float* u, const float* v,
+                           const float* rays, std::size_t row) {
+    const auto line = [&](const float* from) {
+        auto sum = hn::Mul(hn::Set(d, u[0]), hn::LoadU(d, from));
+        for (std::uint32_t k = 1; k < across; ++k)
+            sum = hn::MulAdd(hn::Set(d, u[k]), hn::LoadU(d, from + k * hogels_at_once), sum);
+        return sum;
+    };
+    auto sum = hn::Mul(hn::Set(d, v[0]), line(rays));
+    for (std::uint32_t l = 1; l < down; ++l) sum = hn::MulAdd(hn::Set(d, v[l]), line(rays + l * row), sum);
     return sum;
 }
 
-void AverageLobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
-                  std::size_t row_length, bool of_roots, float* out) {
+// All lobes have as many directions, most often few, and then the compiler knows how many; 0: any number.
+template <std::uint32_t side>
+void Average(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
+             std::size_t row_length, bool of_roots, float* out) {
     const hn::CappedTag<float, hogels_at_once> d;
-    const std::size_t lanes = hn::Lanes(d);
+    const std::size_t row = row_length * hogels_at_once;
     for (const FrequencyGrid::Lobe& lobe : lobes) {
-        const float* u = weights + lobe.weights;
-        const float* first = rays + (lobe.v0 * row_length + lobe.u0) * hogels_at_once;
+        const std::uint32_t across = side > 0 ? side : lobe.nu, down = side > 0 ? side : lobe.nv;
+        const float *u = weights + lobe.weights, *v = u + across;
+        const float* first = rays + lobe.v0 * row + lobe.u0 * hogels_at_once;
         const auto scale = hn::Set(d, lobe.scale);
-        for (std::size_t i = 0; i < hogels_at_once; i += lanes) {
-            const auto sum = lobe.nu == 3   ? Mean<3>(d, lobe, u, first + i, row_length)
-                             : lobe.nu == 2 ? Mean<2>(d, lobe, u, first + i, row_length)
-                             : lobe.nu == 1 ? Mean<1>(d, lobe, u, first + i, row_length)
-                                            : Mean<0>(d, lobe, u, first + i, row_length);
+        for (std::size_t i = 0; i < hogels_at_once; i += hn::Lanes(d)) {
+            const auto sum = Mean(d, across, down, u, v, first + i, row);
             hn::StoreU(of_roots ? hn::Mul(sum, hn::Sqrt(scale)) : hn::Sqrt(hn::Mul(hn::Max(sum, hn::Zero(d)), scale)),
                        d, out + i);
         }
@@ -53,54 +51,40 @@ void AverageLobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weigh
     }
 }
 
+void AverageLobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
+                  std::size_t row_length, bool of_roots, float* out) {
+    const std::uint32_t side = lobes.empty() ? 0 : lobes.front().nu;
+    const bool square =
+        std::ranges::all_of(lobes, [&](const auto& lobe) { return lobe.nu == side && lobe.nv == side; });
+    const auto average = !square     ? Average<0>
+                         : side == 1 ? Average<1>
+                         : side == 2 ? Average<2>
+                         : side == 3 ? Average<3>
+                         : side == 4 ? Average<4>
+                                     : Average<0>;
+    average(lobes, weights, rays, row_length, of_roots, out);
+}
+
 void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
                std::size_t to_row) {
 #if HWY_TARGET == HWY_SCALAR
     transpose_plain(from, from_row, rows, columns, to, to_row);
 #else
-    const hn::FixedTag<float, 4> quad;
-    // Four rows of four columns each, or of several such pieces side by side.
-    const auto turn = [&](auto d, auto a, auto b, auto c, auto e, float* out) {
-        const auto ac = hn::InterleaveLower(d, a, c), be = hn::InterleaveLower(d, b, e);
-        const auto ac_upper = hn::InterleaveUpper(d, a, c), be_upper = hn::InterleaveUpper(d, b, e);
-        hn::StoreU(hn::InterleaveLower(d, ac, be), d, out);
-        hn::StoreU(hn::InterleaveUpper(d, ac, be), d, out + to_row);
-        hn::StoreU(hn::InterleaveLower(d, ac_upper, be_upper), d, out + 2 * to_row);
-        hn::StoreU(hn::InterleaveUpper(d, ac_upper, be_upper), d, out + 3 * to_row);
-    };
     const auto four = [&](const float* in, float* out) {
-        const auto a = hn::LoadU(quad, in), b = hn::LoadU(quad, in + from_row);
-        const auto c = hn::LoadU(quad, in + 2 * from_row), e = hn::LoadU(quad, in + 3 * from_row);
-        turn(quad, a, b, c, e, out);
+        turn_four(in, in + from_row, in + 2 * from_row, in + 3 * from_row, out, out + to_row, out + 2 * to_row,
+                  out + 3 * to_row);
     };
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-    // Sixteen rows at once: their pieces of four columns become whole vectors of a column.
-    const auto sixteen = [&](const float* in, float* out) {
-        const hn::FixedTag<float, 8> eight;
-        const hn::CappedTag<float, 16> d;
-        const auto pieces = [&](std::size_t row) {
-            const auto pair = [&](std::size_t first) {
-                return hn::Combine(eight, hn::LoadU(quad, in + (first + 4) * from_row),
-                                   hn::LoadU(quad, in + first * from_row));
-            };
-            return hn::Combine(d, pair(row + 8), pair(row));
-        };
-        const auto a = pieces(0), b = pieces(1), c = pieces(2), e = pieces(3);
-        turn(d, a, b, c, e, out);
-    };
-#endif
     // In squares of sixteen, along the lines that lie farther apart: whole cache lines of those are done with at once,
     // which at distances of powers of two would not stay in the cache until they are needed again.
     const std::size_t whole_rows = rows / 4 * 4, whole_columns = columns / 4 * 4;
     for (std::size_t row = 0; row < whole_rows; row += 16)
         for (std::size_t column = 0; column < whole_columns; column += 16) {
             const std::size_t end_row = std::min(row + 16, whole_rows), end = std::min(column + 16, whole_columns);
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-            if (end_row == row + 16) {
-                for (std::size_t c = column; c < end; c += 4) sixteen(from + row * from_row + c, to + c * to_row + row);
+            if (end_row == row + 16 && end == column + 16) {
+                turn_sixteen([&](std::size_t i) { return from + (row + i) * from_row + column; }, 16,
+                             [&](std::size_t j) { return to + (column + j) * to_row + row; });
                 continue;
             }
-#endif
             if (from_row >= to_row) {
                 for (std::size_t r = row; r < end_row; r += 4)
                     for (std::size_t c = column; c < end; c += 4) four(from + r * from_row + c, to + c * to_row + r);

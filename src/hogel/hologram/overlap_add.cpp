@@ -3,11 +3,12 @@
 #include <numbers>
 #include <optional>
 
-#include "hogel/core/random.h"
 #include "hogel/core/reused.h"
 #include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/hologram/point_turns_internal.h"
 #include "hogel/hologram/unit_roots.h"
 #include "hogel/hologram/window_batch_internal.h"
+#include "hogel/hologram/window_brightness_internal.h"
 #include "hogel/math/fft.h"
 
 namespace hogel {
@@ -25,6 +26,14 @@ std::size_t window_side(const LightFieldGrid& light_field, const FieldGrid& grid
     return side * hop;
 }
 
+std::vector<float> hann_window(std::size_t side) {
+    std::vector<float> window;
+    for (std::size_t i = 0; i < side; ++i)
+        window.push_back(static_cast<float>(
+            std::pow(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(side)), 2)));
+    return window;
+}
+
 std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
 
 // The stereogram whose hogels are windows that overlap: a Hann window around each hogel's centre, filled by one Fourier
@@ -40,17 +49,14 @@ class OverlapAdd final : public FieldSource {
           grid_(grid),
           hop_(grid.plane.width / light_field.grid().hogels_s),
           side_(window_side(light_field.grid(), grid, hop_)),
-          fft_(side_, side_) {
-        for (std::size_t i = 0; i < side_; ++i)
-            window_.push_back(static_cast<float>(
-                std::pow(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(side_)), 2)));
+          fft_(side_, side_),
+          window_(hann_window(side_)),
+          brightness_(light_field.grid(), grid, hop_, window_) {
         for (const float row : window_)
             for (const float column : window_) square_.push_back(row * column);
         hogels_a_metre_ = 1 / light_field.grid().pitch;
         waves_a_metre_ = 1 / grid.wavelength;
         list_directions();
-        list_brightness();
-        steps_a_metre_ = 1 / depth_step_;
         batches_ = !one_by_one && side_ <= WindowBatch::largest_side && !directions_.empty();
     }
 
@@ -71,8 +77,6 @@ class OverlapAdd final : public FieldSource {
 
   private:
     static constexpr std::size_t band_rays = std::size_t{1} << 18;
-
-    class PointTurns;
 
     // What a region is made in.
     struct Room {
@@ -101,7 +105,7 @@ class OverlapAdd final : public FieldSource {
         std::fill(out.data(), out.data() + out.size(), Complex(0));
         Array<Complex, 2> window({side_, side_});
         std::optional<PointTurns> points;
-        if (options_.phases == Phases::random) points.emplace(*this, hogels.s0, hogels.t0, hogels.ns, hogels.nt, look);
+        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             const HogelRange& range = tile.range;
             for (std::size_t j = 0; j < range.nt; ++j)
@@ -124,8 +128,8 @@ class OverlapAdd final : public FieldSource {
         hogels.s0 = hogels.s0 / together * together;
         hogels.ns = end - hogels.s0;
         if (!room.batch) {
-            WindowBatch::Shared shared{side_, hop_, &directions_, &brightness_, &window_};
-            shared.steps_a_metre = steps_a_metre_;
+            WindowBatch::Shared shared{side_, hop_, &directions_, &brightness_.values(), &window_};
+            shared.steps_a_metre = brightness_.steps_a_metre();
             shared.hogels_a_metre = hogels_a_metre_;
             shared.waves_a_metre = waves_a_metre_;
             shared.pitch = light_field_.grid().pitch;
@@ -145,7 +149,7 @@ class OverlapAdd final : public FieldSource {
                 std::fill_n(part->data(), size, 0.0f);
         }
         std::optional<PointTurns> points;
-        if (options_.phases == Phases::random) points.emplace(*this, hogels.s0, hogels.t0, hogels.ns, hogels.nt, look);
+        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             for (std::size_t j = 0; j < tile.range.nt; ++j)
                 for (std::size_t i = 0; i < tile.range.ns; i += together)
@@ -169,7 +173,8 @@ class OverlapAdd final : public FieldSource {
                     turns[k] = static_cast<float>((*points)(static_cast<std::int64_t>(s + k) + columns[k],
                                                             static_cast<std::int64_t>(t) - rows[k]));
             };
-        const WindowBatch::At at{s, t, series(look), key()};
+        const TurnSeries turns = turn_series(look);
+        const WindowBatch::At at{s, t, turns.series, turns.key};
         const std::size_t count = std::min(WindowBatch::hogels, tile.range.ns - i);
         if (room.batch->fill(at, &tile.radiance(options_.channel, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
                              light_field_.grid().directions(), turns_of_points))
@@ -205,115 +210,6 @@ class OverlapAdd final : public FieldSource {
             }
     }
 
-    // Near the plane the windows that show one point overlap and interfere, far from it they lie apart. One point's
-    // windows are added up here, in one dimension, to find what makes points of all depths as bright as the light field
-    // says in the middle of the fan of directions: the energy that its rays carry there (docs/notation.md, section 3).
-    void list_brightness() {
-        const LightFieldGrid& rays = light_field_.grid();
-        const double extent = static_cast<double>(side_) * grid_.plane.pitch_x;
-        depth_step_ = 1.25 * extent * extent / grid_.wavelength / (brightness_steps - 1);
-        const double widest = std::max(rays.tan_half_u, rays.tan_half_v);
-        const double farthest = widest * depth_step_ * (brightness_steps - 1) / grid_.plane.pitch_x;
-        const Fft2 spectrum(1, good_fft_size(4 * side_ + 4 * static_cast<std::size_t>(farthest)));
-        for (std::size_t i = 0; i < brightness_steps; ++i) {
-            const double depth = depth_step_ * static_cast<double>(i);
-            const auto slant = [](double other) { return std::sqrt(1 + other * other); };
-            const Fan across{rays.center_u, rays.tan_half_u, slant(rays.center_v)},
-                down{rays.center_v, rays.tan_half_v, slant(rays.center_u)};
-            const double u = one_dimension(depth, across, spectrum);
-            const double v = down == across ? u : one_dimension(depth, down, spectrum);
-            brightness_.push_back(static_cast<float>(u * v));
-        }
-    }
-
-    // Directions along one axis: the middle and half of their range of U or V, and how much longer the way to the
-    // surface is because the fan points aside along the other axis.
-    struct Fan {
-        double center, half, slant;
-        friend bool operator==(const Fan&, const Fan&) = default;
-    };
-
-    double one_dimension(double depth, const Fan& fan, const Fft2& fft) const {
-        const double pitch = grid_.plane.pitch_x, step = grid_.wavelength / (static_cast<double>(side_) * pitch);
-        const double hop = static_cast<double>(hop_) * pitch;
-        Array<Complex, 2> sum({1, fft.width()});
-        const auto length = static_cast<std::ptrdiff_t>(fft.width());
-        const auto reach = static_cast<std::ptrdiff_t>((side_ - 1) / 2);
-        // Counted from the fan's middle, so that a fan to one side does not reach farther than one straight ahead.
-        const double middle_hops = std::round(-fan.center * depth / hop);
-        double lit = 0, middle = 0;
-        for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
-            const double sine = step * static_cast<double>(j);
-            if (std::abs(sine) >= 1) continue;
-            const double U = -sine * fan.slant / std::sqrt(1 - sine * sine);
-            if (std::abs(U - fan.center) > fan.half) continue;
-            lit += 1;
-            middle += static_cast<double>(j);
-            const double hops = std::round(-U * depth / hop), path = std::hypot(depth * fan.slant, hops * hop) - depth;
-            const auto first =
-                static_cast<std::ptrdiff_t>(hops - middle_hops) * static_cast<std::ptrdiff_t>(hop_) + length;
-            for (std::size_t p = 0; p < side_; ++p) {
-                const double x = static_cast<double>(p) - 0.5 * static_cast<double>(side_ - 1);
-                const double turns = static_cast<double>(j) * x / static_cast<double>(side_) + path / grid_.wavelength;
-                sum.data()[(first + static_cast<std::ptrdiff_t>(p)) % length] +=
-                    Complex(std::polar<double>(window_[p], 2 * std::numbers::pi * turns));
-            }
-        }
-        fft.forward(sum);
-        if (lit == 0) return 0;
-        // The fan reaches up to lit/2 of the window's frequencies on either side of its middle, which counts most.
-        middle *= static_cast<double>(length) / (lit * static_cast<double>(side_));
-        const double half = 0.5 * lit * static_cast<double>(length) / static_cast<double>(side_);
-        double energy = 0, expected = 0;
-        for (std::ptrdiff_t f = -length / 2; f < length / 2; ++f) {
-            const double away = static_cast<double>(f) - middle;
-            if (std::abs(away) >= half) continue;
-            const double weight = std::pow(std::cos(0.5 * std::numbers::pi * away / half), 2);
-            energy += weight * std::norm(sum.data()[(f + length) % length]) / static_cast<double>(length);
-            expected += weight * static_cast<double>(hop_ * side_) / static_cast<double>(length);
-        }
-        return energy > 0 ? std::sqrt(expected / energy) : 0;
-    }
-
-    float brightness(double depth) const {
-        const double at = std::min(std::abs(depth) * steps_a_metre_, static_cast<double>(brightness_steps - 1));
-        const auto below = std::min(static_cast<std::size_t>(at), brightness_steps - 2);
-        const auto rest = static_cast<float>(at - static_cast<double>(below));
-        return (1 - rest) * brightness_[below] + rest * brightness_[below + 1];
-    }
-
-    // The phases of the surface's points around the hogels that a region needs: each is seen by many hogels.
-    class PointTurns {
-      public:
-        PointTurns(const OverlapAdd& hologram, std::size_t s0, std::size_t t0, std::size_t ns, std::size_t nt,
-                   std::size_t look)
-            : hologram_(hologram),
-              look_(look),
-              column0_(static_cast<std::int64_t>(s0) - margin),
-              row0_(static_cast<std::int64_t>(t0) - margin),
-              turns_({nt + 2 * margin, ns + 2 * margin}) {
-            for (std::size_t row = 0; row < turns_.extent(0); ++row)
-                for (std::size_t column = 0; column < turns_.extent(1); ++column)
-                    turns_(row, column) =
-                        draw(column0_ + static_cast<std::int64_t>(column), row0_ + static_cast<std::int64_t>(row));
-        }
-        double operator()(std::int64_t column, std::int64_t row) const {
-            const auto x = static_cast<std::size_t>(column - column0_), y = static_cast<std::size_t>(row - row0_);
-            return x < turns_.extent(1) && y < turns_.extent(0) ? turns_(y, x) : draw(column, row);
-        }
-
-      private:
-        static constexpr std::int64_t margin = 32;
-        double draw(std::int64_t column, std::int64_t row) const {
-            return hologram_.random_turns(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), 0,
-                                          look_);
-        }
-        const OverlapAdd& hologram_;
-        std::size_t look_;
-        std::int64_t column0_, row0_;
-        Array<double, 2> turns_;
-    };
-
     void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
               const PointTurns* points, View<Complex, 2> window) const {
         std::fill(window.data(), window.data() + window.size(), Complex(0));
@@ -325,27 +221,24 @@ class OverlapAdd final : public FieldSource {
             float amplitude = std::sqrt(light);
             if (std::isfinite(depth)) {
                 turns += points ? turns_of_point(direction, depth, place, *points) : depth * direction.turns_per_depth;
-                amplitude *= brightness(depth);
+                amplitude *= brightness_(depth);
             } else {
                 turns += turns_of_nothing(direction, place);
-                amplitude *= brightness_.back();
+                amplitude *= brightness_.farthest();
             }
             window.data()[direction.coefficient] = amplitude * roots_(turns);
         }
     }
 
-    double random_turns(std::uint32_t column, std::uint32_t row, std::uint32_t direction, std::size_t look) const {
-        return philox({column, row, direction, series(look)}, key())[0] / 4294967296.0;
-    }
-    std::uint32_t series(std::size_t look) const { return static_cast<std::uint32_t>(look * 4 + options_.channel); }
-    std::array<std::uint32_t, 2> key() const {
-        return {static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)};
+    TurnSeries turn_series(std::size_t look) const {
+        return {{static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)},
+                static_cast<std::uint32_t>(look * 4 + options_.channel)};
     }
 
     // Nothing is a surface far away, of which neighbouring windows see different points.
     double turns_of_nothing(const WindowDirection& direction, const HogelPlace& place) const {
-        return random_turns(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
-                            direction.coefficient + 1, place.look);
+        return turn_series(place.look)(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
+                                       direction.coefficient + 1);
     }
 
     // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
@@ -389,20 +282,18 @@ class OverlapAdd final : public FieldSource {
         }
     }
 
-    static constexpr std::size_t brightness_steps = 256;
-
     const LightFieldSource& light_field_;
     StereogramOptions options_;
     FieldGrid grid_;
     std::size_t hop_, side_;  // samples of a hogel's and a window's side
     Fft2 fft_;
     UnitRoots roots_;
-    std::vector<float> window_, square_;  // along a line, and [q][p] as a product of two
+    std::vector<float> window_;  // along a line
+    WindowBrightness brightness_;
+    std::vector<float> square_;  // [q][p], a product of two
     std::vector<WindowDirection> directions_;
-    std::vector<float> brightness_;  // by |ζ| in steps of depth_step_, the last for all beyond
-    double depth_step_ = 0;
     // What every ray would have to divide by.
-    double hogels_a_metre_ = 0, waves_a_metre_ = 0, steps_a_metre_ = 0;
+    double hogels_a_metre_ = 0, waves_a_metre_ = 0;
     bool batches_ = false;  // windows of many hogels at once
     mutable Reused<Room> rooms_;
 };

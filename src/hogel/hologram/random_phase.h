@@ -15,8 +15,16 @@ struct PhaseSeries {
 
 /// values[i] = moduli[i] · e^{2πi b_i/256}, where b_i is byte i mod 16 of Philox's draw number i/16: a phase of its own
 /// for every coefficient, the same in whatever order hogels are made. 256 equal steps are as good as a continuum: the
-/// first 255 circular moments vanish exactly, and speckle depends on the first few alone.
+/// first 255 circular moments vanish exactly, and speckle depends on the first few alone. The first value may belong to
+/// a later draw.
 void spread_random_phases(const PhaseSeries& series, std::span<const float> moduli,
-                          std::span<std::complex<float>> values);
+                          std::span<std::complex<float>> values, std::uint32_t first_draw = 0);
+
+/// e^{2πi b/256} with parts in arrays of their own: of all bytes, and of those of which one half is zero.
+struct PhaseRoots {
+    alignas(64) float re[256], im[256];
+    alignas(64) float upper_re[16], upper_im[16], lower_re[16], lower_im[16];
+};
+const PhaseRoots& phase_roots();
 
 }  // namespace hogel

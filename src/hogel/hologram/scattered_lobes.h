@@ -24,9 +24,14 @@ struct ScatteredLobes {
     std::vector<float> weights;
 };
 
-ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
+/// @param step_up  the height of a cell as a direction sine; of a line of frequencies its factor in the scale
+/// @param line     frequencies along x alone, of faces with one row of directions
+ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
+                             double wavelength);
 
-/// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]), or where the values are roots already √scale · Σ.
-void average_scattered(const ScatteredLobes& lobes, View<const float, 2> values, bool of_roots, View<float, 2> out);
+/// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) of `count` lobes from number `first` on, or where the
+/// values are roots already √scale · Σ.
+void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size_t count, View<const float, 2> values,
+                       bool of_roots, float* out);
 
 }  // namespace hogel

@@ -52,7 +52,7 @@ class Stereogram final : public FieldSource {
         for (const LightFieldSource* face : faces) rays_ += face->grid().directions();
         synthesis_ = options.method == Method::basis ? make_basis_synthesis(front(), columns_, options, values)
                      : by_ray(options)               ? make_phase_added_synthesis(front(), columns_, options)
-                     : options.line_pitch > 0        ? make_line_synthesis(front(), columns_, rows_, options)
+                     : options.line_pitch > 0        ? make_line_synthesis(grids_of(faces), columns_, rows_, options)
                                                      : make_fourier_synthesis(grids_of(faces), columns_, options);
     }
 
@@ -71,14 +71,20 @@ class Stereogram final : public FieldSource {
             write(prepare(hogels)->values, hogels, 0, look, region, room->square, out);
             return;
         }
-        read_rays(hogels, room->rays);
+        const View<const float, 5> whole = rays_in_memory(hogels);
+        if (whole.size() == 0) read_rays(hogels, room->rays);
         // What one look alone needs stays in the cache, a few hogels at a time.
         const std::size_t values = synthesis_->prepared_size();
         if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
         for (std::size_t first = 0; first < hogels.hogels(); first += hogels_together) {
             const View<float, 2> some(room->prepared.data(),
                                       {std::min(hogels_together, hogels.hogels() - first), values});
-            prepare(room->rays, first, some);
+            if (whole.size() > 0)
+                synthesis_->prepare(
+                    {&whole(options_.channel, hogels.t0, hogels.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {},
+                    some);
+            else
+                prepare(room->rays, first, some);
             write(some, hogels, first, look, region, room->square, out);
         }
     }
@@ -94,6 +100,12 @@ class Stereogram final : public FieldSource {
         Array<float, 2> prepared;          // [hogels_together][...]
         Array<Complex, 2> square;          // a hogel
     };
+
+    // All rays where they lie, if they need not be read: in memory, and those of the hogels one after the other.
+    View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
+        if (faces_.size() > 1 || needs_depth(options_) || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
+        return faces_.front()->in_memory();
+    }
 
     void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles) const {
         tiles.resize(faces_.size());
@@ -213,17 +225,23 @@ void require_diffraction(const LightFieldGrid& light_field, const StereogramOpti
 }
 
 // How many lines a hogel holds of a hologram with horizontal parallax only.
-std::size_t lines_per_hogel(const LightFieldGrid& light_field, const StereogramOptions& options) {
+std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const StereogramOptions& options) {
     if (options.method != Method::fourier || by_ray(options))
         throw Error(ErrorCode::usage,
                     "lines of a hologram with horizontal parallax only know nothing of each other; expected the method "
                     "fourier with random, fixed or designed phases");
-    if (light_field.directions_v != 1)
-        throw Error(ErrorCode::usage,
-                    fmt::format("a hologram with horizontal parallax only is made of one row of directions, but the "
-                                "light field has {}; {}x1 directions would do",
-                                light_field.directions_v, light_field.directions_u));
-    return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / options.line_pitch)));
+    for (const LightFieldGrid& face : faces) {
+        if (face.directions_v != 1)
+            throw Error(ErrorCode::usage,
+                        fmt::format("a hologram with horizontal parallax only is made of one row of directions, but "
+                                    "the light field has {}; {}x1 directions would do",
+                                    face.directions_v, face.directions_u));
+        if (face.face == Face::top || face.face == Face::bottom)
+            throw Error(ErrorCode::usage, fmt::format("a hologram with horizontal parallax only has no use for the {} "
+                                                      "face; front, left and right would do",
+                                                      name(face.face)));
+    }
+    return static_cast<std::size_t>(std::max(1.0, std::round(faces.front().pitch / options.line_pitch)));
 }
 
 }  // namespace
@@ -255,7 +273,7 @@ FieldGrid stereogram_grid(std::span<const LightFieldGrid> faces, const Stereogra
     if (options.method == Method::basis && (by_ray(options) || options.phases == Phases::random))
         throw Error(ErrorCode::usage,
                     "basis fringes are the same in all hogels, so their phases are fixed or designed");
-    const bool front_alone = options.method != Method::fourier || by_ray(options) || options.line_pitch > 0;
+    const bool front_alone = options.method != Method::fourier || by_ray(options);
     if (faces.size() > 1 && front_alone)
         throw Error(ErrorCode::usage,
                     "of a hemicube's sides only the method fourier knows, with random, fixed or designed phases; "
@@ -264,7 +282,7 @@ FieldGrid stereogram_grid(std::span<const LightFieldGrid> faces, const Stereogra
     const std::size_t n = samples_per_hogel(front, options);
     const double pitch = front.pitch / static_cast<double>(n);
     if (faces.size() == 1) require_diffraction(front, options, pitch);
-    const std::size_t rows = options.line_pitch > 0 ? lines_per_hogel(front, options) : n;
+    const std::size_t rows = options.line_pitch > 0 ? lines_per_hogel(faces, options) : n;
     if (by_ray(options)) require_enough_directions(front, options);
     FieldGrid grid;
     grid.plane = {front.hogels_s * n, front.hogels_t * rows, pitch, front.pitch / static_cast<double>(rows), 0, 0};

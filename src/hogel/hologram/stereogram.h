@@ -48,8 +48,8 @@ struct StereogramOptions {
     double tolerance = 0;
     /// Method fourier without added phases: the hologram has horizontal parallax only, [K] 3.5 and (3.23). It consists
     /// of lines this far apart, metres, rounded so that a hogel holds whole lines; 0: it has both parallaxes. The light
-    /// field then has one row of directions, and every line shows it in all directions up and down that the lines'
-    /// distance diffracts to.
+    /// field then has one row of directions, on its sides left and right too where it has them, and every line shows it
+    /// in all directions up and down that the lines' distance diffracts to.
     double line_pitch = 0;
 };
 

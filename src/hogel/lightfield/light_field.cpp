@@ -115,15 +115,18 @@ bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b) {
 }
 
 std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid) {
-    if (grid.directions_u % 2 != 0 || grid.directions_v % 2 != 0)
+    const bool square = grid.directions_v == 1;
+    if (grid.directions_u % 2 != 0 || (grid.directions_v % 2 != 0 && !square))
         throw Error(ErrorCode::usage, fmt::format("a hemicube needs even numbers of directions, not {}x{}",
                                                   grid.directions_u, grid.directions_v));
     std::vector<LightFieldGrid> faces;
     for (const Face face : all_faces) {
+        if (square && (face == Face::top || face == Face::bottom)) continue;
         LightFieldGrid& g = faces.emplace_back(grid);
         g.face = face;
         g.center_u = g.center_v = 0;
-        g.tan_half_u = g.tan_half_v = 1;
+        g.tan_half_u = 1;
+        if (!square) g.tan_half_v = 1;
         if (face == Face::left || face == Face::right) {
             g.directions_u /= 2;
             g.tan_half_u = 0.5;

@@ -64,7 +64,8 @@ bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
 
 /// The five faces of a hemicube around the hogels of `grid`, front first: all directions with ζ > 0, the front |U|, |V|
 /// <= 1 with the directions of `grid`, the sides with as many along the front's edges and half as many away from it.
-/// Throws Error(usage) unless the numbers of directions are even.
+/// Of one row of directions a hemisquare, for horizontal parallax only: the front and its sides left and right, each
+/// with the row V = 0. Throws Error(usage) unless the numbers of directions are even, or that of rows one.
 std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid);
 
 /// A rectangle of hogels with all their directions: the unit of work.
@@ -106,6 +107,8 @@ class LightFieldSource {
     virtual bool has_depth() const { return false; }
     /// The size of tile (s0 = t0 = 0) that this source reads at the least cost per hogel; any other works too.
     virtual HogelRange preferred_tile() const { return default_tile(grid()); }
+    /// All radiances where they lie, [c][t][s][v][u], if they are whole in memory; otherwise no elements.
+    virtual View<const float, 5> in_memory() const { return {}; }
     /// Fills the tile's radiance for tile.range, and its depth where the tile has room for it and has_depth().
     virtual void read(LightFieldTile& tile) const = 0;
 };
@@ -129,6 +132,7 @@ class LightField final : public LightFieldSource, public LightFieldSink {
     explicit LightField(const LightFieldGrid& grid, bool with_depth = false);
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return depth.size() > 0; }
+    View<const float, 5> in_memory() const override { return radiance.view(); }
     void read(LightFieldTile& tile) const override;
     void write(const LightFieldTile& tile) override;
     bool wants_depth() const override { return has_depth(); }

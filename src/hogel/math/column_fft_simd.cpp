@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 
 // Compiled for every instruction set and chosen when first called. Its plain twin is FFTW.
 #undef HWY_TARGET_INCLUDE
@@ -7,8 +8,10 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 #include "hogel/core/array.h"
-#include "hogel/math/column_fft_internal.h"
+#include "hogel/math/column_fft.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
@@ -18,93 +21,161 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 bool HasVectors() { return false; }
 void TransformColumns(const ColumnFft::Plan&, bool, const float*, std::size_t, float*, std::size_t, std::size_t) {}
+void TransformApart(const ColumnFft::Plan&, float*) {}
+void TransformSquare(const ColumnFft::Plan&, const float*, float*, std::size_t, std::size_t) {}
 #else
 bool HasVectors() { return true; }
 
-// Vectors hold numbers with their two parts side by side.
-using D = hn::CappedTag<float, 2 * ColumnFft::together>;
+constexpr std::size_t together = ColumnFft::together;
+using D = hn::CappedTag<float, together>;
 using V = hn::Vec<D>;
 
-HWY_INLINE V Times(D d, V x, const ColumnFft::Factor& factor) {
-    return hn::MulAdd(hn::Reverse2(d, x), hn::LoadDup128(d, factor.im), hn::Mul(x, hn::LoadDup128(d, factor.re)));
-}
-
-struct Four {
-    V a, b, c, d;
+// As many numbers as a vector has lanes.
+struct Numbers {
+    V re, im;
 };
 
-// @param quarter  i backward and −i forward, as a factor's im
-HWY_INLINE Four Butterfly(D d, const Four& x, V quarter) {
-    const V sum_ac = hn::Add(x.a, x.c), difference_ac = hn::Sub(x.a, x.c);
-    const V sum_bd = hn::Add(x.b, x.d), turned = hn::Mul(hn::Reverse2(d, hn::Sub(x.b, x.d)), quarter);
-    return {hn::Add(sum_ac, sum_bd), hn::Add(difference_ac, turned), hn::Sub(sum_ac, sum_bd),
-            hn::Sub(difference_ac, turned)};
+HWY_INLINE Numbers operator+(const Numbers& a, const Numbers& b) { return {hn::Add(a.re, b.re), hn::Add(a.im, b.im)}; }
+HWY_INLINE Numbers operator-(const Numbers& a, const Numbers& b) { return {hn::Sub(a.re, b.re), hn::Sub(a.im, b.im)}; }
+HWY_INLINE Numbers Times(D d, const Numbers& x, const ColumnFft::Factor& factor) {
+    const V re = hn::Set(d, factor.re), im = hn::Set(d, factor.im);
+    return {hn::NegMulAdd(x.im, im, hn::Mul(x.re, re)), hn::MulAdd(x.im, re, hn::Mul(x.re, im))};
 }
 
-// One block of columns. The first step reads them where they are, the last one writes them where they go.
-void TransformBlock(const ColumnFft::Plan& plan, bool forward, const float* from, std::size_t from_row, float* to,
-                    std::size_t to_row, std::size_t floats, float* room) {
-    const D d;
-    const std::size_t lanes = hn::Lanes(d), n = plan.length;
-    HWY_ALIGN const float turns[2][4] = {{-1, 1, -1, 1}, {1, -1, 1, -1}};
-    const V quarter = hn::LoadDup128(d, turns[forward ? 1 : 0]);
-    const ColumnFft::Factor* factors = plan.factors[forward ? 1 : 0].data();
-    const float* in = from;
-    std::size_t in_row = from_row;
-    std::size_t length = n;
-    for (; length > 4; length /= 4) {
-        const std::size_t part = length / 4;
-        for (std::size_t group = 0; group < n; group += length)
-            for (std::size_t j = 0; j < part; ++j) {
-                const ColumnFft::Factor* w = factors + 3 * j;
-                const float* x = in + (group + j) * in_row;
-                float* y = room + (group + j) * floats;
-                for (std::size_t i = 0; i < floats; i += lanes) {
-                    const Four four =
-                        Butterfly(d,
-                                  {hn::LoadU(d, x + i), hn::LoadU(d, x + part * in_row + i),
-                                   hn::LoadU(d, x + 2 * part * in_row + i), hn::LoadU(d, x + 3 * part * in_row + i)},
-                                  quarter);
-                    hn::Store(four.a, d, y + i);
-                    hn::Store(Times(d, four.b, w[0]), d, y + part * floats + i);
-                    hn::Store(Times(d, four.c, w[1]), d, y + 2 * part * floats + i);
-                    hn::Store(Times(d, four.d, w[2]), d, y + 3 * part * floats + i);
-                }
-            }
-        factors += 3 * part;
-        in = room;
-        in_row = floats;
+// How a row of columns lies in memory: the parts of a number side by side, or the parts of all numbers.
+struct Beside {
+    static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
+        Numbers x;
+        hn::LoadInterleaved2(d, row + 2 * i, x.re, x.im);
+        return x;
     }
-    const auto put = [&](V value, std::size_t place, std::size_t i) {
-        hn::StoreU(value, d, to + plan.order[place] * to_row + i);
+    static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
+        hn::StoreInterleaved2(x.re, x.im, d, row + 2 * i);
+    }
+};
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+// Beside each other, whole cache lines past the caches. What is written to a large array is not read again soon, and
+// would first be fetched.
+struct Streamed {
+    static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
+        alignas(64) static constexpr std::int32_t order[] = {0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15};
+        const auto places = hn::SetTableIndices(d, order);
+        const V lower = hn::InterleaveLower(d, x.re, x.im), upper = hn::InterleaveUpper(d, x.re, x.im);
+        hn::Stream(hn::TableLookupLanes(hn::ConcatLowerLower(d, upper, lower), places), d, row + 2 * i);
+        hn::Stream(hn::TableLookupLanes(hn::ConcatUpperUpper(d, upper, lower), places), d, row + 2 * i + together);
+    }
+};
+#else
+using Streamed = Beside;
+#endif
+struct Apart {
+    static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
+        return {hn::Load(d, row + i), hn::Load(d, row + together + i)};
+    }
+    static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
+        hn::Store(x.re, d, row + i);
+        hn::Store(x.im, d, row + together + i);
+    }
+};
+
+struct Four {
+    Numbers a, b, c, d;
+};
+
+// Four rows and the sums of them with the powers of i, or of −i if forward.
+template <bool forward, class Layout>
+HWY_INLINE Four Butterfly(D d, const float* rows, std::size_t apart, std::size_t i) {
+    const Numbers a = Layout::Load(d, rows, i), b = Layout::Load(d, rows + apart, i),
+                  c = Layout::Load(d, rows + 2 * apart, i), e = Layout::Load(d, rows + 3 * apart, i);
+    const Numbers sum_ac = a + c, difference_ac = a - c, sum_be = b + e, difference_be = b - e;
+    const Numbers plus{hn::Sub(difference_ac.re, difference_be.im), hn::Add(difference_ac.im, difference_be.re)};
+    const Numbers minus{hn::Add(difference_ac.re, difference_be.im), hn::Sub(difference_ac.im, difference_be.re)};
+    return {sum_ac + sum_be, forward ? minus : plus, sum_ac - sum_be, forward ? plus : minus};
+}
+
+constexpr std::size_t room_row = 2 * together;
+
+// A step by four of all groups of rows.
+template <bool forward, class Layout>
+HWY_INLINE void Step(const ColumnFft::Plan& plan, std::size_t length, const ColumnFft::Factor* factors, const float* in,
+                     std::size_t in_row, float* room) {
+    const D d;
+    const std::size_t part = length / 4;
+    for (std::size_t group = 0; group < plan.length; group += length)
+        for (std::size_t j = 0; j < part; ++j) {
+            const ColumnFft::Factor* w = factors + 3 * j;
+            float* y = room + (group + j) * room_row;
+            for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
+                const Four four = Butterfly<forward, Layout>(d, in + (group + j) * in_row, part * in_row, i);
+                Apart::Store(d, four.a, y, i);
+                Apart::Store(d, Times(d, four.b, w[0]), y + part * room_row, i);
+                Apart::Store(d, Times(d, four.c, w[1]), y + 2 * part * room_row, i);
+                Apart::Store(d, Times(d, four.d, w[2]), y + 3 * part * room_row, i);
+            }
+        }
+}
+
+// The first step reads the columns where they are, the last one writes them where they go.
+template <bool forward, class From, class To>
+void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t from_row, float* to, std::size_t to_row,
+                    float* room) {
+    const D d;
+    const ColumnFft::Factor* factors = plan.factors[forward ? 1 : 0].data();
+    std::size_t length = plan.length;
+    Step<forward, From>(plan, length, factors, from, from_row, room);
+    for (factors += 3 * (length / 4), length /= 4; length > 4; factors += 3 * (length / 4), length /= 4)
+        Step<forward, Apart>(plan, length, factors, room, room_row, room);
+    const auto put = [&](const Numbers& x, std::size_t place, std::size_t i) {
+        To::Store(d, x, to + plan.order[place] * to_row, i);
     };
-    for (std::size_t row = 0; row < n; row += length)
-        for (std::size_t i = 0; i < floats; i += lanes) {
-            const float* x = room + row * floats + i;
+    for (std::size_t row = 0; row < plan.length; row += length)
+        for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
+            const float* x = room + row * room_row;
             if (length == 4) {
-                const Four four = Butterfly(
-                    d,
-                    {hn::Load(d, x), hn::Load(d, x + floats), hn::Load(d, x + 2 * floats), hn::Load(d, x + 3 * floats)},
-                    quarter);
+                const Four four = Butterfly<forward, Apart>(d, x, room_row, i);
                 put(four.a, row, i);
                 put(four.b, row + 1, i);
                 put(four.c, row + 2, i);
                 put(four.d, row + 3, i);
             } else {
-                const V a = hn::Load(d, x), b = hn::Load(d, x + floats);
-                put(hn::Add(a, b), row, i);
-                put(hn::Sub(a, b), row + 1, i);
+                const Numbers a = Apart::Load(d, x, i), b = Apart::Load(d, x + room_row, i);
+                put(a + b, row, i);
+                put(a - b, row + 1, i);
             }
         }
 }
 
+float* RoomFor(const ColumnFft::Plan& plan) {
+    thread_local Array<float, 1> room;
+    if (room.size() < plan.length * room_row) room = Array<float, 1>({plan.length * room_row});
+    return room.data();
+}
+
 void TransformColumns(const ColumnFft::Plan& plan, bool forward, const float* from, std::size_t from_row, float* to,
                       std::size_t to_row, std::size_t floats) {
-    const std::size_t block = plan.length > 128 ? 2 * ColumnFft::together : 4 * ColumnFft::together;
-    thread_local Array<float, 1> room;
-    if (room.size() < plan.length * block) room = Array<float, 1>({plan.length * block});
-    for (std::size_t i = 0; i < floats; i += block)
-        TransformBlock(plan, forward, from + i, from_row, to + i, to_row, std::min(block, floats - i), room.data());
+    float* room = RoomFor(plan);
+    for (std::size_t i = 0; i < floats; i += room_row)
+        if (forward)
+            TransformBlock<true, Beside, Beside>(plan, from + i, from_row, to + i, to_row, room);
+        else
+            TransformBlock<false, Beside, Beside>(plan, from + i, from_row, to + i, to_row, room);
+}
+
+void TransformApart(const ColumnFft::Plan& plan, float* columns) {
+    TransformBlock<false, Apart, Apart>(plan, columns, room_row, columns, room_row, RoomFor(plan));
+}
+
+void TransformSquare(const ColumnFft::Plan& plan, const float* from, float* to, std::size_t to_row,
+                     std::size_t floats) {
+    float* room = RoomFor(plan);
+    const bool lines = (reinterpret_cast<std::uintptr_t>(to) | to_row * sizeof(float)) % 64 == 0;
+    const bool streamed = lines && to_row > floats;
+    for (std::size_t i = 0; i < floats; i += room_row, from += plan.length * room_row)
+        if (streamed)
+            TransformBlock<false, Apart, Streamed>(plan, from, room_row, to + i, to_row, room);
+        else
+            TransformBlock<false, Apart, Beside>(plan, from, room_row, to + i, to_row, room);
+    if (streamed) hwy::FlushStream();
 }
 #endif
 
@@ -121,15 +192,16 @@ namespace hogel {
 namespace {
 
 ColumnFft::Factor factor_of(double turns) {
-    const auto re = static_cast<float>(std::cos(2 * std::numbers::pi * turns));
-    const auto im = static_cast<float>(std::sin(2 * std::numbers::pi * turns));
-    return {{re, re, re, re}, {-im, im, -im, im}};
+    return {static_cast<float>(std::cos(2 * std::numbers::pi * turns)),
+            static_cast<float>(std::sin(2 * std::numbers::pi * turns))};
 }
 
 }  // namespace
 
 HWY_EXPORT(HasVectors);
 HWY_EXPORT(TransformColumns);
+HWY_EXPORT(TransformApart);
+HWY_EXPORT(TransformSquare);
 
 bool ColumnFft::can(std::size_t length, std::size_t columns) {
     return length >= shortest && std::has_single_bit(length) && columns > 0 && columns % together == 0 &&
@@ -163,6 +235,13 @@ void ColumnFft::transform(bool forward, const std::complex<float>* from, std::si
     HWY_DYNAMIC_DISPATCH(TransformColumns)
     (plan_, forward, reinterpret_cast<const float*>(from), 2 * from_row, reinterpret_cast<float*>(to), 2 * to_row,
      2 * columns);
+}
+
+void ColumnFft::backward_apart(float* columns) const { HWY_DYNAMIC_DISPATCH(TransformApart)(plan_, columns); }
+
+void ColumnFft::backward_apart(const float* from, std::complex<float>* to, std::size_t to_row,
+                               std::size_t columns) const {
+    HWY_DYNAMIC_DISPATCH(TransformSquare)(plan_, from, reinterpret_cast<float*>(to), 2 * to_row, 2 * columns);
 }
 
 }  // namespace hogel

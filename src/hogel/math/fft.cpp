@@ -11,7 +11,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/math/column_fft_internal.h"
+#include "hogel/math/column_fft.h"
 
 namespace hogel {
 namespace {

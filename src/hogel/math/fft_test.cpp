@@ -7,7 +7,7 @@
 #include <random>
 
 #include "hogel/core/error.h"
-#include "hogel/math/column_fft_internal.h"
+#include "hogel/math/column_fft.h"
 
 namespace hogel {
 namespace {
@@ -86,6 +86,34 @@ TEST(ColumnFft, is_the_sum_of_waves_for_every_length_and_either_way) {
     }
     EXPECT_FALSE(ColumnFft::can(48, 32));
     EXPECT_FALSE(ColumnFft::can(64, 24));
+}
+
+// The same numbers with their parts apart, in place and to rows of an array, beside one that has room for them alone.
+TEST(ColumnFft, does_the_same_where_parts_lie_apart) {
+    const std::size_t length = 32, columns = 32;
+    if (!ColumnFft::can(length, columns)) GTEST_SKIP() << "without vectors there is nothing to test";
+    const Array<Complex, 2> from = noise(length, columns);
+    Array<float, 4> apart({columns / 16, length, 2, 16});
+    for (std::size_t r = 0; r < length; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            apart(c / 16, r, 0, c % 16) = from(r, c).real();
+            apart(c / 16, r, 1, c % 16) = from(r, c).imag();
+        }
+    const ColumnFft fft(length);
+    Array<Complex, 2> expected({length, columns});
+    fft.transform(false, from.data(), columns, expected.data(), columns, columns);
+    for (const std::size_t row : {columns, columns + 8, columns + 3}) {
+        Array<Complex, 2> to({length, row}, Complex(7, 7));
+        fft.backward_apart(apart.data(), to.data(), row, columns);
+        for (std::size_t r = 0; r < length; ++r) {
+            for (std::size_t c = 0; c < columns; ++c) ASSERT_EQ(to(r, c), expected(r, c)) << row;
+            for (std::size_t c = columns; c < row; ++c) ASSERT_EQ(to(r, c), Complex(7, 7)) << row;
+        }
+    }
+    fft.backward_apart(&apart(1, 0, 0, 0));
+    for (std::size_t r = 0; r < length; ++r)
+        for (std::size_t c = 0; c < 16; ++c)
+            ASSERT_EQ(Complex(apart(1, r, 0, c), apart(1, r, 1, c)), expected(r, 16 + c));
 }
 
 TEST(Fft2, puts_the_result_elsewhere) {

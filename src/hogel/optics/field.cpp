@@ -26,6 +26,11 @@ std::size_t aligned_side(std::size_t alignment) {
     return std::max(region_side / alignment, std::size_t{1}) * alignment;
 }
 
+// As many rows of a multiple of `alignment` as have about as many samples.
+std::size_t aligned_rows(std::size_t alignment, std::size_t width) {
+    return std::max(region_side * region_side / (alignment * width), std::size_t{1}) * alignment;
+}
+
 }  // namespace
 
 void validate(const FieldGrid& grid, ErrorCode code, const std::string& what) {
@@ -78,17 +83,23 @@ void Field::write(const Region& region, View<const std::complex<float>, 2> value
 void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Progress& progress) {
     const Grid& plane = source.grid().plane;
     const std::size_t side = aligned_side(source.alignment());
-    const std::size_t across = (plane.width + side - 1) / side;
-    const std::size_t down = (plane.height + side - 1) / side;
+    // Whole rows lie one after the other in memory, as a region's do, so a region of them can be read in place.
+    const View<std::complex<float>, 2> whole = sink.in_memory();
+    const bool in_place = whole.size() > 0;
+    const std::size_t width = in_place ? plane.width : side,
+                      height = in_place ? aligned_rows(source.alignment(), plane.width) : side;
+    const std::size_t across = (plane.width + width - 1) / width, down = (plane.height + height - 1) / height;
     Reused<Array<std::complex<float>, 1>> rooms;
     std::mutex reporting;
     std::size_t done = 0;
     report(progress, 0);
     parallel_for(across * down, [&](std::size_t i) {
-        Region region{(i % across) * side, (i / across) * side, side, side};
+        Region region{(i % across) * width, (i / across) * height, width, height};
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);
-        if (!sink.has_already(region)) {
+        if (in_place) {
+            source.read(region, look, {&whole(region.y0, 0), {region.height, region.width}});
+        } else if (!sink.has_already(region)) {
             auto room = rooms.take();
             if (room->size() < region.samples()) *room = Array<std::complex<float>, 1>({region.samples()});
             const View<std::complex<float>, 2> values(room->data(), {region.height, region.width});

@@ -44,6 +44,9 @@ class FieldSink {
   public:
     virtual ~FieldSink() = default;
     virtual void write(const Region& region, View<const std::complex<float>, 2> values) = 0;
+    /// All samples where they lie, [y][x], if the field is whole in memory: they may be put there instead of written.
+    /// Otherwise no elements.
+    virtual View<std::complex<float>, 2> in_memory() { return {}; }
     /// Whether the sink goes on with earlier work in which this very region was written; then it counts as written now.
     virtual bool has_already(const Region&) { return false; }
     /// Called once after the last region; a file appears under its own name only now.
@@ -57,6 +60,7 @@ class Field final : public FieldSource, public FieldSink {
     const FieldGrid& grid() const override { return grid_; }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;
     void write(const Region& region, View<const std::complex<float>, 2> values) override;
+    View<std::complex<float>, 2> in_memory() override { return samples; }
 
     Array<std::complex<float>, 2> samples;  ///< [y][x]
 

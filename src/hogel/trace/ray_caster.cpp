@@ -223,4 +223,40 @@ bool RayCaster::occluded(Vec3 origin, Vec3 direction, double near, double far) c
     return ray.tfar < 0;
 }
 
+void RayCaster::occluded(Vec3 origin, std::span<const Vec3> directions, double near, double far,
+                         std::span<bool> hidden) const {
+    std::ranges::fill(hidden, false);
+    if (!device_->scene) return;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    // From within the ball around the scene every ray begins at once, and has left it after its diameter.
+    const Vec3 from_center = origin - device_->center;
+    const double end = std::min(far, 2 * device_->radius), scale = device_->scale;
+    if (dot(from_center, from_center) > device_->radius * device_->radius || !(near < end)) {
+        for (std::size_t i = 0; i < hidden.size(); ++i) hidden[i] = occluded(origin, directions[i], near, far);
+        return;
+    }
+    const Vec3 start = scale * from_center;
+    for (std::size_t first = 0; first < hidden.size(); first += packet) {
+        const std::size_t n = std::min(packet, hidden.size() - first);
+        alignas(64) RTCRay16 rays{};
+        alignas(64) std::array<int, packet> valid{};
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 way = directions[first + i], place = start + scale * near * way;
+            rays.org_x[i] = static_cast<float>(place.x);
+            rays.org_y[i] = static_cast<float>(place.y);
+            rays.org_z[i] = static_cast<float>(place.z);
+            rays.dir_x[i] = static_cast<float>(way.x);
+            rays.dir_y[i] = static_cast<float>(way.y);
+            rays.dir_z[i] = static_cast<float>(way.z);
+            rays.tfar[i] = static_cast<float>(scale * (end - near));
+            rays.mask[i] = ~0u;
+            valid[i] = -1;
+        }
+        rtcOccluded16(valid.data(), device_->scene, &context, &rays);
+        for (std::size_t i = 0; i < n; ++i) hidden[first + i] = rays.tfar[i] < 0;
+    }
+}
+
 }  // namespace hogel

@@ -34,6 +34,8 @@ class RayCaster {
                  std::span<RayHit> hits) const;
     /// Whether anything lies on origin + distance · direction for distance in [near, far].
     bool occluded(Vec3 origin, Vec3 direction, double near, double far) const;
+    /// The same for many rays that start at one place, with directions of unit length: `hidden` gets one answer a ray.
+    void occluded(Vec3 origin, std::span<const Vec3> directions, double near, double far, std::span<bool> hidden) const;
 
   private:
     struct Device;

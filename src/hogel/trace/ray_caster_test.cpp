@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include "hogel/core/error.h"
@@ -104,6 +105,25 @@ TEST(RayCaster, finds_what_brute_force_finds) { compare_with_brute_force(random_
 TEST(RayCaster, keeps_its_accuracy_for_centimetre_scenes_far_from_the_origin) {
     const Vec3 center{0.3, -0.2, 5};
     compare_with_brute_force(random_soup(200, center, 5e-3), center, 5e-3);
+}
+
+TEST(RayCaster, answers_for_many_rays_from_one_place_as_for_each) {
+    const Soup soup = random_soup(200, {}, 1);
+    const RayCaster caster(soup.positions, soup.triangles);
+    Numbers numbers(5);
+    std::vector<Vec3> ways(101);
+    for (Vec3& way : ways) way = normalize(Vec3{numbers(-1, 1), numbers(-1, 1), numbers(-1, 1)});
+    const auto hidden = std::make_unique<bool[]>(ways.size());
+    std::size_t hits = 0;
+    for (const Vec3 origin : {Vec3{0, 0, 0}, Vec3{0.5, 2, 3}}) {
+        caster.occluded(origin, ways, 0.1, 2, {hidden.get(), ways.size()});
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            EXPECT_EQ(hidden[i], caster.occluded(origin, ways[i], 0.1, 2)) << i;
+            hits += hidden[i];
+        }
+    }
+    EXPECT_GT(hits, 20u);
+    EXPECT_LT(hits, 2 * ways.size() - 20);
 }
 
 TEST(RayCaster, both_sides_are_hit_and_the_range_is_kept) {

@@ -8,15 +8,16 @@
 namespace hogel {
 
 /// Transforms of columns whose length is a power of two, a vector of neighbouring columns at a time: nothing is ever
-/// shuffled but the two parts of a number. Decimation in frequency by fours, with a last step by two where the length
-/// is no power of four, on a copy of some columns that fits into the nearest cache.
+/// shuffled but the two parts of a number, where they do not lie apart already. Decimation in frequency by fours, with
+/// a last step by two where the length is no power of four, on a copy of some columns that fits into the nearest cache.
+/// Not normalised, like Fft2.
 class ColumnFft {
   public:
     static constexpr std::size_t shortest = 8;
-    /// Columns of numbers are taken together up to this many; a multiple of it leaves none over.
+    /// Columns are taken this many together; parts that lie apart are as many real ones followed by the imaginary ones.
     static constexpr std::size_t together = 16;
 
-    /// Whether this processor has vectors for it and the length is one of those.
+    /// Whether this processor has vectors for it, the length is one of those, and no columns are left over.
     static bool can(std::size_t length, std::size_t columns);
 
     explicit ColumnFft(std::size_t length);
@@ -26,10 +27,16 @@ class ColumnFft {
     void transform(bool forward, const std::complex<float>* from, std::size_t from_row, std::complex<float>* to,
                    std::size_t to_row, std::size_t columns) const;
 
-    // A factor as vectors multiply with it: x·re + swapped x·im.
+    /// Sums with e^{+2πi jm/n} down sixteen columns whose parts lie apart, in place: [row][part][column], at a multiple
+    /// of a cache line.
+    void backward_apart(float* columns) const;
+
+    /// The same down many columns [column/16][row][part][column mod 16], whose results lie like those of transform().
+    /// Where rows begin at cache lines and are part of a larger array, results pass by the caches.
+    void backward_apart(const float* from, std::complex<float>* to, std::size_t to_row, std::size_t columns) const;
+
     struct Factor {
-        alignas(16) float re[4];
-        float im[4];  // −, +, −, +
+        float re, im;
     };
     struct Plan {
         std::size_t length;

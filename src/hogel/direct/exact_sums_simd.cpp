@@ -1,0 +1,103 @@
+// The vector twin of add_wave_plain, compiled for every instruction set and chosen when first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/direct/exact_sums_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include <numbers>
+
+#include "hogel/direct/exact_sums_internal.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
+             double* imaginary) {
+    add_wave_plain(point, grid, row, hidden, real, imaginary);
+}
+#else
+using D = hn::CappedTag<double, tile_side>;
+using V = hn::Vec<D>;
+
+// Sine and cosine up to an eighth of a turn, by their series.
+HWY_INLINE V Sine(D d, V angle, V square) {
+    V sum = hn::Set(d, 1.0 / 6227020800);
+    for (const double term : {-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6})
+        sum = hn::MulAdd(sum, square, hn::Set(d, term));
+    return hn::MulAdd(hn::Mul(sum, square), angle, angle);
+}
+HWY_INLINE V Cosine(D d, V square) {
+    V sum = hn::Set(d, -1.0 / 87178291200);
+    for (const double term : {1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720, 1.0 / 24, -0.5, 1.0})
+        sum = hn::MulAdd(sum, square, hn::Set(d, term));
+    return sum;
+}
+
+void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
+             double* imaginary) {
+    const D d;
+    // The light's way is from the point to the sample, or the other way round in front of the hologram.
+    const double towards = point.position.z < 0 ? 1 : -1;
+    const double dy = row.y - point.position.y, dz = -point.position.z;
+    const V flat = hn::Set(d, dy * dy + dz * dz);
+    const bool everywhere = point.normal == Vec3{};
+    for (std::size_t i = 0; i < tile_side; i += hn::Lanes(d)) {
+        const V number = hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(i)));
+        const V dx = hn::MulAdd(number, hn::Set(d, row.pitch), hn::Set(d, row.x - point.position.x));
+        const V distance = hn::Sqrt(hn::MulAdd(dx, dx, flat));
+        const V inverse = hn::Div(hn::Set(d, 1.0), distance);
+        // No steeper than |sin| = λ/2Δ, in x and in y.
+        const auto lit = hn::And(
+            hn::Le(hn::Mul(hn::Abs(dx), hn::Set(d, 2 * grid.plane.pitch_x)),
+                   hn::Mul(distance, hn::Set(d, grid.wavelength))),
+            hn::Le(hn::Set(d, std::abs(dy) * 2 * grid.plane.pitch_y), hn::Mul(distance, hn::Set(d, grid.wavelength))));
+        if (hn::AllFalse(d, lit)) continue;
+        V modulus = hn::Mul(hn::Set(d, static_cast<double>(point.amplitude)), inverse);
+        if (!everywhere) {
+            const V along =
+                hn::MulAdd(dx, hn::Set(d, point.normal.x), hn::Set(d, dy * point.normal.y + dz * point.normal.z));
+            modulus = hn::Mul(modulus, hn::Sqrt(hn::Mul(hn::Abs(along), inverse)));
+        }
+        modulus = hn::IfThenElseZero(lit, modulus);
+        if (hidden) {
+            HWY_ALIGN double seen[tile_side];
+            for (std::size_t j = 0; j < hn::Lanes(d); ++j) seen[j] = hidden[i + j] ? 0 : 1;
+            modulus = hn::Mul(modulus, hn::Load(d, seen));
+        }
+        const V all = hn::MulAdd(distance, hn::Set(d, towards / grid.wavelength), hn::Set(d, point.turns));
+        const V turns = hn::Sub(all, hn::Round(all));
+        const V quarters = hn::Round(hn::Mul(turns, hn::Set(d, 4.0)));
+        const V angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25), turns), hn::Set(d, 2 * std::numbers::pi));
+        const V square = hn::Mul(angle, angle);
+        const V sine = hn::Mul(modulus, Sine(d, angle, square)), cosine = hn::Mul(modulus, Cosine(d, square));
+        // Turned by −2 to 2 quarters: an even number changes both signs or none, an odd one changes places too.
+        const V size = hn::Abs(quarters), even = hn::Sub(hn::Set(d, 1.0), size);
+        const auto odd = hn::Eq(size, hn::Set(d, 1.0));
+        const V re = hn::IfThenElse(odd, hn::Neg(hn::Mul(quarters, sine)), hn::Mul(even, cosine));
+        const V im = hn::IfThenElse(odd, hn::Mul(quarters, cosine), hn::Mul(even, sine));
+        hn::StoreU(hn::Add(hn::LoadU(d, real + i), re), d, real + i);
+        hn::StoreU(hn::Add(hn::LoadU(d, imaginary + i), im), d, imaginary + i);
+    }
+}
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel {
+
+HWY_EXPORT(AddWave);
+
+void add_wave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
+              double* imaginary) {
+    HWY_DYNAMIC_DISPATCH(AddWave)(point, grid, row, hidden, real, imaginary);
+}
+
+}  // namespace hogel
+#endif
