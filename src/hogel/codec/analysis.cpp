@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hogel/codec/part_search_internal.h"
+
 namespace hogel {
 namespace {
 
@@ -14,6 +16,8 @@ constexpr float best_of_all_sides = 0.3f, one_side = 6, within = 12, coded_block
 constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
 // A prediction with less error than this, in squared steps a block, is taken without looking further.
 constexpr float good_enough = 1.5f;
+// Bits that parts take, and how many more there have to be before they are looked for.
+constexpr float in_parts = 14, least_gain_by_parts = 8;
 constexpr std::int32_t most_level = 1 << 24;
 
 BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
@@ -23,13 +27,22 @@ BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
     return block;
 }
 
-// Levels of a residual; none where they cost more than they are worth.
-bool quantise(const BlockSamples& residual, float step, float rounding, Levels& levels) {
+// What becomes of a channel of a block.
+struct CodedChannel {
+    BlockSamples prediction;
+    bool any_levels = false;
+    Levels levels;
+    float cost = 0;  // squared error, and what the bits of the levels are worth
+};
+
+// The levels of what a prediction leaves; none where they cost more than they are worth.
+void quantise(const BlockSamples& wanted, float step, float rounding, CodedChannel& coded) {
     const float worth = bit_worth * step * step;
-    float before = 0;
-    for (const float value : residual) before += value * value;
-    if (before <= worth * (coded_block + coded_level)) return false;
-    BlockSamples coefficients;
+    coded.cost = squared_difference(wanted, coded.prediction);
+    coded.any_levels = false;
+    if (coded.cost <= worth * (coded_block + coded_level)) return;
+    BlockSamples residual, coefficients;
+    for (std::size_t n = 0; n < block_samples; ++n) residual[n] = wanted[n] - coded.prediction[n];
     transform_block(residual, coefficients);
     float after = 0, bits = coded_block;
     bool any = false;
@@ -41,13 +54,16 @@ bool quantise(const BlockSamples& residual, float step, float rounding, Levels& 
         if (frequency > 7 && level == 1 && size < 0.9f) level = 0;
         const float error = (size - static_cast<float>(level)) * step;
         after += error * error;
-        levels[k] = coefficients[k] < 0 ? -level : level;
+        coded.levels[k] = coefficients[k] < 0 ? -level : level;
         if (level == 0) continue;
         any = true;
         bits += coded_level + 2 * static_cast<float>(std::ilogb(static_cast<float>(level))) +
                 0.3f * static_cast<float>(frequency);
     }
-    return any && before > after + worth * bits;
+    const float cost = after + worth * bits;
+    if (!any || cost >= coded.cost) return;
+    coded.any_levels = true;
+    coded.cost = cost;
 }
 
 // The best prediction of a block from other hogels that was found so far, by its first channel.
@@ -138,6 +154,7 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     ReferenceWeights weights(place, setup.noise, setup.aspect);
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
+    PartSearch parts(place, pictures, weights);
     const int unit = disparity_unit(place);
     Picture picture = setup.blank();
     CodedHogel coded;
@@ -187,24 +204,32 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
             }
             if (block.mode == 0) block.disparity = first && !estimated.empty() ? estimated[k] : candidates.disparity[0];
         }
-        ReferenceWeights::Choice choice;
-        if (block.mode > 0)
-            choice = weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
-        for (std::size_t c = 0; c < setup.grid.channels; ++c) {
-            if (block.mode == 0)
-                predict_within(picture[c], x, y, block.within, prediction);
+        CodedChannel channel;
+        const auto code_channel = [&](const Block& as, std::size_t c) {
+            if (as.mode == 0)
+                predict_within(picture[c], x, y, as.within, channel.prediction);
             else
-                predict_across(pictures, place, choice, c, x, y, prediction);
-            const BlockSamples truth = block_of(source[c], x, y);
-            BlockSamples residual;
-            for (std::size_t n = 0; n < block_samples; ++n) residual[n] = truth[n] - prediction[n];
-            Levels levels;
-            const bool any = quantise(residual, step, block.mode == 0 ? rounding_within : rounding_across, levels);
-            if (any) {
+                predict_parts(pictures, place, as, choices_of(as, weights), c, x, y, channel.prediction);
+            quantise(c == 0 ? wanted : block_of(source[c], x, y), step,
+                     as.mode == 0 ? rounding_within : rounding_across, channel);
+        };
+        code_channel(block, 0);
+        if (!first && channel.cost > worth * (in_parts + least_gain_by_parts)) {
+            const auto in_two = parts.run(x, y, wanted, candidates, best.disparity, worth);
+            const CodedChannel whole = channel;
+            if (in_two) code_channel(*in_two, 0);
+            if (in_two && channel.cost + worth * in_parts < whole.cost)
+                block = *in_two;
+            else
+                channel = whole;
+        }
+        for (std::size_t c = 0; c < setup.grid.channels; ++c) {
+            if (c > 0) code_channel(block, c);
+            if (channel.any_levels) {
                 block.coded = static_cast<std::uint8_t>(block.coded | 1 << c);
-                coded.levels.push_back(levels);
+                coded.levels.push_back(channel.levels);
             }
-            place_block(picture[c], x, y, prediction, any ? &levels : nullptr, step);
+            place_block(picture[c], x, y, channel.prediction, channel.any_levels ? &channel.levels : nullptr, step);
         }
     }
     pictures[hogel] = std::move(picture);

@@ -44,6 +44,24 @@ float squared_difference_plain(const BlockSamples& a, const BlockSamples& b) {
     return sum;
 }
 
+void take_better_plain(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines,
+                       BestOfLines& main, BestOfLines& beyond) {
+    float all = more;
+    for (const float error : errors) all += error;
+    for (std::size_t line = 0; line < block_lines; ++line) {
+        float sum = 0;
+        for (std::size_t n = 0; n < block_samples; ++n) sum += errors[n] * lines[n][line];
+        if (all - sum < main.cost[line]) {
+            main.cost[line] = all - sum;
+            main.way[line] = way;
+        }
+        if (more + sum < beyond.cost[line]) {
+            beyond.cost[line] = more + sum;
+            beyond.way[line] = way;
+        }
+    }
+}
+
 void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                                BlockSamples& out) {
     BlockSamples across;  // in · matrixᵀ

@@ -68,6 +68,38 @@ float SquaredDifference(const BlockSamples& a, const BlockSamples& b) {
     return sum;
 }
 
+void TakeBetter(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
+                BestOfLines& beyond) {
+    const hn::CappedTag<float, block_lines / 4> d;
+    const std::size_t lanes = hn::Lanes(d);
+    float all = more;
+    for (const float error : errors) all += error;
+    const auto take = [&](auto cost, std::size_t line, BestOfLines& best) HWY_ATTR {
+        const auto so_far = hn::LoadU(d, &best.cost[line]);
+        const auto better = hn::Lt(cost, so_far);
+        hn::StoreU(hn::IfThenElse(better, cost, so_far), d, &best.cost[line]);
+        hn::StoreU(hn::IfThenElse(better, hn::Set(d, way), hn::LoadU(d, &best.way[line])), d, &best.way[line]);
+    };
+    for (std::size_t line = 0; line < block_lines; line += 4 * lanes) {
+        // Four vectors at once, as each sum waits for the one before it.
+        auto a = hn::Zero(d), b = a, c = a, e = a;
+        for (std::size_t n = 0; n < block_samples; ++n) {
+            const auto error = hn::Set(d, errors[n]);
+            const float* row = &lines[n][line];
+            a = hn::Add(a, hn::Mul(error, hn::LoadU(d, row)));
+            b = hn::Add(b, hn::Mul(error, hn::LoadU(d, row + lanes)));
+            c = hn::Add(c, hn::Mul(error, hn::LoadU(d, row + 2 * lanes)));
+            e = hn::Add(e, hn::Mul(error, hn::LoadU(d, row + 3 * lanes)));
+        }
+        std::size_t at = line;
+        for (const auto sum : {a, b, c, e}) {
+            take(hn::Sub(hn::Set(d, all), sum), at, main);
+            take(hn::Add(hn::Set(d, more), sum), at, beyond);
+            at += lanes;
+        }
+    }
+}
+
 void TransformBothWays(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                        BlockSamples& out) {
     const Row d;
@@ -99,6 +131,7 @@ namespace hogel {
 
 HWY_EXPORT(InterpolateBlock);
 HWY_EXPORT(SquaredDifference);
+HWY_EXPORT(TakeBetter);
 HWY_EXPORT(TransformBothWays);
 
 void interpolate_block(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
@@ -108,6 +141,11 @@ void interpolate_block(const float* rows, std::size_t stride, const Taps* along_
 
 float squared_difference(const BlockSamples& a, const BlockSamples& b) {
     return HWY_DYNAMIC_DISPATCH(SquaredDifference)(a, b);
+}
+
+void take_better(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
+                 BestOfLines& beyond) {
+    HWY_DYNAMIC_DISPATCH(TakeBetter)(errors, more, way, lines, main, beyond);
 }
 
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,

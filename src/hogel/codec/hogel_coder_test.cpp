@@ -111,7 +111,7 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
         const LightFieldTile tile = whole(plane_at(disparity, 9, 64, 48));
         const LightFieldGrid grid = plane_at(disparity, 9, 64, 48).grid();
         const TileSetup setup(HogelOrder(9, 9, 3, 1), 64, 48, 1, 0.01f, 1.35f,
-                              static_cast<float>(grid.step_u() / grid.step_v()));
+                              static_cast<float>(grid.step_u() / grid.step_v()), true);
         std::vector<Picture> sources;
         for (std::size_t k = 0; k < 81; ++k) {
             sources.push_back(setup.blank());
