@@ -1,21 +1,24 @@
 #include "hogel/codec/analysis_internal.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "hogel/codec/block_search_internal.h"
 #include "hogel/codec/part_search_internal.h"
+#include "hogel/codec/pictures_internal.h"
 
 namespace hogel {
 namespace {
 
 // Bits that things cost, as they are taken into account: about what they come to.
-constexpr float likeliest_disparity = 0.3f, each_candidate = 1.5f, new_disparity = 14;
-constexpr float best_of_all_sides = 0.3f, one_side = 6, within = 12, coded_block = 8, coded_level = 3.5f;
+constexpr float within = 12, coded_block = 8, coded_level = 3.5f;
 // What is added before rounding down: less than a half, as smaller levels take fewer bits.
 constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
-// A prediction with less error than this, in squared steps a block, is taken without looking further.
-constexpr float good_enough = 1.5f;
+// A block whose disparity is that of the block beside it, with less error than this in squared steps, is looked at no
+// further.
+constexpr float well_estimated = 1;
 // Bits that parts take, and how many more there have to be before they are looked for.
 constexpr float in_parts = 14, least_gain_by_parts = 8;
 constexpr std::int32_t most_level = 1 << 24;
@@ -35,64 +38,60 @@ struct CodedChannel {
     float cost = 0;  // squared error, and what the bits of the levels are worth
 };
 
-// The levels of what a prediction leaves; none where they cost more than they are worth.
-void quantise(const BlockSamples& wanted, float step, float rounding, CodedChannel& coded) {
+// The levels of what a prediction leaves, whose sum of squares is `error`; none where they cost more than they are
+// worth.
+void quantise(const BlockSamples& truth, float error, float step, float rounding, CodedChannel& coded) {
     const float worth = bit_worth * step * step;
-    coded.cost = squared_difference(wanted, coded.prediction);
+    coded.cost = error;
     coded.any_levels = false;
-    if (coded.cost <= worth * (coded_block + coded_level)) return;
+    if (error <= worth * (coded_block + coded_level)) return;
     BlockSamples residual, coefficients;
-    for (std::size_t n = 0; n < block_samples; ++n) residual[n] = wanted[n] - coded.prediction[n];
+    mix_blocks(truth, coded.prediction, 1, -1, residual);
     transform_block(residual, coefficients);
-    float after = 0, bits = coded_block;
-    bool any = false;
+    coded.levels = {};
+    float gain = 0, bits = coded_block;
     const float per_step = 1 / step;
-    for (std::size_t k = 0; k < block_samples; ++k) {
+    for (std::uint64_t large = large_samples(coefficients, (0.99f - rounding) * step); large != 0; large &= large - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(large));
         const float size = std::min(std::abs(coefficients[k]) * per_step, static_cast<float>(most_level));
-        auto level = static_cast<std::int32_t>(size + rounding);
+        const auto level = static_cast<std::int32_t>(size + rounding);
         const std::size_t frequency = k / block_side + k % block_side;
-        if (frequency > 7 && level == 1 && size < 0.9f) level = 0;
-        const float error = (size - static_cast<float>(level)) * step;
-        after += error * error;
+        if (level == 0 || (frequency > 7 && level == 1 && size < 0.9f)) continue;
+        const float left = size - static_cast<float>(level);
+        gain += size * size - left * left;
         coded.levels[k] = coefficients[k] < 0 ? -level : level;
-        if (level == 0) continue;
-        any = true;
-        bits += coded_level + 2 * static_cast<float>(std::ilogb(static_cast<float>(level))) +
+        bits += coded_level + 2 * static_cast<float>(std::bit_width(static_cast<std::uint32_t>(level)) - 1) +
                 0.3f * static_cast<float>(frequency);
     }
-    const float cost = after + worth * bits;
-    if (!any || cost >= coded.cost) return;
+    if (gain <= bit_worth * bits) return;
     coded.any_levels = true;
-    coded.cost = cost;
+    coded.cost = error - (gain - bit_worth * bits) * step * step;
 }
-
-// The best prediction of a block from other hogels that was found so far, by its first channel.
-struct Found {
-    float cost = std::numeric_limits<float>::infinity();
-    std::uint8_t mode = 0;
-    std::int16_t disparity = 0;
-};
 
 }  // namespace
 
-std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std::vector<Picture>& sources,
-                                               std::size_t columns, const HogelOrder::Hogel& hogel) {
-    const std::size_t rows = sources.size() / columns;
-    const Plane& here = sources[hogel.t * columns + hogel.s][0];
-    std::array<std::vector<std::pair<const Plane*, HogelOrder::Reference>>, 2> neighbours;  // along s, along t
+std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const LightFieldTile& tile,
+                                               const HogelOrder::Hogel& hogel) {
+    const Picture picture = picture_of(tile, setup, hogel.s, hogel.t);
+    const Plane& here = picture[0];
+    struct Neighbour {
+        HogelOrder::Reference place;
+        Picture picture;
+    };
+    std::array<std::vector<Neighbour>, 2> neighbours;  // along s, along t
     for (const int apart : {-4, -2, -1, 1, 2, 4}) {
-        const std::ptrdiff_t s = std::ptrdiff_t(hogel.s) + apart, t = std::ptrdiff_t(hogel.t) + apart;
-        if (s >= 0 && s < std::ptrdiff_t(columns))
-            neighbours[0].push_back({&sources[hogel.t * columns + std::size_t(s)][0], {0, apart, 0}});
-        if (t >= 0 && t < std::ptrdiff_t(rows))
-            neighbours[1].push_back({&sources[std::size_t(t) * columns + hogel.s][0], {0, 0, apart}});
+        const std::size_t s = hogel.s + static_cast<std::size_t>(apart), t = hogel.t + static_cast<std::size_t>(apart);
+        if (s < tile.range.ns) neighbours[0].push_back({{0, apart, 0}, picture_of(tile, setup, s, hogel.t)});
+        if (t < tile.range.nt) neighbours[1].push_back({{0, 0, apart}, picture_of(tile, setup, hogel.s, t)});
     }
+    std::size_t counted = 0;
+    for (const auto& axis : neighbours) counted += (axis.size() + 1) / 2;
+    const float well_known = well_estimated * static_cast<float>(counted) * setup.step[0] * setup.step[0];
     std::vector<std::int16_t> result(setup.grid.count());
-    const int width = static_cast<int>(here.width), height = static_cast<int>(here.height);
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
-        const int x = static_cast<int>(k % setup.grid.columns * block_side);
-        const int y = static_cast<int>(k / setup.grid.columns * block_side);
-        const BlockSamples block = block_of(here, std::size_t(x), std::size_t(y));
+        const std::size_t column = k % setup.grid.columns, row = k / setup.grid.columns;
+        const int x = static_cast<int>(column * block_side), y = static_cast<int>(row * block_side);
+        const BlockSamples block = block_of(here, column * block_side, row * block_side);
         // Of the neighbours along each axis the better half counts: what one side hides the other may show.
         const auto cost = [&](int disparity, bool whole_directions) {
             float sum = 0;
@@ -100,23 +99,18 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std
                 std::array<float, 6> errors;
                 errors.fill(std::numeric_limits<float>::infinity());
                 for (std::size_t n = 0; n < axis.size(); ++n) {
-                    const Shift shift = shift_of(disparity, axis[n].second, setup.aspect);
-                    BlockSamples other;
+                    const Plane& plane = axis[n].picture[0];
+                    const Shift shift = shift_of(disparity, axis[n].place, setup.aspect);
                     if (whole_directions) {
-                        const int x0 = x + ((shift.u + 32) >> 6), y0 = y + ((shift.v + 32) >> 6);
-                        for (int r = 0; r < int(block_side); ++r) {
-                            const float* row =
-                                &axis[n].first->samples[std::size_t(std::clamp(y0 + r, 0, height - 1)) * here.width];
-                            for (int c = 0; c < int(block_side); ++c)
-                                other[std::size_t(r) * block_side + std::size_t(c)] =
-                                    row[std::clamp(x0 + c, 0, width - 1)];
-                        }
+                        const PlaneWindow window(plane, x + ((shift.u + 32) >> 6), y + ((shift.v + 32) >> 6),
+                                                 block_side);
+                        errors[n] = squared_difference(window.rows(), window.stride(), block);
                     } else {
-                        fetch_moved(*axis[n].first, x, y, shift, other);
+                        BlockSamples other;
+                        fetch_moved(plane, x, y, shift, other);
+                        errors[n] = squared_difference(other, block);
                     }
-                    errors[n] = squared_difference(other, block);
                 }
-                // The smaller half, one by one.
                 for (std::size_t n = 0; n < (axis.size() + 1) / 2; ++n) {
                     const auto smallest = std::ranges::min_element(errors);
                     sum += *smallest;
@@ -126,7 +120,7 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std
             return sum;
         };
         int best = 0;
-        float least = cost(0, true);
+        float least = std::numeric_limits<float>::infinity();
         const auto try_one = [&](int disparity, bool whole) {
             const float here_cost = cost(disparity, whole);
             if (here_cost < least) {
@@ -134,13 +128,28 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std
                 best = disparity;
             }
         };
-        // Quarters of a direction near by, whole ones farther off; then finer around the best.
-        for (int disparity = shift_unit / 4; disparity <= 4 * shift_unit; disparity += shift_unit / 4)
-            for (const int sign : {-1, 1}) try_one(sign * disparity, true);
-        for (int disparity = 5 * shift_unit; disparity <= 16 * shift_unit; disparity += shift_unit)
-            for (const int sign : {-1, 1}) try_one(sign * disparity, true);
-        least = cost(best, false);
-        for (int part = 16; part >= 2; part /= 2)
+        // Most blocks go on with the surface on their left or above.
+        if (column > 0) try_one(result[k - 1], false);
+        if (row > 0 && !(least < well_known)) try_one(result[k - setup.grid.columns], false);
+        int part = 4;
+        if (!(least < well_known)) {
+            // Quarters of a direction near by, whole ones farther off; then finer around the best.
+            const int going_on = best;
+            const float of_going_on = least;
+            best = 0;
+            least = cost(0, true);
+            for (int disparity = shift_unit / 4; disparity <= 4 * shift_unit; disparity += shift_unit / 4)
+                for (const int sign : {-1, 1}) try_one(sign * disparity, true);
+            for (int disparity = 5 * shift_unit; disparity <= 16 * shift_unit; disparity += shift_unit)
+                for (const int sign : {-1, 1}) try_one(sign * disparity, true);
+            least = cost(best, false);
+            if (of_going_on < least) {
+                least = of_going_on;
+                best = going_on;
+            }
+            part = 16;
+        }
+        for (; part >= 2; part /= 2)
             for (const int middle = best; const int sign : {-1, 1}) try_one(middle + sign * part, false);
         result[k] = static_cast<std::int16_t>(best);
     }
@@ -149,55 +158,32 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std
 
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
                    const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
-                   const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures) {
+                   const std::vector<std::int16_t>& estimated, Effort effort, std::vector<Picture>& pictures) {
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
-    ReferenceWeights weights(place, setup.noise, setup.aspect);
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
-    PartSearch parts(place, pictures, weights);
-    const int unit = disparity_unit(place);
     Picture picture = setup.blank();
+    ReferenceWeights weights(place, setup.noise, setup.aspect);
+    PartSearch parts(place, pictures, weights);
+    BlockSearch search(setup, place, source[0], pictures, estimated, effort);
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
+    BlockSamples prediction;
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
         const Candidates candidates = candidates_for(k, setup.grid, coded.blocks, moved[k], beside);
         const BlockSamples wanted = block_of(source[0], x, y);
-        Found best;
-        BlockSamples prediction;
-        const auto try_side = [&](int disparity, int side, float bits) {
-            const auto& choice = weights.choose(disparity, static_cast<ReferenceWeights::Side>(side));
-            if (!predict_across(pictures, place, choice, 0, x, y, prediction)) return;
-            const float cost =
-                squared_difference(prediction, wanted) + worth * (bits + (side == 0 ? best_of_all_sides : one_side));
-            if (cost < best.cost)
-                best = {cost, static_cast<std::uint8_t>(1 + side), static_cast<std::int16_t>(disparity)};
-        };
-        const auto good = [&] { return best.cost < good_enough * step * step; };
-        const auto try_disparity = [&](int disparity, float bits) {
-            if (std::abs(disparity) > most_disparity) return;
-            for (int side = 0; side < static_cast<int>(ReferenceWeights::sides); ++side)
-                if (!good()) try_side(disparity, side, bits);
-        };
-        if (!first) {
-            for (std::size_t n = 0; n < candidates.count && !good(); ++n)
-                try_disparity(candidates.disparity[n], likeliest_disparity + each_candidate * static_cast<float>(n));
-            if (!estimated.empty() && !good()) try_disparity(estimated[k], new_disparity);
-            // Others, in units away from the likeliest.
-            const int likeliest = candidates.disparity[0];
-            for (int part = 16 * unit; part >= unit && !good(); part /= 2)
-                for (const int middle = (best.disparity - likeliest) / unit * unit; const int sign : {-1, 1})
-                    try_disparity(likeliest + middle + sign * part, new_disparity);
-        }
+        const BlockSearch::Found& best = search.run(k, wanted, candidates);
         Block& block = coded.blocks[k];
         block.mode = best.mode;
         block.disparity = best.disparity;
-        if (!good()) {
+        if (!search.good() && best.cost > worth * (first ? 2 : within)) {
+            float least = best.cost;
             for (int how = 0; how < within_modes; ++how) {
                 predict_within(picture[0], x, y, how, prediction);
                 const float cost = squared_difference(prediction, wanted) + worth * (first ? 2 : within);
-                if (cost < best.cost) {
-                    best.cost = cost;
+                if (cost < least) {
+                    least = cost;
                     block.mode = 0;
                     block.within = static_cast<std::uint8_t>(how);
                 }
@@ -210,11 +196,17 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
                 predict_within(picture[c], x, y, as.within, channel.prediction);
             else
                 predict_parts(pictures, place, as, choices_of(as, weights), c, x, y, channel.prediction);
-            quantise(c == 0 ? wanted : block_of(source[c], x, y), step,
+            const BlockSamples truth = c == 0 ? wanted : block_of(source[c], x, y);
+            quantise(truth, squared_difference(channel.prediction, truth), step,
                      as.mode == 0 ? rounding_within : rounding_across, channel);
         };
-        code_channel(block, 0);
-        if (!first && channel.cost > worth * (in_parts + least_gain_by_parts)) {
+        if (block.mode == 0) {
+            code_channel(block, 0);
+        } else {
+            channel.prediction = *best.prediction;
+            quantise(wanted, best.error, step, rounding_across, channel);
+        }
+        if (!first && effort == Effort::full && channel.cost > worth * (in_parts + least_gain_by_parts)) {
             const auto in_two = parts.run(x, y, wanted, candidates, best.disparity, worth);
             const CodedChannel whole = channel;
             if (in_two) code_channel(*in_two, 0);

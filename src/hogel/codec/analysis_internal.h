@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hogel/codec/reconstruct_internal.h"
+#include "hogel/lightfield/light_field.h"
 
 namespace hogel {
 
@@ -9,14 +10,19 @@ namespace hogel {
 // What a bit is worth, in squared steps.
 constexpr float bit_worth = 0.18f;
 
-// The disparity of each block of a hogel, from how its neighbours in the tile show it. `sources` are the pictures of
-// all hogels of the tile, row by row.
-std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const std::vector<Picture>& sources,
-                                               std::size_t columns, const HogelOrder::Hogel& hogel);
+// The disparity of each block of a hogel, from how its neighbours in the tile show it.
+std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const LightFieldTile& tile,
+                                               const HogelOrder::Hogel& hogel);
+
+// How much there is to be looked for.
+enum class Effort {
+    glance,  // likely disparities and what their slopes lead to, from all sides: enough to compare codes by
+    full,
+};
 
 // Decides on all blocks of a hogel and makes its picture as a decoder will have it. `estimated` may be empty.
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
                    const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
-                   const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures);
+                   const std::vector<std::int16_t>& estimated, Effort effort, std::vector<Picture>& pictures);
 
 }  // namespace hogel

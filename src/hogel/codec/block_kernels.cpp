@@ -1,8 +1,33 @@
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "hogel/codec/block_kernels_internal.h"
 
 namespace hogel {
+namespace {
+
+// A sum over a block: of the even and of the odd rows column by column, then of halves, so that vectors of eight or
+// less have the same bits.
+template <class Term>
+float sum_in_columns(Term&& term) {
+    float sum[2][block_side] = {};
+    for (std::size_t k = 0; k < block_samples; ++k) sum[k / block_side % 2][k % block_side] += term(k);
+    for (std::size_t c = 0; c < block_side; ++c) sum[0][c] += sum[1][c];
+    for (std::size_t half = block_side / 2; half > 0; half /= 2)
+        for (std::size_t c = 0; c < half; ++c) sum[0][c] += sum[0][c + half];
+    return sum[0][0];
+}
+
+template <class Value>
+double sum_of_squares_in_eight(std::size_t count, Value&& value) {
+    double sum[block_side] = {};
+    for (std::size_t k = 0; k < count; ++k) sum[k % block_side] += value(k) * value(k);
+    return std::accumulate(std::begin(sum), std::end(sum), 0.0);
+}
+
+}  // namespace
 
 void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
                              BlockSamples& block) {
@@ -32,16 +57,48 @@ void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* 
         }
 }
 
-float squared_difference_plain(const BlockSamples& a, const BlockSamples& b) {
-    float of_column[block_side] = {};
-    for (std::size_t r = 0; r < block_samples; r += block_side)
+void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
+    for (std::size_t k = 0; k < block_samples; ++k) out[k] = weight_a * a[k] + weight_b * b[k];
+}
+
+float squared_difference_plain(const float* a, std::size_t stride, const BlockSamples& b) {
+    return sum_in_columns([&](std::size_t k) {
+        const float difference = a[k / block_side * stride + k % block_side] - b[k];
+        return difference * difference;
+    });
+}
+
+double squared_difference_of_rows_plain(const float* a, const float* b, std::size_t count) {
+    return sum_of_squares_in_eight(
+        count, [&](std::size_t k) { return static_cast<double>(a[k]) - static_cast<double>(b[k]); });
+}
+
+double sum_of_squares_plain(const float* a, std::size_t count) {
+    return sum_of_squares_in_eight(count, [&](std::size_t k) { return static_cast<double>(a[k]); });
+}
+
+AlongSlope along_slope_plain(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope) {
+    return {sum_in_columns([&](std::size_t k) { return (a[k] - b[k]) * slope[k]; }),
+            sum_in_columns([&](std::size_t k) { return slope[k] * slope[k]; })};
+}
+
+std::uint64_t large_samples_plain(const BlockSamples& block, float least) {
+    std::uint64_t large = 0;
+    for (std::size_t k = 0; k < block_samples; ++k)
+        if (std::abs(block[k]) >= least) large |= std::uint64_t{1} << k;
+    return large;
+}
+
+void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes) {
+    for (std::size_t r = 0; r < block_side; ++r)
         for (std::size_t c = 0; c < block_side; ++c) {
-            const float difference = a[r + c] - b[r + c];
-            of_column[c] += difference * difference;
+            const float* at = rows + (r + slope_reach) * stride + c + slope_reach;
+            const auto slope = [at](std::ptrdiff_t next) {
+                return slope_of_near * (at[next] - at[-next]) - slope_of_far * (at[2 * next] - at[-2 * next]);
+            };
+            slopes.u[r * block_side + c] = slope(1);
+            slopes.v[r * block_side + c] = slope(static_cast<std::ptrdiff_t>(stride));
         }
-    float sum = 0;
-    for (const float part : of_column) sum += part;
-    return sum;
 }
 
 void take_better_plain(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines,

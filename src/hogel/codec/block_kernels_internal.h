@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace hogel {
 
@@ -22,9 +23,46 @@ void interpolate_block(const float* rows, std::size_t stride, const Taps* along_
 void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
                              BlockSamples& block);
 
-// Σ (a − b)².
-float squared_difference(const BlockSamples& a, const BlockSamples& b);
-float squared_difference_plain(const BlockSamples& a, const BlockSamples& b);
+// weight_a a + weight_b b; `out` may be a or b.
+void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
+void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
+
+// Σ (a − b)², of a block in rows `stride` samples apart.
+float squared_difference(const float* a, std::size_t stride, const BlockSamples& b);
+float squared_difference_plain(const float* a, std::size_t stride, const BlockSamples& b);
+inline float squared_difference(const BlockSamples& a, const BlockSamples& b) {
+    return squared_difference(a.data(), block_side, b);
+}
+
+// The same of rows of any length, in eight sums: of every eighth sample.
+double squared_difference_of_rows(const float* a, const float* b, std::size_t count);
+double squared_difference_of_rows_plain(const float* a, const float* b, std::size_t count);
+
+// Σ (a − b) slope, and Σ slope².
+struct AlongSlope {
+    float difference, square;
+    friend bool operator==(const AlongSlope&, const AlongSlope&) = default;
+};
+AlongSlope along_slope(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope);
+AlongSlope along_slope_plain(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope);
+
+// Which samples have a size of `least` or more: a bit each.
+std::uint64_t large_samples(const BlockSamples& block, float least);
+std::uint64_t large_samples_plain(const BlockSamples& block, float least);
+
+// Σ a², in sums as above.
+double sum_of_squares(const float* a, std::size_t count);
+double sum_of_squares_plain(const float* a, std::size_t count);
+
+// How much a block changes from sample to sample along u and v, from a window of slope_window_side rows.
+constexpr float slope_of_near = 2.0f / 3, slope_of_far = 1.0f / 12;  // of samples next to it and beyond: of third order
+constexpr std::size_t slope_reach = 2, slope_window_side = block_side + 2 * slope_reach;
+struct Slopes {
+    BlockSamples u, v;
+    friend bool operator==(const Slopes&, const Slopes&) = default;
+};
+void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes);
+void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes);
 
 // For each line that may cut a block, what is the best found so far for the samples on one side of it.
 constexpr std::size_t block_lines = 128;

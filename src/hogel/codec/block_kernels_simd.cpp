@@ -13,59 +13,160 @@ namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Row = hn::CappedTag<float, block_side>;  // a row of a block, or an even part of one
+using Row = hn::CappedTag<float, block_side>;       // a row of a block, or an even part of one
+using Rows = hn::CappedTag<float, 2 * block_side>;  // or two of them, one after the other
 
-void InterpolateBlock(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
-                      BlockSamples& block) {
+// Rows of a block, from those of a window at their place along u.
+HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t count, const Taps* weights, float* out) {
     const Row d;
-    HWY_ALIGN float across[window_side * block_side];
-    const std::size_t first = along_v ? 0 : taps_before, last = along_v ? window_side : taps_before + block_side;
     for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
-        const float* in = rows + first * stride + c;
-        if (along_u) {
-            const auto w0 = hn::Set(d, (*along_u)[0]), w1 = hn::Set(d, (*along_u)[1]), w2 = hn::Set(d, (*along_u)[2]);
-            const auto w3 = hn::Set(d, (*along_u)[3]), w4 = hn::Set(d, (*along_u)[4]), w5 = hn::Set(d, (*along_u)[5]);
-            for (std::size_t r = first; r < last; ++r, in += stride) {
-                auto sum = hn::Mul(w0, hn::LoadU(d, in));
-                sum = hn::Add(sum, hn::Mul(w1, hn::LoadU(d, in + 1)));
-                sum = hn::Add(sum, hn::Mul(w2, hn::LoadU(d, in + 2)));
-                sum = hn::Add(sum, hn::Mul(w3, hn::LoadU(d, in + 3)));
-                sum = hn::Add(sum, hn::Mul(w4, hn::LoadU(d, in + 4)));
-                sum = hn::Add(sum, hn::Mul(w5, hn::LoadU(d, in + 5)));
-                hn::Store(sum, d, across + r * block_side + c);
-            }
-        } else {
-            for (std::size_t r = first; r < last; ++r, in += stride)
-                hn::Store(hn::LoadU(d, in + taps_before), d, across + r * block_side + c);
+        const float* in = rows + c;
+        float* to = out + c;
+        if (!weights) {
+            for (std::size_t r = 0; r < count; ++r, in += stride, to += block_side)
+                hn::StoreU(hn::LoadU(d, in + taps_before), d, to);
+            continue;
         }
-        for (std::size_t r = 0; r < block_side; ++r) {
-            float* out = &block[r * block_side + c];
-            if (!along_v) {
-                hn::StoreU(hn::Load(d, across + (r + taps_before) * block_side + c), d, out);
-                continue;
-            }
-            auto sum = hn::Mul(hn::Set(d, (*along_v)[0]), hn::Load(d, across + r * block_side + c));
-            for (std::size_t k = 1; k < taps; ++k)
-                sum = hn::Add(sum, hn::Mul(hn::Set(d, (*along_v)[k]), hn::Load(d, across + (r + k) * block_side + c)));
-            hn::StoreU(sum, d, out);
+        const auto w0 = hn::Set(d, (*weights)[0]), w1 = hn::Set(d, (*weights)[1]), w2 = hn::Set(d, (*weights)[2]);
+        const auto w3 = hn::Set(d, (*weights)[3]), w4 = hn::Set(d, (*weights)[4]), w5 = hn::Set(d, (*weights)[5]);
+        for (std::size_t r = 0; r < count; ++r, in += stride, to += block_side) {
+            auto sum = hn::Mul(w0, hn::LoadU(d, in));
+            sum = hn::Add(sum, hn::Mul(w1, hn::LoadU(d, in + 1)));
+            sum = hn::Add(sum, hn::Mul(w2, hn::LoadU(d, in + 2)));
+            sum = hn::Add(sum, hn::Mul(w3, hn::LoadU(d, in + 3)));
+            sum = hn::Add(sum, hn::Mul(w4, hn::LoadU(d, in + 4)));
+            sum = hn::Add(sum, hn::Mul(w5, hn::LoadU(d, in + 5)));
+            hn::StoreU(sum, d, to);
         }
     }
 }
 
-float SquaredDifference(const BlockSamples& a, const BlockSamples& b) {
-    const Row d;
-    HWY_ALIGN float of_column[block_side];
-    for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
-        auto sum = hn::Zero(d);
-        for (std::size_t r = 0; r < block_samples; r += block_side) {
-            const auto difference = hn::Sub(hn::LoadU(d, &a[r + c]), hn::LoadU(d, &b[r + c]));
-            sum = hn::Add(sum, hn::Mul(difference, difference));
-        }
-        hn::Store(sum, d, of_column + c);
+void InterpolateBlock(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
+                      BlockSamples& block) {
+    if (!along_v) return AlongRows(rows + taps_before * stride, stride, block_side, along_u, block.data());
+    HWY_ALIGN float across[window_side * block_side];
+    AlongRows(rows, stride, window_side, along_u, across);
+    const Rows d;
+    for (std::size_t n = 0; n < block_samples; n += hn::Lanes(d)) {
+        auto sum = hn::Mul(hn::Set(d, (*along_v)[0]), hn::LoadU(d, across + n));
+        for (std::size_t k = 1; k < taps; ++k)
+            sum = hn::Add(sum, hn::Mul(hn::Set(d, (*along_v)[k]), hn::LoadU(d, across + n + k * block_side)));
+        hn::StoreU(sum, d, &block[n]);
     }
-    float sum = 0;
-    for (const float part : of_column) sum += part;
-    return sum;
+}
+
+void MixBlocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
+    const Rows d;
+    const auto of_a = hn::Set(d, weight_a), of_b = hn::Set(d, weight_b);
+    for (std::size_t k = 0; k < block_samples; k += hn::Lanes(d))
+        hn::StoreU(hn::Add(hn::Mul(of_a, hn::LoadU(d, &a[k])), hn::Mul(of_b, hn::LoadU(d, &b[k]))), d, &out[k]);
+}
+
+// As sum_in_columns() of the plain twins; term(d, k) gives terms from k on.
+template <class Term>
+HWY_INLINE float SumInColumns(Term&& term) {
+    const Row d;
+    HWY_ALIGN float sum[block_side];
+    for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
+        auto even = hn::Zero(d), odd = hn::Zero(d);
+        for (std::size_t k = c; k < block_samples; k += 2 * block_side) {
+            even = hn::Add(even, term(d, k));
+            odd = hn::Add(odd, term(d, k + block_side));
+        }
+        hn::Store(hn::Add(even, odd), d, sum + c);
+    }
+    for (std::size_t half = block_side / 2; half > 0; half /= 2)
+        for (std::size_t c = 0; c < half; ++c) sum[c] += sum[c + half];
+    return sum[0];
+}
+
+float SquaredDifference(const float* a, std::size_t stride, const BlockSamples& b) {
+    return SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
+        const float* at = a + k / block_side * stride + k % block_side;
+        const auto difference = hn::Sub(hn::LoadU(d, at), hn::LoadU(d, &b[k]));
+        return hn::Mul(difference, difference);
+    });
+}
+
+using Doubles = hn::CappedTag<double, block_side / 2>;
+using FloatsOfDoubles = hn::Rebind<float, Doubles>;
+
+// Σ value², in eight sums: vector(k) gives values from k on, value(k) one.
+template <class Vector, class Value>
+HWY_INLINE double SumOfSquares(std::size_t count, Vector&& vector, Value&& value) {
+    const Doubles d;
+    HWY_ALIGN double sum[block_side];
+    const std::size_t whole = count / block_side * block_side;
+    constexpr std::size_t half = block_side / 2;
+    for (std::size_t c = 0; c < half; c += hn::Lanes(d)) {
+        auto low = hn::Zero(d), high = hn::Zero(d);
+        for (std::size_t k = c; k < whole; k += block_side) {
+            const auto here = vector(k), next = vector(k + half);
+            low = hn::Add(low, hn::Mul(here, here));
+            high = hn::Add(high, hn::Mul(next, next));
+        }
+        hn::Store(low, d, sum + c);
+        hn::Store(high, d, sum + half + c);
+    }
+    for (std::size_t k = whole; k < count; ++k) sum[k % block_side] += value(k) * value(k);
+    double all = 0;
+    for (const double part : sum) all += part;
+    return all;
+}
+
+double SquaredDifferenceOfRows(const float* a, const float* b, std::size_t count) {
+    const Doubles d;
+    const FloatsOfDoubles f;
+    return SumOfSquares(
+        count,
+        [&](std::size_t k)
+            HWY_ATTR { return hn::Sub(hn::PromoteTo(d, hn::LoadU(f, a + k)), hn::PromoteTo(d, hn::LoadU(f, b + k))); },
+        [&](std::size_t k) { return static_cast<double>(a[k]) - static_cast<double>(b[k]); });
+}
+
+double SumOfSquaresOf(const float* a, std::size_t count) {
+    const Doubles d;
+    const FloatsOfDoubles f;
+    return SumOfSquares(
+        count, [&](std::size_t k) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(f, a + k)); },
+        [&](std::size_t k) { return static_cast<double>(a[k]); });
+}
+
+std::uint64_t LargeSamples(const BlockSamples& block, float least) {
+    const Row d;
+    const auto bound = hn::Set(d, least);
+    std::uint64_t large = 0;
+    for (std::size_t k = 0; k < block_samples; k += hn::Lanes(d)) {
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, hn::Ge(hn::Abs(hn::LoadU(d, &block[k])), bound), bits);
+        large |= std::uint64_t{bits[0]} << k;
+    }
+    return large;
+}
+
+AlongSlope AlongSlopeOf(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope) {
+    return {SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
+                return hn::Mul(hn::Sub(hn::LoadU(d, &a[k]), hn::LoadU(d, &b[k])), hn::LoadU(d, &slope[k]));
+            }),
+            SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
+                const auto here = hn::LoadU(d, &slope[k]);
+                return hn::Mul(here, here);
+            })};
+}
+
+void SlopesOfBlock(const float* rows, std::size_t stride, Slopes& slopes) {
+    const Row d;
+    const auto near = hn::Set(d, slope_of_near), far = hn::Set(d, slope_of_far);
+    const auto slope = [&](const float* at, std::size_t next) HWY_ATTR {
+        return hn::Sub(hn::Mul(near, hn::Sub(hn::LoadU(d, at + next), hn::LoadU(d, at - next))),
+                       hn::Mul(far, hn::Sub(hn::LoadU(d, at + 2 * next), hn::LoadU(d, at - 2 * next))));
+    };
+    for (std::size_t r = 0; r < block_side; ++r)
+        for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
+            const float* at = rows + (r + slope_reach) * stride + slope_reach + c;
+            hn::StoreU(slope(at, 1), d, &slopes.u[r * block_side + c]);
+            hn::StoreU(slope(at, stride), d, &slopes.v[r * block_side + c]);
+        }
 }
 
 void TakeBetter(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
@@ -130,8 +231,14 @@ HWY_AFTER_NAMESPACE();
 namespace hogel {
 
 HWY_EXPORT(InterpolateBlock);
+HWY_EXPORT(MixBlocks);
 HWY_EXPORT(SquaredDifference);
 HWY_EXPORT(TakeBetter);
+HWY_EXPORT(SquaredDifferenceOfRows);
+HWY_EXPORT(SumOfSquaresOf);
+HWY_EXPORT(LargeSamples);
+HWY_EXPORT(AlongSlopeOf);
+HWY_EXPORT(SlopesOfBlock);
 HWY_EXPORT(TransformBothWays);
 
 void interpolate_block(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
@@ -139,8 +246,30 @@ void interpolate_block(const float* rows, std::size_t stride, const Taps* along_
     HWY_DYNAMIC_DISPATCH(InterpolateBlock)(rows, stride, along_u, along_v, block);
 }
 
-float squared_difference(const BlockSamples& a, const BlockSamples& b) {
-    return HWY_DYNAMIC_DISPATCH(SquaredDifference)(a, b);
+void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
+    HWY_DYNAMIC_DISPATCH(MixBlocks)(a, b, weight_a, weight_b, out);
+}
+
+float squared_difference(const float* a, std::size_t stride, const BlockSamples& b) {
+    return HWY_DYNAMIC_DISPATCH(SquaredDifference)(a, stride, b);
+}
+
+double squared_difference_of_rows(const float* a, const float* b, std::size_t count) {
+    return HWY_DYNAMIC_DISPATCH(SquaredDifferenceOfRows)(a, b, count);
+}
+
+double sum_of_squares(const float* a, std::size_t count) { return HWY_DYNAMIC_DISPATCH(SumOfSquaresOf)(a, count); }
+
+std::uint64_t large_samples(const BlockSamples& block, float least) {
+    return HWY_DYNAMIC_DISPATCH(LargeSamples)(block, least);
+}
+
+AlongSlope along_slope(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope) {
+    return HWY_DYNAMIC_DISPATCH(AlongSlopeOf)(a, b, slope);
+}
+
+void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes) {
+    HWY_DYNAMIC_DISPATCH(SlopesOfBlock)(rows, stride, slopes);
 }
 
 void take_better(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,

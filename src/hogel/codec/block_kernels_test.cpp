@@ -39,7 +39,21 @@ TEST(BlockKernels, vectors_give_the_same_bits) {
                 ASSERT_EQ(fast, plain) << (along_u != nullptr) << (along_v != nullptr);
             }
         const BlockSamples a = random_block(seed), b = random_block(1000 + seed), matrix = random_block(2000 + seed);
-        EXPECT_EQ(squared_difference(a, b), squared_difference_plain(a, b));
+        EXPECT_EQ(squared_difference(rows.data(), stride, b), squared_difference_plain(rows.data(), stride, b));
+        EXPECT_EQ(along_slope(a, b, matrix), along_slope_plain(a, b, matrix));
+        mix_blocks(a, b, u[0], u[1], fast);
+        mix_blocks_plain(a, b, u[0], u[1], plain);
+        EXPECT_EQ(fast, plain);
+        Slopes slopes, plain_slopes;
+        slopes_of_block(rows.data() + 1, stride, slopes);
+        slopes_of_block_plain(rows.data() + 1, stride, plain_slopes);
+        EXPECT_EQ(slopes, plain_slopes);
+        for (const std::size_t count : {0u, 7u, 8u, 61u}) {
+            EXPECT_EQ(squared_difference_of_rows(rows.data(), &rows[64], count),
+                      squared_difference_of_rows_plain(rows.data(), &rows[64], count));
+            EXPECT_EQ(sum_of_squares(rows.data(), count), sum_of_squares_plain(rows.data(), count));
+        }
+        EXPECT_EQ(large_samples(a, 0.4f), large_samples_plain(a, 0.4f));
         transform_both_ways(matrix, b, a, fast);
         transform_both_ways_plain(matrix, b, a, plain);
         EXPECT_EQ(fast, plain);
@@ -61,6 +75,22 @@ TEST(BlockKernels, vectors_give_the_same_bits) {
         EXPECT_EQ(main, main_plain);
         EXPECT_EQ(beyond, beyond_plain);
         EXPECT_EQ(std::ranges::count(main.way, -1.0f), 0);
+    }
+}
+
+TEST(BlockKernels, slopes_are_those_of_a_cubic) {
+    constexpr std::size_t side = slope_window_side;
+    std::vector<float> rows(side * side);
+    const auto cubic = [](double x, double y) {
+        return 0.01 * x * x * x - 0.2 * x * y + 0.3 * y * y + 0.02 * y * y * y;
+    };
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = float(cubic(double(k % side) - 2, double(k / side) - 2));
+    Slopes slopes;
+    slopes_of_block(rows.data(), side, slopes);
+    for (std::size_t k = 0; k < block_samples; ++k) {
+        const double x = double(k % block_side), y = double(k / block_side);
+        ASSERT_NEAR(slopes.u[k], 0.03 * x * x - 0.2 * y, 1e-4);
+        ASSERT_NEAR(slopes.v[k], -0.2 * x + 0.6 * y + 0.06 * y * y, 1e-4);
     }
 }
 

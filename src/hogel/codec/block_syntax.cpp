@@ -35,8 +35,9 @@ template <class Coder>
 void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels& levels) {
     // The place of the last level, as a path through a binary tree.
     std::size_t last = 0;
-    for (std::size_t n = 0; n < block_samples; ++n)
-        if (levels[zigzag[n]] != 0) last = n;
+    if constexpr (!Coder::reads)
+        for (std::size_t n = 0; n < block_samples; ++n)
+            if (levels[zigzag[n]] != 0) last = n;
     last = code_path(coder, models.last, 6, last);
     // From there down to the lowest frequency; what stands at the next higher frequencies tells much.
     std::array<std::array<std::uint8_t, block_side + 2>, block_side + 2> seen{};
@@ -133,15 +134,6 @@ void code_parts(Coder& coder, typename Coder::Models::ForParts& models, int unit
 }
 
 }  // namespace
-
-bool Candidates::contain(int value) const {
-    return std::find(disparity.begin(), disparity.begin() + count, value) != disparity.begin() + count;
-}
-
-void Candidates::add(int value) {
-    const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
-    if (!contain(clamped)) disparity[count++] = clamped;
-}
 
 std::size_t Candidates::spread() const {
     int most = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -51,8 +52,13 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
 struct Candidates {
     std::array<std::int16_t, 8> disparity{};
     std::size_t count = 0;
-    void add(int value);
-    bool contain(int value) const;
+    bool contain(int value) const {
+        return std::find(disparity.begin(), disparity.begin() + count, value) != disparity.begin() + count;
+    }
+    void add(int value) {
+        const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
+        if (!contain(clamped)) disparity[count++] = clamped;
+    }
     // How far they are from each other: 0 for not at all, 1 for nearly so, 2 for one surface, 3.
     std::size_t spread() const;
 };
@@ -163,6 +169,7 @@ struct BlockCounts : ModelsOf<BitCount> {
 class BlockCounter {
   public:
     using Models = BlockCounts;
+    static constexpr bool reads = false;
     bool bit(BitCount& count, bool value) {
         ++count[value ? 1 : 0];
         return value;
@@ -173,6 +180,7 @@ class BlockCounter {
 class BlockWriter {
   public:
     using Models = BlockModels;
+    static constexpr bool reads = false;
     bool bit(BitModel& model, bool value) {
         encoder_.bit(model, value);
         return value;
@@ -190,6 +198,7 @@ class BlockWriter {
 class BlockReader {
   public:
     using Models = BlockModels;
+    static constexpr bool reads = true;
     explicit BlockReader(std::span<const std::uint8_t> bytes) : decoder_(bytes) {}
     bool bit(BitModel& model, bool) { return decoder_.bit(model); }
     bool even(bool) { return decoder_.even(); }

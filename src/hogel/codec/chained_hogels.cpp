@@ -41,7 +41,7 @@ void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightField
             std::vector<BlockState> blocks(setup.grid.count(), BlockState::wanted);
             reconstruct(setup, k, coded[k], blocks, pictures);
             coded[k].levels = {};
-            for_each_row(pictures[k], setup, [&](std::size_t c, std::size_t v, const std::vector<float>& row) {
+            for_each_row(pictures[k], setup, [&](std::size_t c, std::size_t v, std::span<const float> row) {
                 std::ranges::copy(row, &tile.radiance(c, order[k].t, order[k].s, v, 0));
             });
         });

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "hogel/codec/block_kernels_internal.h"
 #include "hogel/codec/exact_coder_internal.h"
 #include "hogel/codec/search_internal.h"
 #include "hogel/codec/stream_internal.h"
@@ -126,8 +127,13 @@ class Compression {
         const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
         for (std::size_t row = 0; row < tile.radiance.size() / width; ++row) {
             const auto [begin, end] = counted_.columns(row % height, width);
-            for (const float value : tile.radiance.elements().subspan(row * width + begin, end - begin))
-                if (std::isfinite(value) || !any_value) outcome.signal += static_cast<double>(value) * value;
+            const auto values = tile.radiance.elements().subspan(row * width + begin, end - begin);
+            const double squares = sum_of_squares(values.data(), values.size());
+            if (std::isfinite(squares) || !any_value)
+                outcome.signal += squares;
+            else
+                for (const float value : values)
+                    if (std::isfinite(value)) outcome.signal += static_cast<double>(value) * value;
         }
         if (!std::isfinite(outcome.signal))
             throw Error(ErrorCode::bad_input,

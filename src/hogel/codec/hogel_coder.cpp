@@ -25,18 +25,16 @@ constexpr float growth = 1.35f;  // of the step from one level of the order to t
 // References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
 // direction the nearest ones serve best; otherwise it takes more to choose from.
 constexpr std::array<std::uint8_t, 2> references_a_side{1, 3};
+constexpr std::size_t counted_hogels = 48;    // of a level, for the states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
 double squared_error(const Picture& picture, const TileSetup& setup, const LightFieldTile& tile, std::size_t s,
                      std::size_t t, const DirectionCross& counted) {
     double sum = 0;
-    for_each_row(picture, setup, [&](std::size_t c, std::size_t v, const std::vector<float>& row) {
+    for_each_row(picture, setup, [&](std::size_t c, std::size_t v, std::span<const float> row) {
         const float* truth = &tile.radiance(c, t, s, v, 0);
         const auto [begin, end] = counted.columns(v, row.size());
-        for (std::size_t u = begin; u < end; ++u) {
-            const double error = static_cast<double>(truth[u]) - row[u];
-            sum += error * error;
-        }
+        sum += squared_difference_of_rows(truth + begin, row.data() + begin, end - begin);
     });
     return sum;
 }
@@ -45,26 +43,23 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Light
 class TileEncoder {
   public:
     TileEncoder(const LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
-                std::uint8_t references)
+                std::uint8_t references, Effort effort)
         : tile_(tile),
           counted_(counted),
           setup_(HogelOrder(tile.range.ns, tile.range.nt, references, tellers_a_side), grid.directions_u,
                  grid.directions_v, grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()),
                  true),
           references_(references),
+          effort_(effort),
           order_(setup_.order.hogels()),
-          sources_(order_.size()),
           pictures_(order_.size()),
           coded_(order_.size()),
           moved_(order_.size()),
           errors_(order_.size()) {}
 
     TileCoder::Encoded run() {
-        parallel_for(order_.size(), [&](std::size_t k) {
-            sources_[k] = picture_of(tile_, setup_, k % tile_.range.ns, k / tile_.range.ns);
-        });
         parallel_for(std::min(estimated_.size(), order_.size()), [&](std::size_t k) {
-            if (order_[k].level == 0) estimated_[k] = estimate_disparities(setup_, sources_, tile_.range.ns, order_[k]);
+            if (order_[k].level == 0) estimated_[k] = estimate_disparities(setup_, tile_, order_[k]);
         });
         bytes_.put(setup_.step.back());
         bytes_.put(growth);
@@ -90,12 +85,12 @@ class TileEncoder {
 
     void decide(std::size_t k) {
         const HogelOrder::Hogel& hogel = order_[k];
-        Picture& source = sources_[hogel.t * tile_.range.ns + hogel.s];
+        const Picture source = picture_of(tile_, setup_, hogel.s, hogel.t);
         moved_[k] = moved_disparities(hogel, coded_, setup_.grid, setup_.aspect);
         coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
-                            k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
+                            k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, effort_, pictures_);
         errors_[k] = squared_error(pictures_[k], setup_, tile_, hogel.s, hogel.t, counted_);
-        source = {};
+        if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = {};  // nothing comes after it
     }
 
     template <class Coder>
@@ -105,9 +100,11 @@ class TileEncoder {
 
     // The hogels of a level, from begin to end.
     void write(std::size_t begin, std::size_t end) {
+        // As many hogels as tell the models' states well enough.
+        const std::size_t apart = 1 + (end - begin) / counted_hogels;
         std::vector<BlockCounts> counts(std::min<std::size_t>(end - begin, 16));
         parallel_for(counts.size(), [&](std::size_t part) {
-            for (std::size_t k = begin + part; k < end; k += counts.size()) {
+            for (std::size_t k = begin + part * apart; k < end; k += apart * counts.size()) {
                 BlockCounter counter;
                 code(counter, counts[part], k);
             }
@@ -139,8 +136,9 @@ class TileEncoder {
     const DirectionCross& counted_;
     TileSetup setup_;
     std::uint8_t references_;
+    Effort effort_;
     const std::vector<HogelOrder::Hogel>& order_;
-    std::vector<Picture> sources_, pictures_;             // row by row; in the order
+    std::vector<Picture> pictures_;                       // in the order
     std::array<std::vector<std::int16_t>, 4> estimated_;  // disparities of the corners, which come first
     std::vector<CodedHogel> coded_;
     std::vector<std::vector<std::optional<std::int16_t>>> moved_;
@@ -149,33 +147,34 @@ class TileEncoder {
     ByteWriter bytes_;
 };
 
-// A window of directions of a tile, in both directions one of four places.
+// A window of directions of a tile, in both directions one or three quarters of the way.
 struct Window {
     LightFieldGrid grid;
     LightFieldTile tile;
 };
-Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::size_t across, std::size_t down) {
+Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::size_t quarters) {
     LightFieldGrid part = grid;
     part.directions_u = std::min(grid.directions_u, tried_directions);
     part.directions_v = std::min(grid.directions_v, tried_directions);
     part.tan_half_u *= static_cast<double>(part.directions_u) / static_cast<double>(grid.directions_u);
     part.tan_half_v *= static_cast<double>(part.directions_v) / static_cast<double>(grid.directions_v);
     Window window{part, LightFieldTile(part, tile.range, false)};
-    copy_common(tile, window.tile, (grid.directions_v - part.directions_v) * (2 * down + 1) / 4,
-                (grid.directions_u - part.directions_u) * (2 * across + 1) / 4);
+    copy_common(tile, window.tile, (grid.directions_v - part.directions_v) * quarters / 4,
+                (grid.directions_u - part.directions_u) * quarters / 4);
     return window;
 }
 
-// The number of references that does best on some windows of directions. It does not change with every small change of
+// The number of references that does best on two windows of directions. It does not change with every small change of
 // the step, so that a search for a step sees a function without jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
     const double octave = std::exp2(std::round(std::log2(step)));
-    constexpr std::size_t windows = 4, ways = references_a_side.size();
+    constexpr std::size_t windows = 2, ways = references_a_side.size();
     std::array<double, windows * ways> costs{};
     parallel_for(costs.size(), [&](std::size_t n) {
-        const Window window = window_of(tile, grid, n / ways % 2, n / ways / 2);
-        const auto coded =
-            TileEncoder(window.tile, window.grid, {}, static_cast<float>(octave), references_a_side[n % ways]).run();
+        const Window window = window_of(tile, grid, 1 + n / ways * 2);
+        const auto coded = TileEncoder(window.tile, window.grid, {}, static_cast<float>(octave),
+                                       references_a_side[n % ways], Effort::glance)
+                               .run();
         costs[n] = coded.squared_error + bit_worth * octave * octave * 8 * static_cast<double>(coded.bytes.size());
     });
     std::array<double, ways> cost{};
@@ -211,7 +210,9 @@ class HogelCoder final : public TileCoder {
                                                       "{} and {} samples in whole blocks",
                                                       tile.range.ns, tile.range.nt, most_hogel_tile_side,
                                                       most_hogel_tile_side, most_hogel_tile_samples));
-        return TileEncoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step)).run();
+        return TileEncoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step),
+                           Effort::full)
+            .run();
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {

@@ -112,14 +112,9 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
         const LightFieldGrid grid = plane_at(disparity, 9, 64, 48).grid();
         const TileSetup setup(HogelOrder(9, 9, 3, 1), 64, 48, 1, 0.01f, 1.35f,
                               static_cast<float>(grid.step_u() / grid.step_v()), true);
-        std::vector<Picture> sources;
-        for (std::size_t k = 0; k < 81; ++k) {
-            sources.push_back(setup.blank());
-            std::copy_n(&tile.radiance(0, k / 9, k % 9, 0, 0), 64 * 48, sources.back()[0].samples.data());
-        }
         for (const HogelOrder::Hogel& hogel : setup.order.hogels()) {
             if (hogel.level > 0) break;
-            std::vector<std::int16_t> estimated = estimate_disparities(setup, sources, 9, hogel);
+            std::vector<std::int16_t> estimated = estimate_disparities(setup, tile, hogel);
             std::ranges::nth_element(estimated, estimated.begin() + std::ptrdiff_t(estimated.size() / 2));
             EXPECT_NEAR(estimated[estimated.size() / 2] / 64.0, disparity, 0.04) << disparity;
         }

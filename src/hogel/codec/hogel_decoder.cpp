@@ -81,10 +81,9 @@ void HogelDecoder::read(LightFieldTile& part) {
         }
         parallel_for(wanted.size(), [&](std::size_t n) {
             const std::size_t s = n % part.range.ns, t = n / part.range.ns;
-            for_each_row(pictures_[wanted[n]], setup_,
-                         [&](std::size_t c, std::size_t v, const std::vector<float>& row) {
-                             std::ranges::copy(row, &part.radiance(c, t, s, v, 0));
-                         });
+            for_each_row(pictures_[wanted[n]], setup_, [&](std::size_t c, std::size_t v, std::span<const float> row) {
+                std::ranges::copy(row, &part.radiance(c, t, s, v, 0));
+            });
         });
     });
 }
@@ -104,6 +103,8 @@ void HogelDecoder::tell(std::size_t k) {
     const auto moved = moved_disparities(hogel, coded_, setup_.grid, setup_.aspect);
     if (k < codes_.size()) {
         BlockReader reader(codes_[k]);
+        constexpr std::size_t bytes_of_levels = 4;  // of a block, about
+        coded_[k].levels.reserve(std::min(codes_[k].size() / bytes_of_levels, setup_.grid.count()));
         BlockModels models = models_[static_cast<std::size_t>(hogel.level)];
         code_hogel(reader, models, setup_.grid, hogel, moved, beside(k), coded_[k]);
         const ByteReader whole({}, "tile");

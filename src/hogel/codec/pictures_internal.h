@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "hogel/codec/colour_internal.h"
@@ -19,12 +20,16 @@ template <class Use>
 void for_each_row(const Picture& picture, const TileSetup& setup, Use&& use) {
     std::array<std::vector<float>, 3> row;
     for (std::size_t v = 0; v < setup.height; ++v) {
-        for (std::size_t c = 0; c < picture.size(); ++c) {
-            const float* in = &picture[c].samples[v * picture[c].width];
-            row[c].assign(in, in + setup.width);
+        const auto in = [&](std::size_t c) {
+            return std::span(picture[c].samples).subspan(v * picture[c].width, setup.width);
+        };
+        if (picture.size() == 1) {
+            use(0, v, in(0));
+            continue;
         }
-        if (picture.size() == 3) join_colours(row[0], row[1], row[2]);
-        for (std::size_t c = 0; c < picture.size(); ++c) use(c, v, row[c]);
+        for (std::size_t c = 0; c < picture.size(); ++c) row[c].assign(in(c).begin(), in(c).end());
+        join_colours(row[0], row[1], row[2]);
+        for (std::size_t c = 0; c < picture.size(); ++c) use(c, v, std::span<const float>(row[c]));
     }
 }
 

@@ -44,45 +44,39 @@ constexpr float noise_weight = 0.03f, distance_weight = 0.003f;
 
 std::size_t fraction_of(int shift) { return static_cast<std::size_t>(shift & (shift_unit - 1)); }
 
-bool lies_on(const HogelOrder::Reference& reference, ReferenceWeights::Side side) {
-    switch (side) {
-        case ReferenceWeights::Side::any:
-            return true;
-        case ReferenceWeights::Side::left:
-            return reference.ds < 0;
-        case ReferenceWeights::Side::right:
-            return reference.ds > 0;
-        case ReferenceWeights::Side::above:
-            return reference.dt < 0;
-        case ReferenceWeights::Side::below:
-            break;
-    }
-    return reference.dt > 0;
+ReferenceWeights::Side side_of(const HogelOrder::Reference& reference) {
+    using Side = ReferenceWeights::Side;
+    if (reference.ds != 0) return reference.ds < 0 ? Side::left : Side::right;
+    return reference.dt < 0 ? Side::above : Side::below;
 }
 
 }  // namespace
 
-Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
-    const double v = std::floor(static_cast<double>(-disparity * reference.dt) * static_cast<double>(aspect) + 0.5);
-    return {-disparity * reference.ds, static_cast<int>(std::clamp(v, -1e9, 1e9))};
+void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side) {
+    const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
+    const auto reach = static_cast<std::ptrdiff_t>(side);
+    std::array<std::ptrdiff_t, window_side> column;
+    for (std::size_t c = 0; c < side; ++c)
+        column[c] = std::clamp<std::ptrdiff_t>(x + static_cast<std::ptrdiff_t>(c), 0, width - 1);
+    const bool across_an_edge = x < 0 || x + std::ptrdiff_t(window_side) > width;
+    float* to = copy_.data();
+    for (std::ptrdiff_t r = 0; r < reach; ++r, to += window_side) {
+        const float* from = plane.samples.data() + std::clamp<std::ptrdiff_t>(y + r, 0, height - 1) * width;
+        if (across_an_edge)
+            for (std::size_t c = 0; c < side; ++c) to[c] = from[column[c]];
+        else
+            std::copy_n(from + x, window_side, to);
+    }
+    rows_ = copy_.data();
+    stride_ = window_side;
 }
 
 void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& block) {
-    constexpr int reach = window_side;
-    const int width = static_cast<int>(plane.width), height = static_cast<int>(plane.height);
     const int x0 = x + (shift.u >> 6) - int(taps_before), y0 = y + (shift.v >> 6) - int(taps_before);
     const std::size_t at_u = fraction_of(shift.u), at_v = fraction_of(shift.v);
-    const Taps *along_u = at_u > 0 ? &filters.of[at_u] : nullptr, *along_v = at_v > 0 ? &filters.of[at_v] : nullptr;
-    if (x0 >= 0 && y0 >= 0 && x0 + reach <= width && y0 + reach <= height) {
-        const float* rows = &plane.samples[static_cast<std::size_t>(y0) * plane.width + static_cast<std::size_t>(x0)];
-        return interpolate_block(rows, plane.width, along_u, along_v, block);
-    }
-    float window[reach * reach];
-    for (int r = 0; r < reach; ++r) {
-        const float* row = &plane.samples[static_cast<std::size_t>(std::clamp(y0 + r, 0, height - 1)) * plane.width];
-        for (int c = 0; c < reach; ++c) window[r * reach + c] = row[std::clamp(x0 + c, 0, width - 1)];
-    }
-    interpolate_block(window, window_side, along_u, along_v, block);
+    const PlaneWindow window(plane, x0, y0, window_side);
+    interpolate_block(window.rows(), window.stride(), at_u > 0 ? &filters.of[at_u] : nullptr,
+                      at_v > 0 ? &filters.of[at_v] : nullptr, block);
 }
 
 BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift) {
@@ -106,41 +100,45 @@ BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column
 }
 
 ReferenceWeights::ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect)
-    : hogel_(hogel), aspect_(aspect), kept_(256) {
+    : hogel_(hogel), aspect_(aspect), kept_(new Kept[kept_choices]) {
+    for (std::size_t n = 0; n < kept_choices; ++n) kept_[n].disparity = -most_disparity - 1;
     for (const HogelOrder::Reference& reference : hogel.references) {
         const auto distance = static_cast<float>(reference.ds * reference.ds + reference.dt * reference.dt);
-        fixed_.push_back(noise_weight * noise[reference.hogel] + distance_weight * distance);
+        fixed_.push_back({noise_weight * noise[reference.hogel] + distance_weight * distance, side_of(reference)});
     }
 }
 
 const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
-    Kept& kept = kept_[static_cast<std::size_t>(disparity + most_disparity) % kept_.size()];
+    Kept& kept = kept_[static_cast<std::size_t>(disparity + most_disparity) % kept_choices];
     if (kept.disparity == disparity) return kept.choices;
-    kept = {disparity, {}};
-    std::array<std::array<float, 2>, sides> cost{};
+    kept.disparity = disparity;
+    for (Choice& choice : kept.choices) choice.count = 0;
+    std::array<std::array<float, 2>, sides> cost;
     for (std::uint32_t k = 0; k < fixed_.size(); ++k) {
-        const HogelOrder::Reference& reference = hogel_.references[k];
-        const Shift shift = shift_of(disparity, reference, aspect_);
-        const float here = fixed_[k] + alias.of[fraction_of(shift.u)] + alias.of[fraction_of(shift.v)];
-        for (std::size_t side = 0; side < sides; ++side) {
-            if (!lies_on(reference, static_cast<Side>(side))) continue;
-            Choice& choice = kept.choices[side];
+        const Shift shift = shift_of(disparity, hogel_.references[k], aspect_);
+        const float here = fixed_[k].cost + alias.of[fraction_of(shift.u)] + alias.of[fraction_of(shift.v)];
+        // The first `most` of a side by their cost, of equal ones the earlier.
+        const auto offer = [&](Side side, std::uint32_t most) {
+            auto& costs = cost[static_cast<std::size_t>(side)];
+            Choice& choice = kept.choices[static_cast<std::size_t>(side)];
             std::uint32_t at = choice.count;
-            if (at == (static_cast<Side>(side) == Side::any ? 2u : 1u)) {
-                if (!(here < cost[side][at - 1])) continue;
+            if (at == most) {
+                if (!(here < costs[at - 1])) return;
                 --at;
             } else {
                 ++choice.count;
             }
-            for (; at > 0 && here < cost[side][at - 1]; --at) {
-                cost[side][at] = cost[side][at - 1];
+            for (; at > 0 && here < costs[at - 1]; --at) {
+                costs[at] = costs[at - 1];
                 choice.reference[at] = choice.reference[at - 1];
                 choice.shift[at] = choice.shift[at - 1];
             }
-            cost[side][at] = here;
+            costs[at] = here;
             choice.reference[at] = k;
             choice.shift[at] = shift;
-        }
+        };
+        offer(Side::any, 2);
+        offer(fixed_[k].side, 1);
     }
     for (std::size_t side = 0; side < sides; ++side) {
         Choice& choice = kept.choices[side];

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,6 +21,33 @@ struct Plane {
     Plane(std::size_t w, std::size_t h) : width(w), height(h), samples(w * h) {}
 };
 
+// A square window of a plane, which goes on as its edges are: where it lies, or a copy where it reaches over an edge.
+class PlaneWindow {
+  public:
+    // @param side   at most window_side
+    PlaneWindow(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side) {
+        const auto reach = static_cast<std::ptrdiff_t>(side);
+        const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
+        if (x < 0 || y < 0 || x + reach > width || y + reach > height) {
+            copy(plane, x, y, side);
+            return;
+        }
+        rows_ = &plane.samples[static_cast<std::size_t>(y * width + x)];
+        stride_ = plane.width;
+    }
+    const float* rows() const { return rows_; }
+    std::size_t stride() const { return stride_; }
+    PlaneWindow(const PlaneWindow&) = delete;
+    PlaneWindow& operator=(const PlaneWindow&) = delete;
+
+  private:
+    void copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side);
+
+    const float* rows_;
+    std::size_t stride_;
+    std::array<float, window_side * window_side> copy_;
+};
+
 // Directions along u and v by which what a block shows moves from a hogel to another, in 64ths.
 constexpr int shift_unit = 64;
 struct Shift {
@@ -27,7 +57,11 @@ struct Shift {
 // Disparity: how many directions (in u, in 64ths) what a block shows moves from one hogel to the next: ΔU-steps of
 // d/ζ. It moves `aspect` times as many directions in v.
 constexpr int most_disparity = 1 << 14;
-Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect);
+inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
+    if (reference.dt == 0) return {-disparity * reference.ds, 0};
+    const double v = std::floor(static_cast<double>(-disparity * reference.dt) * static_cast<double>(aspect) + 0.5);
+    return {-disparity * reference.ds, static_cast<int>(std::clamp(v, -1e9, 1e9))};
+}
 
 // The block at (x, y) as the plane shows it, moved; six-tap interpolation, the plane continued by its edges. Depends
 // on the order of the additions, which is part of the format.
@@ -48,10 +82,10 @@ class ReferenceWeights {
     enum class Side { any, left, right, above, below };
     static constexpr std::size_t sides = 5;
     struct Choice {
-        std::uint32_t count = 0;
-        std::array<std::uint32_t, 2> reference{};  // of hogel.references
-        std::array<float, 2> weight{};             // their sum is 1
-        std::array<Shift, 2> shift{};
+        std::uint32_t count;
+        std::array<std::uint32_t, 2> reference;  // of hogel.references
+        std::array<float, 2> weight;             // their sum is 1
+        std::array<Shift, 2> shift;
     };
     // The best two for any side, the best one for one. None where there is nothing on that side. Valid until the next
     // call.
@@ -60,16 +94,22 @@ class ReferenceWeights {
   private:
     using Choices = std::array<Choice, sides>;
     struct Kept {
-        int disparity = -most_disparity - 1;
+        int disparity;
         Choices choices;
+    };
+    struct Fixed {
+        float cost;  // whatever the shift is
+        Side side;
     };
 
     const Choices& choices_for(int disparity);
 
     const HogelOrder::Hogel& hogel_;
-    std::vector<float> fixed_;
+    std::vector<Fixed> fixed_;  // of each reference
     float aspect_;
-    std::vector<Kept> kept_;  // of the disparities asked for last, as neighbouring blocks ask for the same ones
+    // Of the disparities asked for last, as neighbouring blocks ask for the same ones.
+    static constexpr std::size_t kept_choices = 64;
+    std::unique_ptr<Kept[]> kept_;
 };
 
 }  // namespace hogel

@@ -92,8 +92,7 @@ bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hoge
     if (choice.count == 2) {
         BlockSamples other;
         fetch(1, other);
-        for (std::size_t k = 0; k < block_samples; ++k)
-            block[k] = choice.weight[0] * block[k] + choice.weight[1] * other[k];
+        mix_blocks(block, other, choice.weight[0], choice.weight[1], block);
     }
     return true;
 }
@@ -119,16 +118,20 @@ bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel
 
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
                  float step) {
-    BlockSamples residual{};
+    BlockSamples residual;
     if (levels) {
         BlockSamples coefficients;
         for (std::size_t k = 0; k < block_samples; ++k) coefficients[k] = static_cast<float>((*levels)[k]) * step;
         inverse_transform_block(coefficients, residual);
     }
-    for (std::size_t r = 0; r < block_side; ++r)
-        for (std::size_t c = 0; c < block_side; ++c)
-            plane.samples[(y + r) * plane.width + x + c] =
-                prediction[r * block_side + c] + residual[r * block_side + c];
+    for (std::size_t r = 0; r < block_side; ++r) {
+        float* row = &plane.samples[(y + r) * plane.width + x];
+        const float* predicted = &prediction[r * block_side];
+        if (levels)
+            for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + residual[r * block_side + c];
+        else
+            for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + 0.0f;  // no −0, as with levels
+    }
 }
 
 void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,

@@ -66,24 +66,6 @@ void ArithmeticEncoder::shift() {
     low_ = (low_ & 0x00FFFFFF) << 8;
 }
 
-void ArithmeticEncoder::narrow(std::uint32_t start, std::uint32_t size) {
-    low_ += start;
-    range_ = size;
-    while (range_ < least_coding_range) {
-        range_ <<= 8;
-        shift();
-    }
-}
-
-void ArithmeticEncoder::bit(BitModel& model, bool value) {
-    const std::uint32_t bound = (range_ >> 16) * model.zero();
-    if (value)
-        narrow(bound, range_ - bound);
-    else
-        narrow(0, bound);
-    model.learn(value);
-}
-
 void ArithmeticEncoder::symbol(SymbolModel& model, std::size_t value) {
     const std::uint32_t unit = range_ / model.total();
     narrow(unit * model.before(value), unit * model.frequency(value));

@@ -100,7 +100,25 @@ class ArithmeticDecoder {
     bool ended_ = false;
 };
 
-// Here for speed: most of what a decoder does.
+// Here for speed: most of what a coder does.
+
+inline void ArithmeticEncoder::narrow(std::uint32_t start, std::uint32_t size) {
+    low_ += start;
+    range_ = size;
+    while (range_ < least_coding_range) {
+        range_ <<= 8;
+        shift();
+    }
+}
+
+inline void ArithmeticEncoder::bit(BitModel& model, bool value) {
+    const std::uint32_t bound = (range_ >> 16) * model.zero();
+    if (value)
+        narrow(bound, range_ - bound);
+    else
+        narrow(0, bound);
+    model.learn(value);
+}
 
 inline std::uint32_t ArithmeticDecoder::take() {
     const bool missing = next_ == bytes_.size();
