@@ -103,8 +103,7 @@ void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes
 
 void take_better_plain(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines,
                        BestOfLines& main, BestOfLines& beyond) {
-    float all = more;
-    for (const float error : errors) all += error;
+    const float all = more + sum_in_columns([&](std::size_t k) { return errors[k]; });
     for (std::size_t line = 0; line < block_lines; ++line) {
         float sum = 0;
         for (std::size_t n = 0; n < block_samples; ++n) sum += errors[n] * lines[n][line];

@@ -173,8 +173,7 @@ void TakeBetter(const BlockSamples& errors, float more, float way, const LinesOf
                 BestOfLines& beyond) {
     const hn::CappedTag<float, block_lines / 4> d;
     const std::size_t lanes = hn::Lanes(d);
-    float all = more;
-    for (const float error : errors) all += error;
+    const float all = more + SumInColumns([&](auto row, std::size_t k) HWY_ATTR { return hn::LoadU(row, &errors[k]); });
     const auto take = [&](auto cost, std::size_t line, BestOfLines& best) HWY_ATTR {
         const auto so_far = hn::LoadU(d, &best.cost[line]);
         const auto better = hn::Lt(cost, so_far);
@@ -182,15 +181,16 @@ void TakeBetter(const BlockSamples& errors, float more, float way, const LinesOf
         hn::StoreU(hn::IfThenElse(better, hn::Set(d, way), hn::LoadU(d, &best.way[line])), d, &best.way[line]);
     };
     for (std::size_t line = 0; line < block_lines; line += 4 * lanes) {
-        // Four vectors at once, as each sum waits for the one before it.
+        // Four vectors at once, as each sum waits for the one before it. Products with 0 and 1 need no rounding, so
+        // that they may be added unrounded.
         auto a = hn::Zero(d), b = a, c = a, e = a;
         for (std::size_t n = 0; n < block_samples; ++n) {
             const auto error = hn::Set(d, errors[n]);
             const float* row = &lines[n][line];
-            a = hn::Add(a, hn::Mul(error, hn::LoadU(d, row)));
-            b = hn::Add(b, hn::Mul(error, hn::LoadU(d, row + lanes)));
-            c = hn::Add(c, hn::Mul(error, hn::LoadU(d, row + 2 * lanes)));
-            e = hn::Add(e, hn::Mul(error, hn::LoadU(d, row + 3 * lanes)));
+            a = hn::MulAdd(error, hn::LoadU(d, row), a);
+            b = hn::MulAdd(error, hn::LoadU(d, row + lanes), b);
+            c = hn::MulAdd(error, hn::LoadU(d, row + 2 * lanes), c);
+            e = hn::MulAdd(error, hn::LoadU(d, row + 3 * lanes), e);
         }
         std::size_t at = line;
         for (const auto sum : {a, b, c, e}) {

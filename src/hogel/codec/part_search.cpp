@@ -14,10 +14,24 @@ constexpr float best_of_all_sides = 1, one_side = 2.5f;
 
 // All ways to predict a block with a disparity, as parts on either side of all lines.
 void PartSearch::see(std::size_t x, std::size_t y, const BlockSamples& wanted, int disparity, float bits) {
+    // What one reference shows may serve for all sides and for its own.
+    std::array<BlockSamples, ReferenceWeights::sides + 1> seen;
+    std::array<std::uint32_t, ReferenceWeights::sides + 1> seen_of;
+    std::size_t seen_count = 0;
+    const auto fetch = [&](const ReferenceWeights::Choice& choice, std::size_t k) -> const BlockSamples& {
+        const auto end = seen_of.begin() + seen_count;
+        const auto found = std::find(seen_of.begin(), end, choice.reference[k]);
+        if (found != end) return seen[static_cast<std::size_t>(found - seen_of.begin())];
+        const Plane& plane = pictures_[hogel_.references[choice.reference[k]].hogel][0];
+        fetch_moved(plane, static_cast<int>(x), static_cast<int>(y), choice.shift[k], seen[seen_count]);
+        seen_of[seen_count] = choice.reference[k];
+        return seen[seen_count++];
+    };
     for (std::uint8_t side = 0; side < ReferenceWeights::sides; ++side) {
         const auto& choice = weights_.choose(disparity, static_cast<ReferenceWeights::Side>(side));
-        BlockSamples errors;
-        if (!predict_across(pictures_, hogel_, choice, 0, x, y, errors)) continue;
+        if (choice.count == 0) continue;
+        BlockSamples errors = fetch(choice, 0);
+        if (choice.count == 2) mix_blocks(errors, fetch(choice, 1), choice.weight[0], choice.weight[1], errors);
         for (std::size_t n = 0; n < block_samples; ++n) {
             const float error = errors[n] - wanted[n];
             errors[n] = error * error;
