@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,9 @@ namespace hogel {
 // Samples of one hogel and channel, [v][u], filled up to whole blocks.
 struct Plane {
     std::size_t width = 0, height = 0;
-    std::vector<float> samples;
-    Plane() = default;
-    Plane(std::size_t w, std::size_t h) : width(w), height(h), samples(w * h) {}
+    std::pmr::vector<float> samples;
+    Plane(std::size_t w, std::size_t h, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        : width(w), height(h), samples(w * h, memory) {}
 };
 
 // A square window of a plane, which goes on as its edges are: where it lies, or a copy where it reaches over an edge.

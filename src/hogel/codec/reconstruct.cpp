@@ -34,7 +34,9 @@ TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_
       width(directions_u),
       height(directions_v),
       aspect(v_per_u),
-      step(static_cast<std::size_t>(order.levels()), finest_step) {
+      step(static_cast<std::size_t>(order.levels()), finest_step),
+      memory(std::make_unique<PictureMemory>(grid.count() * block_samples * sizeof(float),
+                                             order.hogels().size() * grid.channels)) {
     for (std::size_t level = step.size() - 1; level-- > 0;) step[level] = step[level + 1] / step_growth;
     for (const HogelOrder::Hogel& hogel : order.hogels()) {
         const float ratio = step[static_cast<std::size_t>(hogel.level)] / step[0];
@@ -43,7 +45,10 @@ TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_
 }
 
 Picture TileSetup::blank() const {
-    return Picture(grid.channels, Plane(grid.columns * block_side, grid.rows * block_side));
+    Picture picture;
+    for (std::size_t c = 0; c < grid.channels; ++c)
+        picture.emplace_back(grid.columns * block_side, grid.rows * block_side, memory.get());
+    return picture;
 }
 
 void transform_block(const BlockSamples& in, BlockSamples& out) {

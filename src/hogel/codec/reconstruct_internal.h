@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hogel/codec/block_syntax_internal.h"
+#include "hogel/codec/picture_memory_internal.h"
 
 namespace hogel {
 
@@ -18,7 +19,9 @@ struct TileSetup {
     float aspect;               // ΔU/ΔV
     std::vector<float> step;    // the quantiser's, of each level of the order
     std::vector<float> noise;   // (step / that of level 0)², of each hogel in the order
+    // A picture must not outlive the setup, which keeps its memory.
     Picture blank() const;
+    std::unique_ptr<PictureMemory> memory;
 };
 
 // The orthonormal DCT of a block and its inverse. Depend on the order of the additions, which is part of the format.
