@@ -38,8 +38,9 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
 
 /// Coders that other programs have.
 std::vector<std::string> peer_names();
-/// A peer on a light field of one channel: zfp on the array of floats; the others, by way of ffmpeg, on the hogels as
-/// pictures, row by row and back, of 10 bits for video and 16 for still pictures. Nothing where the program is not
+/// A peer on a light field of one channel: zfp on the array of floats; OpenEXR on all hogels as one picture of floats;
+/// the others, openjpeg by its own programs and the rest by way of ffmpeg, on the hogels as pictures, row by row and
+/// back, of 10 bits for video and 16 for still pictures. Nothing where the program is not
 /// installed or lacks the coder. Throws Error(cancelled) once `go_on`, asked before each quality, says no.
 std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range,
                                       const Progress& go_on);

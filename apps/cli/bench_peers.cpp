@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <fstream>
 
-#include "bench_codec.h"
+#include "bench_peers.h"
 #include "temporary_folder.h"
 
 namespace hogel::cli {
@@ -79,13 +79,12 @@ class Pictures {
         const std::size_t luminance = field_.grid().directions();
         return video_ ? luminance + luminance / 2 : luminance;
     }
+    // As one file of 16-bit pictures after another, or as a folder of PGM files.
     void write(const std::filesystem::path& path) const {
         std::ofstream file(path, std::ios::binary);
         std::vector<std::uint16_t> picture(samples_of_picture(), static_cast<std::uint16_t>((top_ + 1) / 2));
         for (std::size_t k = 0; k < field_.grid().hogels(); ++k) {
-            std::ranges::transform(hogel(k), picture.begin(), [&](float value) {
-                return static_cast<std::uint16_t>(std::lround(std::clamp(value / peak_, 0.0f, 1.0f) * float(top_)));
-            });
+            std::ranges::transform(hogel(k), picture.begin(), [&](float value) { return level_of(value); });
             file.write(reinterpret_cast<const char*>(picture.data()), std::streamsize(2 * picture.size()));
         }
     }
@@ -104,12 +103,43 @@ class Pictures {
         }
         return 10 * std::log10(signal_ / error);
     }
+    void write_each(const std::filesystem::path& folder) const {
+        std::vector<std::uint8_t> bytes(2 * samples_of_picture());
+        for (std::size_t k = 0; k < field_.grid().hogels(); ++k) {
+            for (std::size_t n = 0; n < samples_of_picture(); ++n) {
+                const std::uint16_t level = level_of(hogel(k)[n]);
+                bytes[2 * n] = static_cast<std::uint8_t>(level >> 8);
+                bytes[2 * n + 1] = static_cast<std::uint8_t>(level & 255);
+            }
+            std::ofstream file(folder / fmt::format("{:06}.pgm", k), std::ios::binary);
+            file << fmt::format("P5\n{} {}\n{}\n", field_.grid().directions_u, field_.grid().directions_v, top_);
+            file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+        }
+    }
+    // Of a folder of files without a header, the low byte first.
+    double sqnr_of_each(const std::filesystem::path& folder) const {
+        std::vector<std::uint8_t> bytes(2 * samples_of_picture());
+        double error = 0;
+        for (std::size_t k = 0; k < field_.grid().hogels(); ++k) {
+            std::ifstream file(folder / fmt::format("{:06}.rawl", k), std::ios::binary);
+            if (!file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()))) return 0;
+            const std::span<const float> truth = hogel(k);
+            for (std::size_t n = 0; n < truth.size(); ++n) {
+                const double difference = truth[n] - double(bytes[2 * n + 1] << 8 | bytes[2 * n]) * peak_ / top_;
+                error += difference * difference;
+            }
+        }
+        return 10 * std::log10(signal_ / error);
+    }
     std::string format() const {
         return fmt::format("-f rawvideo -pix_fmt {} -s {}x{}", video_ ? "yuv420p10le" : "gray16le",
                            field_.grid().directions_u, field_.grid().directions_v);
     }
 
   private:
+    std::uint16_t level_of(float value) const {
+        return static_cast<std::uint16_t>(std::lround(std::clamp(value / peak_, 0.0f, 1.0f) * float(top_)));
+    }
     std::span<const float> hogel(std::size_t k) const {
         const std::size_t t = k / field_.grid().hogels_s, s = k % field_.grid().hogels_s;
         return field_.radiance[0][t][t % 2 == 0 ? s : field_.grid().hogels_s - 1 - s].elements();
@@ -172,10 +202,43 @@ std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange
     return curve;
 }
 
+// The programs of OpenJPEG on a picture a hogel, with ratios to those of 16 bits.
+std::optional<RateCurve> measure_openjpeg(const LightField& field, const QualityRange& range, const Progress& go_on) {
+    if (!run("command -v opj_compress && command -v opj_decompress")) return std::nullopt;
+    const TemporaryFolder folder;
+    const std::filesystem::path plain = folder.path() / "plain", coded = folder.path() / "coded";
+    const Pictures pictures(field, false);
+    RateCurve curve{"OpenJPEG", {}};
+    const double samples = field.grid().samples() * 1e-6;
+    for (const int ratio : {2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256}) {
+        report(go_on, 0);
+        for (const auto& path : {plain, coded}) {
+            std::filesystem::remove_all(path);
+            std::filesystem::create_directory(path);
+        }
+        pictures.write_each(plain);
+        const double began = processor_seconds_of_programs();
+        if (!run(fmt::format("opj_compress -ImgDir {} -OutFor j2k -r {}", quoted(plain), ratio))) return std::nullopt;
+        const double between = processor_seconds_of_programs();
+        for (const auto& entry : std::filesystem::directory_iterator(plain))
+            if (entry.path().extension() == ".j2k")
+                std::filesystem::rename(entry.path(), coded / entry.path().filename());
+        const double bytes = bytes_in(coded);
+        const double moved = processor_seconds_of_programs();
+        if (!run(fmt::format("opj_decompress -ImgDir {} -OutFor rawl", quoted(coded)))) return std::nullopt;
+        const double ended = processor_seconds_of_programs();
+        const double sqnr = pictures.sqnr_of_each(coded);
+        curve.points.push_back(
+            {samples * 1e6 / (8 * bytes), sqnr, samples / (between - began), samples / (ended - moved)});
+        if (sqnr < range.low) break;
+    }
+    return curve;
+}
+
 }  // namespace
 
 std::vector<std::string> peer_names() {
-    std::vector<std::string> names{"zfp"};
+    std::vector<std::string> names{"zfp", "openexr-dwaa", "openexr-dwab", "openjpeg"};
     for (const Peer& peer : peers()) names.emplace_back(peer.name);
     return names;
 }
@@ -183,6 +246,8 @@ std::vector<std::string> peer_names() {
 std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range,
                                       const Progress& go_on) {
     if (name == "zfp") return measure_zfp(field, range, go_on);
+    if (name == "openexr-dwaa" || name == "openexr-dwab") return measure_openexr(field, name.substr(8), range, go_on);
+    if (name == "openjpeg") return measure_openjpeg(field, range, go_on);
     const Peer& peer = *std::ranges::find(peers(), name, &Peer::name);
     if (!run(fmt::format("ffmpeg -hide_banner -h encoder={} | grep -q '^Encoder {}'", peer.needs, peer.needs)))
         return std::nullopt;

@@ -47,13 +47,17 @@ class Models(dict):
         return self[name]
 
 
-def model_names():
+def model_names(version):
     """All models of hogels, in the order in which a stream tells their states."""
+    def of_disparity(of):
+        names = [(of, name, spread, around) for spread in range(4) for around in range(3)
+                 for name in ("not first", "none")]
+        names += [(of, "which", spread, k) for spread in range(4) for k in range(4)]
+        return names + [(of, "sign")] + [((of, "difference"), k) for k in range(31)]
+
     names = [("mode", context, k) for context in range(3) for k in range(6)]
     names += [("within", k) for k in range(3)]
-    names += [(name, spread, around) for spread in range(4) for around in range(3) for name in ("not first", "none")]
-    names += [("which", spread, k) for spread in range(4) for k in range(4)]
-    names += ["sign"] + [("difference", k) for k in range(31)]
+    names += of_disparity("main")
     names += [("coded", c, kind, surprising, around) for c in (False, True) for kind in ("any", "side", "within")
               for surprising in (False, True) for around in range(3)]
     for c in (False, True):
@@ -64,6 +68,13 @@ def model_names():
                       for low in (False, True)]
             names += [(of, "above 1", total) for total in range(8)] + [(of, "above 2", total) for total in range(8)]
             names += [((of, "rest"), k) for k in range(31)]
+    if version > 3:
+        names += [("parted", context) for context in range(3)]
+        names += [(part, "side", k) for part in ("main", "beyond") for k in range(4)]
+        names += [("angle", node) for node in range(32)] + [("place", node) for node in range(4)]
+        names += of_disparity("beyond")
+        names += [("coded", c, "parted", surprising, around) for c in (False, True) for surprising in (False, True)
+                  for around in range(3)]
     return names
 
 
@@ -191,12 +202,21 @@ def taps_at(fraction):
 
 
 TAPS = [taps_at(fraction) for fraction in range(64)]
+def beyond(line):
+    """Which samples of a block lie beyond a line."""
+    angle, place = line // 4, line % 4
+    cosine, sine = (round(f(2 * math.pi * angle / 32) * 2**14) for f in (math.cos, math.sin))
+    return np.array([[cosine * (2 * c - 7) + sine * (2 * r - 7) > 2 * place * (abs(cosine) + abs(sine))
+                      for c in range(8)] for r in range(8)])
+
+
 ALIAS = [f32(np.rint(math.sin(math.pi * fraction / 64)**2 * 2**14) / 2**14) for fraction in range(64)]
 
 
 class Tile:
     def __init__(self, version, data, columns, rows, shape, aspect):
         source = Bytes(data)
+        self.version = version
         step, growth = f32(source.take("f")), f32(source.take("f"))
         self.channels, self.height, self.width = shape
         self.across, self.down, self.aspect = -(-self.width // 8), -(-self.height // 8), aspect
@@ -227,7 +247,7 @@ class Tile:
 
     def take_states(self, side, states):
         models, changed = Models(), 0
-        for name in model_names():
+        for name in model_names(self.version):
             changed = side.bit(models["changed", changed])
             if changed:
                 sign = -1 if side.bit(models["sign"]) else 1
@@ -275,35 +295,43 @@ class Tile:
                 - blocks[n - self.across - 1]["disparity"])
         if hogel.tellers and len(result) < 4:
             add(self.hogels[hogel.tellers[0][0]].blocks[n]["disparity"])
+        near = [blocks[k] for k in [n - 1] * left + [n - self.across] * above]
+        near += [self.hogels[k].blocks[n] for k, _, _ in hogel.tellers[:1]]
+        for block in near:
+            if block["mode"] == 6:
+                add(block["beyond"])
         return result or [0]
 
     def unary(self, name, most):
         value = 0
-        while value < most and self.decoder.bit(self.models[name, value]):
+        while value < most and self.decoder.bit(self.models[(*name, value)]):
             value += 1
         return value
 
-    def disparity(self, candidates, around, unit):
+    def path(self, name, bits):
+        node = 1
+        for _ in range(bits):
+            node = node * 2 + self.decoder.bit(self.models[(*name, node)])
+        return node - 2**bits
+
+    def disparity(self, of, candidates, around, unit):
         bit, models = self.decoder.bit, self.models
         far = max(abs(c - candidates[0]) for c in candidates)
         spread = 0 if far == 0 else 1 if far <= 2 else 2 if far <= 12 else 3
-        if not bit(models["not first", spread, around]):
+        if not bit(models[of, "not first", spread, around]):
             return candidates[0]
-        if not bit(models["none", spread, around]):
+        if not bit(models[of, "none", spread, around]):
             k = 1
-            while k + 1 < len(candidates) and bit(models["which", spread, min(k, 3)]):
+            while k + 1 < len(candidates) and bit(models[of, "which", spread, min(k, 3)]):
                 k += 1
             return candidates[min(k, len(candidates) - 1)]
-        sign = -1 if bit(models["sign"]) else 1
-        size = 1 + min(self.decoder.number(models, "difference"), 2**16)
+        sign = -1 if bit(models[of, "sign"]) else 1
+        size = 1 + min(self.decoder.number(models, (of, "difference")), 2**16)
         return max(-2**14, min(2**14, candidates[0] + sign * unit * size))
 
     def levels(self, name):
         bit, models = self.decoder.bit, self.models
-        node = 1
-        for _ in range(6):
-            node = node * 2 + bit(models[name, "last", node])
-        last, result, seen = node - 64, np.zeros((8, 8), f32), np.zeros((10, 10), int)
+        last, result, seen = self.path((name, "last"), 6), np.zeros((8, 8), f32), np.zeros((10, 10), int)
         for n in range(last, -1, -1):
             r, c = ZIGZAG[n]
             total = seen[r, c + 1] + seen[r + 1, c] + seen[r + 1, c + 1] + seen[r, c + 2] + seen[r + 2, c]
@@ -333,18 +361,25 @@ class Tile:
                 odd = sum(b["mode"] != 1 for b in near)
                 if not bit(models["mode", odd, 0]):
                     block["mode"] = 1
+                elif self.version > 3 and bit(models["parted", odd]):
+                    block["mode"] = 6
                 elif bit(models["mode", odd, 1]):
                     block["mode"] = 2
                     while block["mode"] < 5 and bit(models["mode", odd, block["mode"]]):
                         block["mode"] += 1
             if block["mode"] == 0:
-                block["within"] = self.unary("within", 3)
+                block["within"] = self.unary(("within",), 3)
             candidates = self.candidates(hogel, n, moved)
             block["disparity"] = candidates[0]
             if block["mode"] or first:
-                block["disparity"] = self.disparity(candidates, sum(b["surprising"] for b in near), unit)
+                block["disparity"] = self.disparity("main", candidates, sum(b["surprising"] for b in near), unit)
+            if block["mode"] == 6:
+                block["sides"] = [self.unary((part, "side"), 4) for part in ("main", "beyond")]
+                block["line"] = self.path(("angle",), 5) * 4
+                block["line"] += self.path(("place",), 2)
+                block["beyond"] = self.disparity("beyond", candidates, 0, unit)
             block["surprising"] = block["disparity"] != candidates[0]
-            kind = "within" if block["mode"] == 0 else "any" if block["mode"] == 1 else "side"
+            kind = "within" if block["mode"] == 0 else "any" if block["mode"] == 1 else "parted" if block["mode"] == 6 else "side"
             block["coded"] = []
             hogel.blocks.append(block)
             for c in range(self.channels):
@@ -370,20 +405,19 @@ class Tile:
         r, c = k[:, None], k[None, :]
         return ((7 - c) * left[:, None] + (c + 1) * above[7] + (7 - r) * above[None, :] + (r + 1) * left[7]) / f32(16)
 
-    def predict_across(self, hogel, c, x, y, block):
+    def predict_across(self, hogel, c, x, y, disparity, side):
         found = []
         for reference in hogel.references:
             k, i, j = reference
-            side = block["mode"] - 1
             if side and not [i < 0, i > 0, j < 0, j > 0][side - 1]:
                 continue
             ratio = self.steps[self.hogels[k].level] / self.steps[0]
-            u, v = self.shift(block["disparity"], reference)
+            u, v = self.shift(disparity, reference)
             noise = (f32(0.03) * (ratio * ratio) + f32(0.003) * f32(i * i + j * j)) + ALIAS[u % 64] + ALIAS[v % 64]
             found.append((noise, k, u, v))
         found.sort(key=lambda entry: entry[0])
         blocks = [self.interpolate(self.hogels[k].picture[c], x, y, u, v) for _, k, u, v in found[:2]]
-        if block["mode"] > 1 or len(blocks) == 1:
+        if side or len(blocks) == 1:
             return blocks[0]
         weight = found[1][0] / (found[0][0] + found[1][0])
         return weight * blocks[0] + (f32(1) - weight) * blocks[1]
@@ -407,7 +441,11 @@ class Tile:
     def reconstruct(self, hogel, n, block, c, levels):
         x, y, plane = n % self.across * 8, n // self.across * 8, self.picture[c]
         if block["mode"]:
-            prediction = self.predict_across(hogel, c, x, y, block)
+            main, side = (block["sides"] if block["mode"] == 6 else [block["mode"] - 1, None])
+            prediction = self.predict_across(hogel, c, x, y, block["disparity"], main)
+            if side is not None:
+                other = self.predict_across(hogel, c, x, y, block["beyond"], side)
+                prediction = np.where(beyond(block["line"]), other, prediction)
         else:
             prediction = self.predict_within(plane, x, y, block["within"])
         residual = np.zeros((8, 8), f32)
@@ -516,7 +554,7 @@ def main():
     assert data[:8] == b"\x89HGL\r\n\x1a\n"
     source.at = 8
     version, length = source.take("II")
-    assert version in (1, 2, 3)
+    assert version in (1, 2, 3, 4)
     channels, columns, rows, n_u, n_v = source.take("5Q")
     _, tan_u, tan_v, _, _ = source.take("5d")
     assert source.text() == "front"

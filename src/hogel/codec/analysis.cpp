@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hogel/codec/block_search_internal.h"
+#include "hogel/codec/part_search_internal.h"
 #include "hogel/codec/pictures_internal.h"
 
 namespace hogel {
@@ -18,6 +19,8 @@ constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
 // A block whose disparity is that of the block beside it, with less error than this in squared steps, is looked at no
 // further.
 constexpr float well_estimated = 1;
+// Bits that parts take, and how many more there have to be before they are looked for.
+constexpr float in_parts = 14, least_gain_by_parts = 8;
 constexpr std::int32_t most_level = 1 << 24;
 
 BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
@@ -27,15 +30,25 @@ BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
     return block;
 }
 
-// Levels of what a prediction leaves, whose sum of squares is `before`; none where they cost more than they are worth.
-bool quantise(const BlockSamples& truth, const BlockSamples& prediction, float before, float step, float rounding,
-              Levels& levels) {
+// What becomes of a channel of a block.
+struct CodedChannel {
+    BlockSamples prediction;
+    bool any_levels = false;
+    Levels levels;
+    float cost = 0;  // squared error, and what the bits of the levels are worth
+};
+
+// The levels of what a prediction leaves, whose sum of squares is `error`; none where they cost more than they are
+// worth.
+void quantise(const BlockSamples& truth, float error, float step, float rounding, CodedChannel& coded) {
     const float worth = bit_worth * step * step;
-    if (before <= worth * (coded_block + coded_level)) return false;
+    coded.cost = error;
+    coded.any_levels = false;
+    if (error <= worth * (coded_block + coded_level)) return;
     BlockSamples residual, coefficients;
-    mix_blocks(truth, prediction, 1, -1, residual);
+    mix_blocks(truth, coded.prediction, 1, -1, residual);
     transform_block(residual, coefficients);
-    levels = {};
+    coded.levels = {};
     float gain = 0, bits = coded_block;
     const float per_step = 1 / step;
     for (std::uint64_t large = large_samples(coefficients, (0.99f - rounding) * step); large != 0; large &= large - 1) {
@@ -44,13 +57,15 @@ bool quantise(const BlockSamples& truth, const BlockSamples& prediction, float b
         const auto level = static_cast<std::int32_t>(size + rounding);
         const std::size_t frequency = k / block_side + k % block_side;
         if (level == 0 || (frequency > 7 && level == 1 && size < 0.9f)) continue;
-        const float error = size - static_cast<float>(level);
-        gain += size * size - error * error;
-        levels[k] = coefficients[k] < 0 ? -level : level;
+        const float left = size - static_cast<float>(level);
+        gain += size * size - left * left;
+        coded.levels[k] = coefficients[k] < 0 ? -level : level;
         bits += coded_level + 2 * static_cast<float>(std::bit_width(static_cast<std::uint32_t>(level)) - 1) +
                 0.3f * static_cast<float>(frequency);
     }
-    return gain > bit_worth * bits;
+    if (gain <= bit_worth * bits) return;
+    coded.any_levels = true;
+    coded.cost = error - (gain - bit_worth * bits) * step * step;
 }
 
 }  // namespace
@@ -148,6 +163,8 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
     Picture picture = setup.blank();
+    ReferenceWeights weights(place, setup.noise, setup.aspect);
+    PartSearch parts(place, pictures, weights);
     BlockSearch search(setup, place, source[0], pictures, estimated, effort);
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
@@ -173,23 +190,38 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
             }
             if (block.mode == 0) block.disparity = first && !estimated.empty() ? estimated[k] : candidates.disparity[0];
         }
-        for (std::size_t c = 0; c < setup.grid.channels; ++c) {
-            if (block.mode == 0)
-                predict_within(picture[c], x, y, block.within, prediction);
-            else if (c > 0)
-                predict_across(pictures, place, search.choice(), c, x, y, prediction);
-            const bool found = c == 0 && block.mode > 0;
-            const BlockSamples& predicted = found ? *best.prediction : prediction;
+        CodedChannel channel;
+        const auto code_channel = [&](const Block& as, std::size_t c) {
+            if (as.mode == 0)
+                predict_within(picture[c], x, y, as.within, channel.prediction);
+            else
+                predict_parts(pictures, place, as, choices_of(as, weights), c, x, y, channel.prediction);
             const BlockSamples truth = c == 0 ? wanted : block_of(source[c], x, y);
-            const float error = found ? best.error : squared_difference(truth, predicted);
-            Levels levels;
-            const bool any =
-                quantise(truth, predicted, error, step, block.mode == 0 ? rounding_within : rounding_across, levels);
-            if (any) {
+            quantise(truth, squared_difference(channel.prediction, truth), step,
+                     as.mode == 0 ? rounding_within : rounding_across, channel);
+        };
+        if (block.mode == 0) {
+            code_channel(block, 0);
+        } else {
+            channel.prediction = *best.prediction;
+            quantise(wanted, best.error, step, rounding_across, channel);
+        }
+        if (!first && effort == Effort::full && channel.cost > worth * (in_parts + least_gain_by_parts)) {
+            const auto in_two = parts.run(x, y, wanted, candidates, best.disparity, worth);
+            const CodedChannel whole = channel;
+            if (in_two) code_channel(*in_two, 0);
+            if (in_two && channel.cost + worth * in_parts < whole.cost)
+                block = *in_two;
+            else
+                channel = whole;
+        }
+        for (std::size_t c = 0; c < setup.grid.channels; ++c) {
+            if (c > 0) code_channel(block, c);
+            if (channel.any_levels) {
                 block.coded = static_cast<std::uint8_t>(block.coded | 1 << c);
-                coded.levels.push_back(levels);
+                coded.levels.push_back(channel.levels);
             }
-            place_block(picture[c], x, y, predicted, any ? &levels : nullptr, step);
+            place_block(picture[c], x, y, channel.prediction, channel.any_levels ? &channel.levels : nullptr, step);
         }
     }
     pictures[hogel] = std::move(picture);

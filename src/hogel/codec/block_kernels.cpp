@@ -101,6 +101,23 @@ void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes
         }
 }
 
+void take_better_plain(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines,
+                       BestOfLines& main, BestOfLines& beyond) {
+    const float all = more + sum_in_columns([&](std::size_t k) { return errors[k]; });
+    for (std::size_t line = 0; line < block_lines; ++line) {
+        float sum = 0;
+        for (std::size_t n = 0; n < block_samples; ++n) sum += errors[n] * lines[n][line];
+        if (all - sum < main.cost[line]) {
+            main.cost[line] = all - sum;
+            main.way[line] = way;
+        }
+        if (more + sum < beyond.cost[line]) {
+            beyond.cost[line] = more + sum;
+            beyond.way[line] = way;
+        }
+    }
+}
+
 void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                                BlockSamples& out) {
     BlockSamples across;  // in · matrixᵀ

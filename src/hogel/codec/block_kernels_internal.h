@@ -64,6 +64,21 @@ struct Slopes {
 void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes);
 void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes);
 
+// For each line that may cut a block, what is the best found so far for the samples on one side of it.
+constexpr std::size_t block_lines = 128;
+using OfLines = std::array<float, block_lines>;
+using LinesOfSamples = std::array<OfLines, block_samples>;  // 1 where a sample lies beyond a line, else 0
+struct BestOfLines {
+    OfLines cost, way;
+    friend bool operator==(const BestOfLines&, const BestOfLines&) = default;
+};
+// Takes `way` where its errors, summed over the samples beyond a line or over the others, and `more` are less than what
+// is there.
+void take_better(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
+                 BestOfLines& beyond);
+void take_better_plain(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines,
+                       BestOfLines& main, BestOfLines& beyond);
+
 // matrix · in · matrixᵀ; the transposed matrix is given too.
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                          BlockSamples& out);

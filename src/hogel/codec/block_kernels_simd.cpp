@@ -169,6 +169,38 @@ void SlopesOfBlock(const float* rows, std::size_t stride, Slopes& slopes) {
         }
 }
 
+void TakeBetter(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
+                BestOfLines& beyond) {
+    const hn::CappedTag<float, block_lines / 4> d;
+    const std::size_t lanes = hn::Lanes(d);
+    const float all = more + SumInColumns([&](auto row, std::size_t k) HWY_ATTR { return hn::LoadU(row, &errors[k]); });
+    const auto take = [&](auto cost, std::size_t line, BestOfLines& best) HWY_ATTR {
+        const auto so_far = hn::LoadU(d, &best.cost[line]);
+        const auto better = hn::Lt(cost, so_far);
+        hn::StoreU(hn::IfThenElse(better, cost, so_far), d, &best.cost[line]);
+        hn::StoreU(hn::IfThenElse(better, hn::Set(d, way), hn::LoadU(d, &best.way[line])), d, &best.way[line]);
+    };
+    for (std::size_t line = 0; line < block_lines; line += 4 * lanes) {
+        // Four vectors at once, as each sum waits for the one before it. Products with 0 and 1 need no rounding, so
+        // that they may be added unrounded.
+        auto a = hn::Zero(d), b = a, c = a, e = a;
+        for (std::size_t n = 0; n < block_samples; ++n) {
+            const auto error = hn::Set(d, errors[n]);
+            const float* row = &lines[n][line];
+            a = hn::MulAdd(error, hn::LoadU(d, row), a);
+            b = hn::MulAdd(error, hn::LoadU(d, row + lanes), b);
+            c = hn::MulAdd(error, hn::LoadU(d, row + 2 * lanes), c);
+            e = hn::MulAdd(error, hn::LoadU(d, row + 3 * lanes), e);
+        }
+        std::size_t at = line;
+        for (const auto sum : {a, b, c, e}) {
+            take(hn::Sub(hn::Set(d, all), sum), at, main);
+            take(hn::Add(hn::Set(d, more), sum), at, beyond);
+            at += lanes;
+        }
+    }
+}
+
 void TransformBothWays(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                        BlockSamples& out) {
     const Row d;
@@ -201,6 +233,7 @@ namespace hogel {
 HWY_EXPORT(InterpolateBlock);
 HWY_EXPORT(MixBlocks);
 HWY_EXPORT(SquaredDifference);
+HWY_EXPORT(TakeBetter);
 HWY_EXPORT(SquaredDifferenceOfRows);
 HWY_EXPORT(SumOfSquaresOf);
 HWY_EXPORT(LargeSamples);
@@ -237,6 +270,11 @@ AlongSlope along_slope(const BlockSamples& a, const BlockSamples& b, const Block
 
 void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes) {
     HWY_DYNAMIC_DISPATCH(SlopesOfBlock)(rows, stride, slopes);
+}
+
+void take_better(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
+                 BestOfLines& beyond) {
+    HWY_DYNAMIC_DISPATCH(TakeBetter)(errors, more, way, lines, main, beyond);
 }
 
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,

@@ -23,6 +23,14 @@ constexpr std::array<std::uint8_t, block_samples> zigzag = [] {
     return order;
 }();
 
+// A number of `bits` bits, from the highest on, as a path through a binary tree.
+template <class Coder, class Model, std::size_t count>
+std::size_t code_path(Coder& coder, std::array<Model, count>& models, int bits, std::size_t value) {
+    std::size_t node = 1;
+    for (int bit = bits - 1; bit >= 0; --bit) node = node * 2 + coder.bit(models[node], value >> bit & 1);
+    return node - (std::size_t{1} << bits);
+}
+
 template <class Coder>
 void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels& levels) {
     // The place of the last level, as a path through a binary tree.
@@ -30,9 +38,7 @@ void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels
     if constexpr (!Coder::reads)
         for (std::size_t n = 0; n < block_samples; ++n)
             if (levels[zigzag[n]] != 0) last = n;
-    std::size_t node = 1;
-    for (int bit = 5; bit >= 0; --bit) node = node * 2 + coder.bit(models.last[node], last >> bit & 1);
-    last = node - block_samples;
+    last = code_path(coder, models.last, 6, last);
     // From there down to the lowest frequency; what stands at the next higher frequencies tells much.
     std::array<std::array<std::uint8_t, block_side + 2>, block_side + 2> seen{};
     for (std::size_t n = last + 1; n-- > 0;) {
@@ -61,12 +67,15 @@ void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels
 }
 
 template <class Coder>
-void code_mode(Coder& coder, typename Coder::Models& models, std::size_t context, bool first, Block& block) {
+void code_mode(Coder& coder, typename Coder::Models& models, std::size_t context, bool first, bool may_be_parted,
+               Block& block) {
     if (!first) {
         // The best of all sides, within, and then one side after the other.
         auto& model = models.mode[context];
         if (!coder.bit(model[0], block.mode != 1))
             block.mode = 1;
+        else if (may_be_parted && coder.bit(models.parts.parted[context], block.mode == parted))
+            block.mode = parted;
         else if (!coder.bit(model[1], block.mode != 0))
             block.mode = 0;
         else {
@@ -82,30 +91,46 @@ void code_mode(Coder& coder, typename Coder::Models& models, std::size_t context
 }
 
 template <class Coder>
-void code_disparity(Coder& coder, typename Coder::Models& models, std::size_t around, int unit,
-                    const Candidates& candidates, Block& block) {
+void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, std::size_t around, int unit,
+                    const Candidates& candidates, std::int16_t& disparity) {
     const auto* end = candidates.disparity.begin() + candidates.count;
-    const auto* found = std::find(candidates.disparity.begin(), end, block.disparity);
+    const auto* found = std::find(candidates.disparity.begin(), end, disparity);
     const int likeliest = candidates.disparity[0];
     const std::size_t spread = candidates.spread();
     auto& model = models.disparity[spread][around];
     if (!coder.bit(model[0], found != candidates.disparity.begin())) {
-        block.disparity = static_cast<std::int16_t>(likeliest);
+        disparity = static_cast<std::int16_t>(likeliest);
     } else if (!coder.bit(model[1], found == end)) {
         std::size_t k = 1;
         const auto index = static_cast<std::size_t>(found - candidates.disparity.begin());
         while (k + 1 < candidates.count && coder.bit(models.candidate[spread][std::min<std::size_t>(k, 3)], index != k))
             ++k;
-        block.disparity = candidates.disparity[std::min(k, candidates.count - 1)];
+        disparity = candidates.disparity[std::min(k, candidates.count - 1)];
     } else {
-        const int difference = (block.disparity - likeliest) / unit;
+        const int difference = (disparity - likeliest) / unit;
         const bool negative = coder.bit(models.sign, difference < 0);
         const std::uint32_t size =
             1 + std::min(code_number(coder, models.difference, static_cast<std::uint32_t>(std::abs(difference) - 1)),
                          std::uint32_t{4 * most_disparity});
         const int value = likeliest + (negative ? -unit : unit) * static_cast<int>(size);
-        block.disparity = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
+        disparity = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
     }
+}
+
+// What a parted block has beside the disparity of its main part.
+template <class Coder>
+void code_parts(Coder& coder, typename Coder::Models::ForParts& models, int unit, const Candidates& candidates,
+                Block& block) {
+    for (std::size_t part = 0; part < 2; ++part) {
+        std::uint8_t side = 0;
+        while (side + 1u < ReferenceWeights::sides && coder.bit(models.side[part][side], block.side[part] != side))
+            ++side;
+        block.side[part] = side;
+    }
+    const std::size_t angle = code_path(coder, models.angle, 5, block.line / line_places);
+    const std::size_t place = code_path(coder, models.place, 2, block.line % line_places);
+    block.line = static_cast<std::uint8_t>(line_number(angle, place));
+    code_disparity(coder, models.beyond, 0, unit, candidates, block.disparity_beyond);
 }
 
 }  // namespace
@@ -135,6 +160,10 @@ Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::v
         candidates.add(blocks[block - 1].disparity + blocks[block - grid.columns].disparity -
                        blocks[block - grid.columns - 1].disparity);
     if (beside && candidates.count < 4) candidates.add((*beside)[block].disparity);
+    if (left && blocks[block - 1].mode == parted) candidates.add(blocks[block - 1].disparity_beyond);
+    if (above && blocks[block - grid.columns].mode == parted)
+        candidates.add(blocks[block - grid.columns].disparity_beyond);
+    if (beside && (*beside)[block].mode == parted) candidates.add((*beside)[block].disparity_beyond);
     if (candidates.count == 0) candidates.add(0);
     return candidates;
 }
@@ -183,14 +212,15 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
         const Block* left = k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr;
         const Block* above = k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr;
         const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
-        code_mode(coder, models, context, first, block);
+        code_mode(coder, models, context, first, grid.may_be_parted, block);
         const Candidates candidates = candidates_for(k, grid, coded.blocks, moved[k], beside);
         if (block.mode == 0 && !first) {
             block.disparity = candidates.disparity[0];
         } else {
             const std::size_t around = (left && left->surprising ? 1u : 0u) + (above && above->surprising ? 1u : 0u);
-            code_disparity(coder, models, around, unit, candidates, block);
+            code_disparity(coder, models.main, around, unit, candidates, block.disparity);
         }
+        if (block.mode == parted) code_parts(coder, models.parts, unit, candidates, block);
         block.surprising = block.disparity != candidates.disparity[0];
         const std::size_t kind = block.mode == 0 ? 2 : block.mode == 1 ? 0 : 1;
         std::uint8_t flags = 0;
@@ -198,8 +228,8 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
             const std::size_t chrominance = c > 0 ? 1 : 0;
             const std::size_t around =
                 (left && left->coded >> c & 1 ? 1u : 0u) + (above && above->coded >> c & 1 ? 1u : 0u);
-            if (!coder.bit(models.coded[chrominance][kind][block.surprising ? 1 : 0][around], block.coded >> c & 1))
-                continue;
+            auto& of_kind = block.mode == parted ? models.parts.coded[chrominance] : models.coded[chrominance][kind];
+            if (!coder.bit(of_kind[block.surprising ? 1 : 0][around], block.coded >> c & 1)) continue;
             flags = static_cast<std::uint8_t>(flags | 1 << c);
             if (used == coded.levels.size()) coded.levels.emplace_back();
             code_levels(coder, models.levels[chrominance][block.mode == 0 ? 1 : 0], coded.levels[used++]);

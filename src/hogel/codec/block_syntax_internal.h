@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "hogel/codec/parts_internal.h"
 #include "hogel/codec/prediction_internal.h"
 #include "hogel/coding/arithmetic.h"
 
@@ -15,14 +16,19 @@ using Levels = std::array<std::int32_t, block_samples>;
 
 // What a block of one hogel is told.
 struct Block {
-    // 0: from within the hogel; 1 + side: from other hogels.
+    // 0: from within the hogel; 1 + side: from other hogels; parted.
     std::uint8_t mode = 0;
     std::uint8_t within = 0;  // how, for mode 0
     std::uint8_t coded = 0;   // a bit for each channel that has levels
     std::int16_t disparity = 0;
     bool surprising = false;  // its disparity is not the likeliest
+    // Of mode parted, what lies beyond a line; the main part has `disparity`.
+    std::uint8_t line = 0;
+    std::int16_t disparity_beyond = 0;
+    std::array<std::uint8_t, 2> side{};  // of the main part, and beyond
 };
 constexpr int within_modes = 4, across_modes = 1 + static_cast<int>(ReferenceWeights::sides);
+constexpr std::uint8_t parted = across_modes;
 
 struct CodedHogel {
     std::vector<Block> blocks;   // row by row
@@ -32,6 +38,7 @@ struct CodedHogel {
 // The blocks of a hogel, and what its place in the order makes of them.
 struct BlockGrid {
     std::size_t columns, rows, channels;
+    bool may_be_parted;  // blocks: not before version 4 of the format
     std::size_t count() const { return columns * rows; }
 };
 
@@ -43,13 +50,14 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
 // Disparities that a block may have, the likeliest first; none twice. From what is moved here, and from the blocks
 // before it.
 struct Candidates {
-    std::array<std::int16_t, 5> disparity{};
+    std::array<std::int16_t, 8> disparity{};
     std::size_t count = 0;
+    bool contain(int value) const {
+        return std::find(disparity.begin(), disparity.begin() + count, value) != disparity.begin() + count;
+    }
     void add(int value) {
         const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
-        for (std::size_t k = 0; k < count; ++k)
-            if (disparity[k] == clamped) return;
-        disparity[count++] = clamped;
+        if (!contain(clamped)) disparity[count++] = clamped;
     }
     // How far they are from each other: 0 for not at all, 1 for nearly so, 2 for one surface, 3.
     std::size_t spread() const;
@@ -84,20 +92,39 @@ struct ModelsOf {
     };
     std::array<std::array<Model, across_modes>, 3> mode;
     std::array<Model, 3> within;
-    std::array<std::array<std::array<Model, 2>, 3>, 4> disparity;  // by spread
-    std::array<std::array<Model, 4>, 4> candidate;                 // by spread
-    Model sign;
-    std::array<Model, most_number_bits + 1> difference;
+    struct ForDisparity {
+        std::array<std::array<std::array<Model, 2>, 3>, 4> disparity;  // by spread
+        std::array<std::array<Model, 4>, 4> candidate;                 // by spread
+        Model sign;
+        std::array<Model, most_number_bits + 1> difference;
+    };
+    struct ForParts {
+        std::array<Model, 3> parted;
+        std::array<std::array<Model, ReferenceWeights::sides - 1>, 2> side;
+        std::array<Model, line_angles> angle;
+        std::array<Model, line_places> place;
+        ForDisparity beyond;
+        std::array<std::array<std::array<Model, 3>, 2>, 2> coded;  // as below
+    };
+    ForDisparity main;
     // By luminance or chrominance, kind of mode, whether the disparity is surprising.
     std::array<std::array<std::array<std::array<Model, 3>, 2>, 3>, 2> coded;
     std::array<std::array<ForLevels, 2>, 2> levels;  // by luminance or chrominance, within or across
 
-    // All of them, one after the other as they stand here.
+    ForParts parts;
+
+    // All of them in the order of the format, or all but those of parts, which come last.
     template <class Use>
-    void for_each(Use&& use) {
-        visit(use, mode, within, disparity, candidate, sign, difference, coded);
+    void for_each(Use&& use, bool with_parts = true) {
+        visit(use, mode, within);
+        visit_disparity(use, main);
+        visit(use, coded);
         for (auto& of_channel : levels)
             for (ForLevels& l : of_channel) visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest);
+        if (!with_parts) return;
+        visit(use, parts.parted, parts.side, parts.angle, parts.place);
+        visit_disparity(use, parts.beyond);
+        visit(use, parts.coded);
     }
 
   private:
@@ -108,6 +135,10 @@ struct ModelsOf {
     template <class Use, class Inner, std::size_t count>
     static void visit(Use& use, std::array<Inner, count>& models) {
         for (Inner& inner : models) visit(use, inner);
+    }
+    template <class Use>
+    static void visit_disparity(Use& use, ForDisparity& models) {
+        visit(use, models.disparity, models.candidate, models.sign, models.difference);
     }
     template <class Use, class First, class... More>
     requires(sizeof...(More) > 0) static void visit(Use& use, First& first, More&... more) {

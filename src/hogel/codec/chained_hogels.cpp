@@ -18,7 +18,7 @@ void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightField
     const TileSetup setup(
         HogelOrder(tile.range.ns, tile.range.nt, HogelOrder::all_of_a_side, HogelOrder::all_of_a_side),
         grid.directions_u, grid.directions_v, grid.channels, step, growth,
-        static_cast<float>(grid.step_u() / grid.step_v()));
+        static_cast<float>(grid.step_u() / grid.step_v()), false);
     const auto& order = setup.order.hogels();
     std::vector<CodedHogel> coded(order.size());
     std::vector<Picture> pictures(order.size());

@@ -47,7 +47,8 @@ class TileEncoder {
         : tile_(tile),
           counted_(counted),
           setup_(HogelOrder(tile.range.ns, tile.range.nt, references, tellers_a_side), grid.directions_u,
-                 grid.directions_v, grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v())),
+                 grid.directions_v, grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()),
+                 true),
           references_(references),
           effort_(effort),
           order_(setup_.order.hogels()),
@@ -142,7 +143,7 @@ class TileEncoder {
     std::vector<CodedHogel> coded_;
     std::vector<std::vector<std::optional<std::int16_t>>> moved_;
     std::vector<double> errors_;
-    ModelStates states_;
+    ModelStates states_{true};
     ByteWriter bytes_;
 };
 
@@ -216,13 +217,13 @@ class HogelCoder final : public TileCoder {
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
         if (version_ < 3) return decode_chained_hogels(bytes, grid_, tile);
-        HogelDecoder({bytes.begin(), bytes.end()}, grid_, tile.range, layers(tile.range)).read(tile);
+        HogelDecoder({bytes.begin(), bytes.end()}, grid_, tile.range, layers(tile.range), version_).read(tile);
     }
 
     std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
                                       const HogelRange& range, std::size_t levels) const override {
         if (version_ < 3) return TileCoder::open(std::move(bytes), grid, range, levels);
-        return std::make_unique<HogelDecoder>(std::move(bytes), grid, range, levels);
+        return std::make_unique<HogelDecoder>(std::move(bytes), grid, range, levels, version_);
     }
 
   private:

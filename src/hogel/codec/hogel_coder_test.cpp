@@ -111,7 +111,7 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
         const LightFieldTile tile = whole(plane_at(disparity, 9, 64, 48));
         const LightFieldGrid grid = plane_at(disparity, 9, 64, 48).grid();
         const TileSetup setup(HogelOrder(9, 9, 3, 1), 64, 48, 1, 0.01f, 1.35f,
-                              static_cast<float>(grid.step_u() / grid.step_v()));
+                              static_cast<float>(grid.step_u() / grid.step_v()), true);
         for (const HogelOrder::Hogel& hogel : setup.order.hogels()) {
             if (hogel.level > 0) break;
             std::vector<std::int16_t> estimated = estimate_disparities(setup, tile, hogel);

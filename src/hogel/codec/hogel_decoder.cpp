@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t header_bytes = 9;
 
-TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range) {
+TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
+                     std::uint32_t version) {
     ByteReader header(bytes, "tile");
     if (!hogel_tile_fits(grid, range)) header.damaged("it is too large");
     const float step = header.take_float(), growth = header.take_float();
@@ -22,16 +23,16 @@ TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& 
     const auto references = header.take<std::uint8_t>();
     if (references == 0) header.damaged("its hogels have no references");
     return TileSetup(HogelOrder(range.ns, range.nt, references, tellers_a_side), grid.directions_u, grid.directions_v,
-                     grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()));
+                     grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()), version > 3);
 }
 
 }  // namespace
 
 HogelDecoder::HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
-                           std::size_t levels)
+                           std::size_t levels, std::uint32_t version)
     : bytes_(std::move(bytes)),
       range_(range),
-      setup_(setup_from(bytes_, grid, range)),
+      setup_(setup_from(bytes_, grid, range, version)),
       place_(range.hogels()),
       coded_(range.hogels()),
       told_(range.hogels()),
@@ -49,10 +50,10 @@ void HogelDecoder::take_levels(std::size_t levels) {
     reader.take(header_bytes);
     const auto& waves = setup_.order.waves();
     const auto& waves_of_levels = setup_.order.waves_of_levels();
-    ModelStates before;
+    ModelStates before(setup_.grid.may_be_parted);
     for (std::size_t level = 0; level < levels; ++level) {
         BlockReader side(reader.take(reader.take<std::uint32_t>()));
-        ModelStates states;
+        ModelStates states(setup_.grid.may_be_parted);
         states.code(side, before);
         models_.push_back(states.models());
         before = states;
@@ -154,12 +155,15 @@ void HogelDecoder::want_what_is_shown(std::size_t k) {
             if (row > 0) want_block(k, column, row - 1);
             continue;
         }
-        const auto& choice = weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
-        for (std::size_t i = 0; i < choice.count; ++i) {
-            const BlockRange seen = blocks_seen(grid.columns, grid.rows, column, row, choice.shift[i]);
-            for (std::size_t r = seen.first_row; r <= seen.last_row; ++r)
-                for (std::size_t c = seen.first_column; c <= seen.last_column; ++c)
-                    want_block(hogel.references[choice.reference[i]].hogel, c, r);
+        const BlockChoices choices = choices_of(block, weights);
+        for (std::size_t part = 0; part < choices.parts; ++part) {
+            const ReferenceWeights::Choice& choice = choices.of[part];
+            for (std::size_t i = 0; i < choice.count; ++i) {
+                const BlockRange seen = blocks_seen(grid.columns, grid.rows, column, row, choice.shift[i]);
+                for (std::size_t r = seen.first_row; r <= seen.last_row; ++r)
+                    for (std::size_t c = seen.first_column; c <= seen.last_column; ++c)
+                        want_block(hogel.references[choice.reference[i]].hogel, c, r);
+            }
         }
     }
 }

@@ -15,7 +15,7 @@ class HogelDecoder final : public TileDecoder {
     // @param levels   of the order, that `bytes` have; hogels of the others are guessed
     // Throws Error(bad_input).
     HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
-                 std::size_t levels);
+                 std::size_t levels, std::uint32_t version = latest_version);
     void read(LightFieldTile& part) override;
 
     // What has been decoded so far: hogels of which all is told, and blocks made.

@@ -31,9 +31,9 @@ double bits_for(const BitCount& count, int state) {
 
 }  // namespace
 
-ModelStates::ModelStates() {
+ModelStates::ModelStates(bool with_parts) {
     BlockCounts counts;
-    counts.for_each([&](const BitCount&) { states_.push_back(0); });
+    counts.for_each([&](const BitCount&) { states_.push_back(0); }, with_parts);
 }
 
 ModelStates::ModelStates(BlockCounts& counts, const ModelStates& before) {
@@ -52,7 +52,8 @@ BlockModels ModelStates::models() const {
     BlockModels models;
     std::size_t at = 0;
     models.for_each([&](BitModel& model) {
-        model = BitModel(probabilities.zero[static_cast<std::size_t>(states_[at++] + most_state)]);
+        if (at < states_.size())
+            model = BitModel(probabilities.zero[static_cast<std::size_t>(states_[at++] + most_state)]);
     });
     return models;
 }

@@ -12,7 +12,8 @@ namespace hogel {
 class ModelStates {
   public:
     // Nothing is known.
-    ModelStates();
+    // @param with_parts   also of the models of parted blocks
+    explicit ModelStates(bool with_parts);
     // Those that suit what was counted; as before where another is not worth telling.
     ModelStates(BlockCounts& counts, const ModelStates& before);
 

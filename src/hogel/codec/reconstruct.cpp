@@ -27,9 +27,10 @@ const Cosines cosines;
 }  // namespace
 
 TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
-                     float finest_step, float step_growth, float v_per_u)
+                     float finest_step, float step_growth, float v_per_u, bool may_be_parted)
     : order(std::move(tile_order)),
-      grid{(directions_u + block_side - 1) / block_side, (directions_v + block_side - 1) / block_side, channels},
+      grid{(directions_u + block_side - 1) / block_side, (directions_v + block_side - 1) / block_side, channels,
+           may_be_parted},
       width(directions_u),
       height(directions_v),
       aspect(v_per_u),
@@ -101,6 +102,25 @@ bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hoge
     return true;
 }
 
+BlockChoices choices_of(const Block& block, ReferenceWeights& weights) {
+    using Side = ReferenceWeights::Side;
+    if (block.mode != parted) return {1, {weights.choose(block.disparity, static_cast<Side>(block.mode - 1))}};
+    BlockChoices choices{2, {weights.choose(block.disparity, static_cast<Side>(block.side[0]))}};
+    choices.of[1] = weights.choose(block.disparity_beyond, static_cast<Side>(block.side[1]));
+    return choices;
+}
+
+bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel, const Block& block,
+                   const BlockChoices& choices, std::size_t channel, std::size_t x, std::size_t y,
+                   BlockSamples& prediction) {
+    if (!predict_across(pictures, hogel, choices.of[0], channel, x, y, prediction)) return false;
+    if (choices.parts == 1) return true;
+    BlockSamples beyond;
+    if (!predict_across(pictures, hogel, choices.of[1], channel, x, y, beyond)) return false;
+    put_beyond(block.line, beyond, prediction);
+    return true;
+}
+
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
                  float step) {
     BlockSamples residual;
@@ -135,13 +155,12 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
             continue;
         }
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
-        const ReferenceWeights::Choice* choice = nullptr;
-        if (block.mode > 0)
-            choice = &weights.choose(block.disparity, static_cast<ReferenceWeights::Side>(block.mode - 1));
+        BlockChoices choices;
+        if (block.mode > 0) choices = choices_of(block, weights);
         for (std::size_t c = 0; c < setup.grid.channels; ++c) {
-            if (!choice)
+            if (block.mode == 0)
                 predict_within(picture[c], x, y, block.within, prediction);
-            else if (!predict_across(pictures, place, *choice, c, x, y, prediction))
+            else if (!predict_parts(pictures, place, block, choices, c, x, y, prediction))
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
             place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step);
         }

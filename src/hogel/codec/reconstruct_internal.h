@@ -11,7 +11,7 @@ using Picture = std::vector<Plane>;
 // What all hogels of a tile share.
 struct TileSetup {
     TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
-              float finest_step, float step_growth, float v_per_u);
+              float finest_step, float step_growth, float v_per_u, bool may_be_parted);
 
     HogelOrder order;
     BlockGrid grid;
@@ -34,6 +34,17 @@ void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, B
 bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
                     const ReferenceWeights::Choice& choice, std::size_t channel, std::size_t x, std::size_t y,
                     BlockSamples& block);
+
+// What a block, which is not within, is predicted from: its main part, and what lies beyond its line.
+struct BlockChoices {
+    std::size_t parts = 1;
+    std::array<ReferenceWeights::Choice, 2> of;
+};
+BlockChoices choices_of(const Block& block, ReferenceWeights& weights);
+// False where a part is predicted from a side on which there is nothing.
+bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel, const Block& block,
+                   const BlockChoices& choices, std::size_t channel, std::size_t x, std::size_t y,
+                   BlockSamples& prediction);
 
 // Adds levels times a step to a prediction, and puts it into its place.
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
