@@ -1,32 +1,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "hogel/render/epi_clusters_internal.h"
+#include "hogel/render/test_triangles_internal.h"
 
 namespace hogel {
 namespace {
 
 const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
 
-ShadedScene scattered_triangles(std::size_t count) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> place(-4e-3, 4e-3), size(-0.1e-3, 0.1e-3);
-    ShadedScene scene;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Vec3 middle{place(random), place(random), place(random)};
-        for (int corner = 0; corner < 3; ++corner) {
-            scene.positions.push_back(middle + Vec3{size(random), size(random), size(random)});
-            scene.radiance.push_back({float(i), float(corner), 0});
-        }
-        scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
-    }
-    return scene;
-}
-
 TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
-    const ShadedScene scene = scattered_triangles(1000);
+    const ShadedScene scene = scattered_triangles(1000, 0.1e-3);
     const EpipolarFrame frame(grid);
     const TriangleClusters clusters(scene, frame, 3);
     ASSERT_EQ(clusters.triangles.size(), 1000u);
@@ -46,7 +31,7 @@ TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
 
 TEST(TriangleClusters, come_nearest_first_and_lie_in_their_boxes) {
     const EpipolarFrame frame(grid);
-    const TriangleClusters clusters(scattered_triangles(1000), frame, 3);
+    const TriangleClusters clusters(scattered_triangles(1000, 0.1e-3), frame, 3);
     for (std::size_t i = 0; i < 1000; ++i) {
         const ClusterBounds::Box box = clusters.bounds[i / cluster_size];
         for (int corner = 0; corner < 3; ++corner) {
@@ -62,7 +47,7 @@ TEST(TriangleClusters, come_nearest_first_and_lie_in_their_boxes) {
 }
 
 TEST(TriangleClusters, hold_the_luminance_if_there_is_one_channel) {
-    const TriangleClusters clusters(scattered_triangles(10), EpipolarFrame(grid), 1);
+    const TriangleClusters clusters(scattered_triangles(10, 0.1e-3), EpipolarFrame(grid), 1);
     for (std::size_t i = 0; i < 10; ++i)
         EXPECT_FLOAT_EQ(clusters.others[i].radiance[1].r, 0.2126f * float(clusters.triangles[i]) + 0.7152f);
 }

@@ -11,6 +11,7 @@
 #include "hogel/render/epi_cut_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
 #include "hogel/render/test_plane_internal.h"
+#include "hogel/render/test_triangles_internal.h"
 
 namespace hogel {
 namespace {
@@ -47,11 +48,7 @@ class Places {
 };
 
 // The vector kernels as built for each instruction set that this processor has.
-class EveryTarget : public ::testing::TestWithParam<std::int64_t> {
-  protected:
-    void SetUp() override { use_kernel_target(GetParam()); }
-    void TearDown() override { use_kernel_target(0); }
-};
+class EveryTarget : public KernelTargetTest {};
 INSTANTIATE_TEST_SUITE_P(EpipolarKernels, EveryTarget, ::testing::ValuesIn(kernel_targets()));
 
 TEST(EpipolarKernels, ordered_bits_are_in_the_order_of_the_floats) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hogel/render/sample_store_internal.h"
+#include "hogel/render/test_triangles_internal.h"
 
 namespace hogel {
 namespace {
@@ -104,11 +105,7 @@ struct Values {
     }
 };
 
-class EveryTargetOfLight : public ::testing::TestWithParam<std::int64_t> {
-  protected:
-    void SetUp() override { use_kernel_target(GetParam()); }
-    void TearDown() override { use_kernel_target(0); }
-};
+class EveryTargetOfLight : public KernelTargetTest {};
 INSTANTIATE_TEST_SUITE_P(EpipolarLight, EveryTargetOfLight, ::testing::ValuesIn(kernel_targets()));
 
 TEST_P(EveryTargetOfLight, vector_and_plain_shadings_are_the_same_and_show_what_the_cache_has) {

@@ -7,34 +7,16 @@
 #include <memory>
 #include <random>
 
+#include "hogel/render/test_triangles_internal.h"
+
 namespace hogel {
 namespace {
 
 // The vector kernels as built for each instruction set that this processor has.
-class SetUpOnEveryTarget : public ::testing::TestWithParam<std::int64_t> {
-  protected:
-    void SetUp() override { use_kernel_target(GetParam()); }
-    void TearDown() override { use_kernel_target(0); }
-};
+class SetUpOnEveryTarget : public KernelTargetTest {};
 INSTANTIATE_TEST_SUITE_P(SetUp, SetUpOnEveryTarget, ::testing::ValuesIn(kernel_targets()));
 
 const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
-
-// Small triangles on both sides of the hologram, some with corners in the same plane.
-ShadedScene scattered_triangles(std::size_t count) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> place(-4e-3, 4e-3), size(-0.4e-3, 0.4e-3);
-    ShadedScene scene;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Vec3 middle{place(random), place(random), place(random)};
-        for (int corner = 0; corner < 3; ++corner) {
-            scene.positions.push_back(middle + Vec3{size(random), i % 3 == 0 ? 0 : size(random), size(random)});
-            scene.radiance.push_back({float(size(random)), float(size(random)), float(size(random))});
-        }
-        scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
-    }
-    return scene;
-}
 
 PlaneRays rays_of(const EpipolarFrame& frame, std::size_t t, std::size_t v, std::size_t first, std::size_t columns) {
     const EpipolarFrame::Plane place = frame.plane(t, v);
@@ -44,7 +26,7 @@ PlaneRays rays_of(const EpipolarFrame& frame, std::size_t t, std::size_t v, std:
 
 TEST(ClustersCrossed, are_all_that_show_and_few_others) {
     const EpipolarFrame frame(grid);
-    const TriangleClusters clusters(scattered_triangles(6000), frame, 3);
+    const TriangleClusters clusters(scattered_triangles(6000, 0.4e-3), frame, 3);
     std::size_t shown = 0, in_vain = 0, passed_over = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t v = 0; v < grid.directions_v; ++v)
@@ -79,7 +61,7 @@ TEST(ClustersCrossed, are_all_that_show_and_few_others) {
 TEST_P(SetUpOnEveryTarget, vector_and_plain_lists_of_clusters_are_the_same) {
     const EpipolarFrame frame(grid);
     for (const std::size_t triangles : {64, 640, 6000}) {
-        const TriangleClusters clusters(scattered_triangles(triangles), frame, 3);
+        const TriangleClusters clusters(scattered_triangles(triangles, 0.4e-3), frame, 3);
         std::size_t listed = 0;
         for (std::size_t t = 0; t < grid.hogels_t; ++t)
             for (std::size_t v = 0; v < grid.directions_v; ++v) {
@@ -137,7 +119,7 @@ TEST(Crossing, a_plane_crosses_the_triangles_with_corners_on_both_sides_and_a_co
 
 TEST_P(SetUpOnEveryTarget, vector_and_plain_strips_are_the_same) {
     const EpipolarFrame frame(grid);
-    const TriangleClusters clusters(scattered_triangles(700), frame, 3);
+    const TriangleClusters clusters(scattered_triangles(700, 0.4e-3), frame, 3);
     std::size_t strips = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t v = 0; v < grid.directions_v; ++v) {
