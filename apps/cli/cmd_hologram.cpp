@@ -50,6 +50,8 @@ void warn_of_parallax(const Session& session, const LightFieldSource& light_fiel
 // The field of a scene by a method that knows no light fields.
 int straight_from_scene(const Options& options, const SceneMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
+    if (options.render.fronts_only)
+        throw Error(ErrorCode::usage, fmt::format("--cull-back-faces: method {} cannot", method.name));
     require_writable(options.output);
     const double width = options.render.size;
     const double height =

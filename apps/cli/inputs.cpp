@@ -137,6 +137,8 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
               ->type_name("F")
               ->check(CLI::Range(0.0, 16.0).description(""))
               ->capture_default_str());
+    group(command->add_flag("--cull-back-faces", options.fronts_only,
+                            "Show triangles from their front alone, where their corners go round counterclockwise"));
     group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
     group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
     group(add_counts(command, "--samples", options.samples,
@@ -293,6 +295,7 @@ std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scen
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     Stage stage(session, "lighting");
     auto shaded = std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+    shaded->fronts_only = options.fronts_only;
     if (options.light_spacing > 0)
         cache_light(*shaded,
                     light_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.light_spacing));

@@ -36,6 +36,7 @@ struct RenderOptions {
     bool hemicube = false;
     double frequencies = 0;  ///< wavelength on whose frequency grid the directions lie, metres; 0: in perspective
     bool as_is = false;
+    bool fronts_only = false;  ///< whether back faces are culled
     double front = defaults.front;
 
     /// Of the front face.

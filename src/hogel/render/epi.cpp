@@ -70,7 +70,7 @@ class EpiRenderer final : public LightFieldSource {
                 for (std::size_t column = 0; column < hogels; column += columns) {
                     const EpipolarPlane plane{words.data(), std::min(columns, hogels - column), directions,
                                               frame_.first_column() + static_cast<std::int32_t>(first_column + column),
-                                              frame_.first_direction()};
+                                              frame_.first_direction(), scene_->fronts_only};
                     draw_plane(plane, place, work);
                     if (axes_.turned())
                         shade_turned_plane(tile, plane, work, {first_row + row, first_column + column, slow});

@@ -12,7 +12,8 @@ struct Cut {
 };
 
 /// The segment in which a plane cuts a triangle. Of three corners on two sides one is alone; end 0 lies on the edge
-/// from it to the next corner, end 1 on the edge to the last.
+/// from it to the next corner, end 1 on the edge to the last. The next is the one that makes end 0 the left one for
+/// who sees the front of the triangle, where its corners go round counterclockwise.
 struct TriangleCut {
     std::uint32_t lone, next, last;
     Cut end0, end1;
@@ -25,8 +26,8 @@ inline TriangleCut cut_triangle(const std::array<double, 3>& x, const std::array
     // By tables and selections, for no branch here can be predicted.
     constexpr std::array<std::uint8_t, 8> alone{0, 0, 1, 2, 2, 1, 0, 0}, after{1, 2, 0}, before{2, 0, 1};
     const unsigned below = unsigned{height[0] < 0} | unsigned{height[1] < 0} << 1 | unsigned{height[2] < 0} << 2;
-    const std::uint32_t lone = alone[below], next = after[lone], last = before[lone];
     const bool upwards = (below & (below - 1)) == 0;
+    const std::uint32_t lone = alone[below], next = upwards ? before[lone] : after[lone], last = 3 - lone - next;
     const auto cut = [&](std::uint32_t other) {
         const std::uint32_t low = upwards ? lone : other, high = upwards ? other : lone;
         const double part = height[low] / (height[low] - height[high]);

@@ -268,6 +268,7 @@ namespace hogel {
 HWY_EXPORT(Draw);
 
 void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
+    if (plane.fronts_only) return draw_plain(strips, first, plane);
     HWY_DYNAMIC_DISPATCH(Draw)(strips, first, plane);
 }
 

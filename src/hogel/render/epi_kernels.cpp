@@ -14,8 +14,9 @@ void draw_plain(std::span<const Strip> strips, std::size_t first_number, const E
             const float K = plane.first_direction + static_cast<float>(k);
             const float c0 = strip.x0 - K * strip.z0, c1 = strip.x1 - K * strip.z1;
             const float slope = (strip.z1 - strip.z0) / (c1 - c0);
-            const float begin = std::max(first, std::floor(std::min(c0, c1)) + 1);
-            const float end = std::min(last, std::floor(std::max(c0, c1)));
+            const float low = plane.fronts_only ? c0 : std::min(c0, c1),
+                        high = plane.fronts_only ? c1 : std::max(c0, c1);
+            const float begin = std::max(first, std::floor(low) + 1), end = std::min(last, std::floor(high));
             for (float n = begin; n <= end; ++n) {
                 const float z = strip.z0 + (n - c0) * slope;
                 std::uint64_t& word = plane.words[static_cast<std::size_t>(n - first) * plane.directions + k];

@@ -29,6 +29,7 @@ struct EpipolarPlane {
     std::size_t columns, directions;
     std::int32_t first_column;  ///< n of the first column
     float first_direction;      ///< K of k = 0
+    bool fronts_only = false;   ///< whether strips cover samples only where c_0 < c_1: who sees their fronts
 
     static constexpr std::size_t spare = 64;    ///< so many words behind the last one are there, and stay as they are
     static constexpr std::uint32_t nobody = 0;  ///< strips are numbered from 1

@@ -63,7 +63,9 @@ void set_up_plain(const TriangleClusters& clusters, std::span<const std::uint32_
                      static_cast<float>(end1.z - end0.z),
                      {value0.r, value0.g, value0.b, depth0},
                      {value1.r - value0.r, value1.g - value0.g, value1.b - value0.b, depth1 - depth0}};
-        if (origins) origins[i] = {w0, w1, clusters.triangles[place], lone};
+        if (origins)
+            origins[i] = {w0, w1, clusters.triangles[place], static_cast<std::uint16_t>(lone),
+                          static_cast<std::uint16_t>(next)};
     }
 }
 

@@ -31,18 +31,18 @@ std::uint64_t crossing_plain(const ClusterCorners& corners, double row, double s
 std::uint64_t crossing(const ClusterCorners& corners, double row, double slope);
 
 /// Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
-/// it and the next corner, end 1 between it and the last.
+/// it and the next corner, end 1 between it and the last (TriangleCut).
 struct StripOrigin {
     float weight0, weight1;  ///< of the lone corner, at the two ends
     std::uint32_t triangle;
-    std::uint32_t lone;  ///< 0, 1 or 2
+    std::uint16_t lone, next;  ///< 0, 1 or 2
 
     /// Of the triangle's vertices, at this part of the way from end 0 to end 1.
     std::array<float, 3> weights(float part) const {
         std::array<float, 3> b;
         b[lone] = (1 - part) * weight0 + part * weight1;
-        b[(lone + 1) % 3] = (1 - part) * (1 - weight0);
-        b[(lone + 2) % 3] = part * (1 - weight1);
+        b[next] = (1 - part) * (1 - weight0);
+        b[3 - lone - next] = part * (1 - weight1);
         return b;
     }
 };

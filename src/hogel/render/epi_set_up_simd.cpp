@@ -117,7 +117,7 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
     HWY_ALIGN std::uint32_t several[most_lanes];
     HWY_ALIGN float ends[most_lanes][4], steps[most_lanes][4], weights0[most_lanes], weights1[most_lanes],
         depths0[most_lanes], depths1[most_lanes];
-    HWY_ALIGN std::int64_t lones[most_lanes];
+    HWY_ALIGN std::int64_t lones[most_lanes], nexts[most_lanes];
     for (std::size_t begin = 0; begin < places.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, places.size() - begin);
         for (std::size_t i = 0; i < lanes; ++i) several[i] = places[begin + std::min(i, count - 1)];
@@ -138,9 +138,10 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
                    below2 = hn::Lt(corner[2].height, zero);
         const Mask alone2 = hn::Not(hn::Xor(below0, below1)), alone1 = hn::Not(hn::Xor(below0, below2));
         const Corner lone = choose(alone2, corner[2], choose(alone1, corner[1], corner[0]));
-        const Corner next = choose(alone2, corner[0], choose(alone1, corner[2], corner[1]));
-        const Corner last = choose(alone2, corner[1], choose(alone1, corner[0], corner[2]));
+        const Corner after = choose(alone2, corner[0], choose(alone1, corner[2], corner[1]));
+        const Corner before = choose(alone2, corner[1], choose(alone1, corner[0], corner[2]));
         const Mask upwards = hn::Lt(lone.height, zero);
+        const Corner next = choose(upwards, before, after), last = choose(upwards, after, before);
         CutLanes end0 = cut_edge(lone, next, upwards), end1 = cut_edge(lone, last, upwards);
         for (CutLanes* end : {&end0, &end1}) {
             end->x = hn::Add(end->x, hn::Set(d, rays.shift));
@@ -155,39 +156,41 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
         hn::Store(hn::DemoteTo(df, end1.weight), df, weights1);
         hn::Store(hn::DemoteTo(df, hn::Mul(end0.z, depth)), df, depths0);
         hn::Store(hn::DemoteTo(df, hn::Mul(end1.z, depth)), df, depths1);
-        const Indices one = hn::Set(di, 1), two = hn::Set(di, 2), none = hn::Zero(di);
-        hn::Store(
-            hn::IfThenElse(hn::RebindMask(di, alone2), two, hn::IfThenElse(hn::RebindMask(di, alone1), one, none)), di,
-            lones);
+        const auto numbers = [&](std::int64_t if2, std::int64_t if1, std::int64_t if0) HWY_ATTR {
+            return hn::IfThenElse(hn::RebindMask(di, alone2), hn::Set(di, if2),
+                                  hn::IfThenElse(hn::RebindMask(di, alone1), hn::Set(di, if1), hn::Set(di, if0)));
+        };
+        hn::Store(numbers(2, 1, 0), di, lones);
+        hn::Store(hn::IfThenElse(hn::RebindMask(di, upwards), numbers(1, 0, 2), numbers(0, 2, 1)), di, nexts);
 
         std::memcpy(strips + begin, ends, count * sizeof(Strip));
         for (std::size_t i = 0; i < count; ++i) {
-            constexpr std::uint8_t after[]{1, 2, 0}, before[]{2, 0, 1};
             const Rgb* radiance = clusters.others[several[i]].radiance;
-            const auto lone_corner = static_cast<std::uint32_t>(lones[i]);
+            const Rgb &at_lone = radiance[lones[i]], &at_next = radiance[nexts[i]],
+                      &at_last = radiance[3 - lones[i] - nexts[i]];
             StripShades& to = shades[begin + i];
             std::memcpy(&to.x0, steps[i], sizeof(steps[i]));
 #if HWY_TARGET == HWY_SCALAR
             const float w0 = weights0[i], w1 = weights1[i];
-            const Rgb value0 = w0 * radiance[lone_corner] + (1 - w0) * radiance[after[lone_corner]];
-            const Rgb value1 = w1 * radiance[lone_corner] + (1 - w1) * radiance[before[lone_corner]];
+            const Rgb value0 = w0 * at_lone + (1 - w0) * at_next;
+            const Rgb value1 = w1 * at_lone + (1 - w1) * at_last;
             const Rgb difference{value1.r - value0.r, value1.g - value0.g, value1.b - value0.b};
             std::memcpy(to.value0, &value0, sizeof(Rgb));
             std::memcpy(to.difference, &difference, sizeof(Rgb));
 #else
             const hn::FixedTag<float, 4> d4;
             const auto w0 = hn::Set(d4, weights0[i]), w1 = hn::Set(d4, weights1[i]), all = hn::Set(d4, 1.0f);
-            const auto of_lone = hn::LoadU(d4, &radiance[lone_corner].r);
-            const auto value0 = hn::Add(hn::Mul(w0, of_lone),
-                                        hn::Mul(hn::Sub(all, w0), hn::LoadU(d4, &radiance[after[lone_corner]].r)));
-            const auto value1 = hn::Add(hn::Mul(w1, of_lone),
-                                        hn::Mul(hn::Sub(all, w1), hn::LoadU(d4, &radiance[before[lone_corner]].r)));
+            const auto of_lone = hn::LoadU(d4, &at_lone.r);
+            const auto value0 = hn::Add(hn::Mul(w0, of_lone), hn::Mul(hn::Sub(all, w0), hn::LoadU(d4, &at_next.r)));
+            const auto value1 = hn::Add(hn::Mul(w1, of_lone), hn::Mul(hn::Sub(all, w1), hn::LoadU(d4, &at_last.r)));
             hn::StoreU(value0, d4, to.value0);
             hn::StoreU(hn::Sub(value1, value0), d4, to.difference);
 #endif
             to.value0[3] = depths0[i];
             to.difference[3] = depths1[i] - depths0[i];
-            if (origins) origins[begin + i] = {weights0[i], weights1[i], clusters.triangles[several[i]], lone_corner};
+            if (origins)
+                origins[begin + i] = {weights0[i], weights1[i], clusters.triangles[several[i]],
+                                      static_cast<std::uint16_t>(lones[i]), static_cast<std::uint16_t>(nexts[i])};
         }
     }
 }

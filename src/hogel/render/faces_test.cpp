@@ -88,7 +88,7 @@ void compare_with_turned_scene(const std::string& name, const ShadedScene& scene
                     different += same ? 0 : 1;
                 }
         }
-    EXPECT_GT(hits, grid.hogels() * grid.directions() / 10) << hogel::name(grid.face);
+    EXPECT_GT(hits, grid.hogels() * grid.directions() / 20) << hogel::name(grid.face);
     EXPECT_LE(different, grid.hogels() * grid.directions() / 2000) << hogel::name(grid.face);
 }
 
@@ -96,7 +96,8 @@ TEST_P(Faces, are_the_front_of_the_scene_turned) {
     std::mt19937 random(3);
     for (int round = 0; round < 4; ++round) {
         const bool behind = round % 2 == 0;
-        const ShadedScene scene = random_scene(random, behind);
+        ShadedScene scene = random_scene(random, behind);
+        scene.fronts_only = round >= 2;
         if (!behind && !info(GetParam()).straddles) continue;
         for (const LightFieldGrid& face : hemicube(front)) compare_with_turned_scene(GetParam(), scene, face);
     }

@@ -23,7 +23,7 @@ namespace hogel {
 class ObliqueTriangle {
   public:
     /// Along the slopes U = dx/dζ and V = dy/dζ.
-    ObliqueTriangle(const ShadedScene& scene, std::size_t index, double U, double V) {
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, double U, double V) : fronts_only_(scene.fronts_only) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3& p = scene.positions[scene.triangles[index].vertices[i]];
             depth_[i] = -p.z;
@@ -57,7 +57,7 @@ class ObliqueTriangle {
         w[1] = x[2] * y[0] - y[2] * x[0];
         w[2] = x[0] * y[1] - y[0] * x[1];
         const double area = w[0] + w[1] + w[2];
-        if (area == 0) return {};
+        if (area == 0 || (area < 0 && fronts_only_)) return {};
         const double side = area > 0 ? 1 : -1;
         for (std::size_t i = 0; i < 3; ++i) {
             if (side * w[i] < 0) return {};
@@ -79,6 +79,7 @@ class ObliqueTriangle {
     }
 
     std::array<double, 3> s_, t_, depth_;
+    bool fronts_only_;
 };
 
 /// What a sample of a region's depth buffer holds: 8 bytes. The rest follows from the ray when all triangles are in.

@@ -17,7 +17,7 @@ constexpr std::size_t bundle = 16;
 class RaytraceRenderer final : public LightFieldSource {
   public:
     RaytraceRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), caster_(all_triangles(*scene_)) {
+        : scene_(std::move(scene)), grid_(grid), caster_(seen_triangles(*scene_)) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         low_ = {infinity, infinity, infinity};
         high_ = -low_;

@@ -29,8 +29,9 @@ class SimplexRenderer final : public LightFieldSource {
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
                 simplices.clear();
-                append_projected_volume(part, sides.one, grid_, tile.range, simplices, nearest_forward_);
-                append_projected_volume(part, sides.other, grid_, tile.range, simplices, nearest_forward_);
+                append_projected_volume(part, sides.front, grid_, tile.range, simplices, nearest_forward_);
+                if (!scene_->fronts_only)
+                    append_projected_volume(part, sides.back, grid_, tile.range, simplices, nearest_forward_);
                 clip_to_view(simplices, grid_);
                 for (const Simplex<4>& simplex : simplices) scan_convert(index, simplex, tile.range, buffer);
             }

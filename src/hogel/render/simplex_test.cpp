@@ -183,12 +183,12 @@ TEST(BackFace, cuts_the_region_in_one_of_five_ways) {
         DeepTriangle triangle;
         for (auto& p : triangle) p = {place(random), place(random), deep(random)};
         const RegionSides sides = split_at_back_face(triangle, grid, range);
-        EXPECT_NEAR(area(sides.one) + area(sides.other), 3.002 * 3.002, 1e-9);
-        cases.insert(sides.one.size());
+        EXPECT_NEAR(area(sides.front) + area(sides.back), 3.002 * 3.002, 1e-9);
+        cases.insert(sides.front.size());
         // The triangle's turn in the picture is the same from everywhere on one side, and the opposite on the other.
         double turns[2] = {0, 0};
         for (int side = 0; side < 2; ++side) {
-            const std::vector<CameraPoint>& region = side == 0 ? sides.one : sides.other;
+            const std::vector<CameraPoint>& region = side == 0 ? sides.front : sides.back;
             if (region.size() < 3 || std::abs(area(region)) < 1e-6) continue;
             for (int k = 0; k < 5; ++k) {
                 const std::vector<double> weights = random_weights(random, region.size());
@@ -222,9 +222,9 @@ TEST(ProjectedVolume, with_two_lobes_is_filled_once) {
         for (auto& p : triangle) p = {place(random), place(random), deep(random)};
         std::vector<Simplex<4>> simplices;
         const RegionSides sides = split_at_back_face(triangle, grid, range);
-        append_projected_volume(triangle, sides.one, grid, range, simplices);
-        append_projected_volume(triangle, sides.other, grid, range, simplices);
-        folded += sides.one.size() >= 3 && sides.other.size() >= 3 ? 1 : 0;
+        append_projected_volume(triangle, sides.front, grid, range, simplices);
+        append_projected_volume(triangle, sides.back, grid, range, simplices);
+        folded += sides.front.size() >= 3 && sides.back.size() >= 3 ? 1 : 0;
         std::vector<Simplex<3>> of_row;
         const std::vector<CameraLine> lines = split_row_at_back_face(triangle, 1, grid, range);
         for (const CameraLine& line : lines) append_projected_volume(triangle, line, grid, range, of_row);

@@ -36,7 +36,7 @@ CameraPoint point_on_line(const CameraPoint& p, const CameraPoint& q, double f) 
 // Regions go this far, in hogels, beyond the outermost hogels, so that a region of one hogel is more than a point.
 constexpr double rim = 1e-3;
 
-// N·(P − (s, t, 0)): which face of a triangle is seen from a camera point, by its sign.
+// N·(P − (s, t, 0)): positive for camera points that see the front of a triangle, negative for those that see its back.
 class Facing {
   public:
     Facing(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range)
@@ -153,9 +153,9 @@ std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std
     const CameraPoint first{-rim, static_cast<double>(row)};
     const CameraPoint last{static_cast<double>(range.ns) - 1 + rim, first.t};
     const double a = facing(first), b = facing(last);
-    if (!(a < 0 && b > 0) && !(a > 0 && b < 0)) return {{first, last}};
+    if (!(a < 0 && b > 0) && !(a > 0 && b < 0)) return {{first, last, a > 0 || b > 0}};
     const CameraPoint between = point_on_line(first, last, a / (a - b));
-    return {{first, between}, {between, last}};
+    return {{first, between, a > 0}, {between, last, b > 0}};
 }
 
 void append_projected_volume(const DeepTriangle& triangle, const std::vector<CameraPoint>& region,

@@ -50,17 +50,18 @@ struct CameraPoint {
 std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint camera, const LightFieldGrid& grid,
                                       const HogelRange& range);
 
-/// The parts of a rectangle of camera points from which a triangle's one face and its other face are seen. The line
-/// between them is where the triangle's plane meets the camera plane. Each has no corner, three, four or five corners,
-/// or all four of the rectangle. Source: [K] 5.7.1. Differs: the side of the back face is not dropped.
+/// The parts of a rectangle of camera points from which a triangle's front and its back are seen. The line between them
+/// is where the triangle's plane meets the camera plane. Each has no corner, three, four or five corners, or all four
+/// of the rectangle. Source: [K] 5.7.1. Differs: the back's part is dropped only in a scene of fronts alone.
 struct RegionSides {
-    std::vector<CameraPoint> one, other;
+    std::vector<CameraPoint> front, back;
 };
 RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range);
 
 /// The same for a row of hogels: one or two lines of camera points.
 struct CameraLine {
     CameraPoint first, last;
+    bool sees_front = false;
 };
 std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std::size_t row,
                                                const LightFieldGrid& grid, const HogelRange& range);

@@ -119,7 +119,7 @@ class ZbufferRenderer final : public LightFieldSource {
             for (double k = k0; k <= k1; ++k) {
                 const double U = grid_.u(k), V = grid_.v(l);
                 const double facing = nx * U + ny * V + nz;
-                if (facing == 0) continue;
+                if (facing == 0 || (facing < 0 && scene_->fronts_only)) continue;
                 const double sign = facing > 0 ? 1 : -1;
                 const double wa = sign * ea.function(U, V), wb = sign * eb.function(U, V),
                              wc = sign * ec.function(U, V);

@@ -68,6 +68,9 @@ struct ShadedScene {
     std::vector<Triangle> triangles;
     std::vector<Texture> textures;
     Rgb background;
+    /// Whether a triangle is seen from its front alone, where its corners go round counterclockwise. Light falls on
+    /// both sides and is kept off by both.
+    bool fronts_only = false;
     std::shared_ptr<const SampleLighting> lighting;  ///< null where `radiance` says it all
     std::shared_ptr<LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null: worked out
                                               ///< for each ray
@@ -80,8 +83,10 @@ struct ShadedScene {
     bool needs_samples(std::size_t index) const { return triangles[index].texture != no_texture || is_lit(index); }
 };
 
-/// All triangles, numbered as in the scene, for rays to meet (trace/ray_caster.h).
+/// All triangles, numbered as in the scene, for rays to meet (trace/ray_caster.h): for light, both sides of them, or
+/// those that are seen.
 RayCaster all_triangles(const ShadedScene& scene);
+RayCaster seen_triangles(const ShadedScene& scene);
 
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).
 Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const Sight& sight = {});

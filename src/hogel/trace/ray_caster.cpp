@@ -29,6 +29,7 @@ struct RayCaster::Device {
     Vec3 center;
     double scale = 1;   ///< Embree's units per metre
     double radius = 0;  ///< of the ball around the box, metres, with a little room for rounding
+    Sides sides = Sides::both;
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
 
@@ -48,6 +49,8 @@ struct RayCaster::Device {
     };
     Segment enter(Vec3 origin, Vec3 direction, double near, double far) const;
     RayHit refine(Vec3 origin, Vec3 direction, double far, std::uint32_t triangle) const;
+    bool is_front(Vec3 direction, std::uint32_t triangle) const;
+    static void pass_backs(const RTCFilterFunctionNArguments* hits);
 };
 
 void RayCaster::Device::frame() {
@@ -94,11 +97,31 @@ void RayCaster::Device::build() {
         *vertices++ = static_cast<float>(p.z);
     }
     for (const auto& triangle : triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
+    if (sides == Sides::fronts) {
+        rtcSetGeometryUserData(geometry, this);
+        rtcSetGeometryIntersectFilterFunction(geometry, pass_backs);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE) fail("Embree reports an error");
+}
+
+bool RayCaster::Device::is_front(Vec3 direction, std::uint32_t index) const {
+    const auto& [a, b, c] = triangles[index];
+    return dot(cross(positions[b] - positions[a], positions[c] - positions[a]), direction) < 0;
+}
+
+// Rays that hit the back of a triangle go on.
+void RayCaster::Device::pass_backs(const RTCFilterFunctionNArguments* hits) {
+    const auto& device = *static_cast<const Device*>(hits->geometryUserPtr);
+    for (unsigned i = 0; i < hits->N; ++i) {
+        if (hits->valid[i] == 0) continue;
+        const Vec3 direction{RTCRayN_dir_x(hits->ray, hits->N, i), RTCRayN_dir_y(hits->ray, hits->N, i),
+                             RTCRayN_dir_z(hits->ray, hits->N, i)};
+        if (!device.is_front(direction, RTCHitN_primID(hits->hit, hits->N, i))) hits->valid[i] = 0;
+    }
 }
 
 RayCaster::Device::Segment RayCaster::Device::enter(Vec3 origin, Vec3 direction, double near, double far) const {
@@ -148,8 +171,10 @@ RayHit RayCaster::Device::refine(Vec3 origin, Vec3 direction, double far, std::u
     return {std::clamp(distance, 0.0, far), index, static_cast<float>(b1), static_cast<float>(b2)};
 }
 
-RayCaster::RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
+RayCaster::RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
+                     Sides sides)
     : device_(std::make_unique<Device>()) {
+    device_->sides = sides;
     device_->positions.assign(positions.begin(), positions.end());
     device_->triangles.assign(triangles.begin(), triangles.end());
     for (const auto& triangle : triangles)

@@ -19,10 +19,15 @@ struct RayHit {
     float b1 = 0, b2 = 0;           ///< barycentric weights of the second and third vertex
 };
 
-/// Rays against triangles, by Embree. Both sides of a triangle are hit. Thread-safe after construction.
+/// Which sides of a triangle are hit: a ray meets the front if it sees the corners go round counterclockwise.
+enum class Sides { both, fronts };
+
+/// Rays against triangles, by Embree. Thread-safe after construction.
 class RayCaster {
   public:
-    RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles);
+    /// @param sides  that `closest` hits; `occluded` always both
+    RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
+              Sides sides = Sides::both);
     ~RayCaster();
     RayCaster(RayCaster&&) noexcept;
     RayCaster& operator=(RayCaster&&) noexcept;

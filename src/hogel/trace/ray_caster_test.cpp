@@ -51,7 +51,7 @@ struct Exact {
 };
 
 // Cramer's rule on a + b1 (b - a) + b2 (c - a) = o + distance d, for every triangle.
-Exact brute_force(const Soup& soup, Vec3 o, Vec3 d) {
+Exact brute_force(const Soup& soup, Vec3 o, Vec3 d, Sides sides = Sides::both) {
     Exact best;
     double margin = infinity;
     for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
@@ -59,6 +59,7 @@ Exact brute_force(const Soup& soup, Vec3 o, Vec3 d) {
         const Vec3 a = soup.positions[t[0]], e1 = soup.positions[t[1]] - a, e2 = soup.positions[t[2]] - a;
         const Vec3 r = o - a;
         const double det = dot(cross(e1, e2), -d);
+        if (sides == Sides::fronts && det < 0) continue;
         const double b1 = dot(cross(r, e2), -d) / det, b2 = dot(cross(e1, r), -d) / det;
         const double distance = dot(cross(e1, e2), r) / det;
         const double inside = std::min({b1, b2, 1 - b1 - b2});
@@ -101,6 +102,32 @@ void compare_with_brute_force(const Soup& soup, Vec3 center, double size) {
 }
 
 TEST(RayCaster, finds_what_brute_force_finds) { compare_with_brute_force(random_soup(200, {}, 1), {}, 1); }
+
+TEST(RayCaster, goes_through_backs_where_fronts_alone_are_wanted) {
+    const Soup soup = random_soup(200, {}, 1);
+    const RayCaster caster(soup.positions, soup.triangles, Sides::fronts), both(soup.positions, soup.triangles);
+    Numbers number(12);
+    std::vector<Vec3> origins, directions;
+    for (int i = 0; i < 1001; ++i) {
+        origins.push_back(number.point(5));
+        directions.push_back(number.point(1) - origins.back());
+    }
+    std::vector<RayHit> hits(origins.size());
+    caster.closest(origins, directions, infinity, hits);
+    int hit = 0, passed = 0;
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        const Exact exact = brute_force(soup, origins[i], directions[i], Sides::fronts);
+        if (exact.margin < 1e-5) continue;
+        ASSERT_EQ(hits[i].triangle, exact.triangle);
+        ASSERT_EQ(caster.closest(origins[i], directions[i], infinity).triangle, exact.triangle);
+        const RayHit first = both.closest(origins[i], directions[i], infinity);
+        EXPECT_EQ(caster.occluded(origins[i], directions[i], 0, infinity), first.triangle != RayHit::miss);
+        hit += exact.triangle != RayHit::miss ? 1 : 0;
+        passed += first.triangle != exact.triangle ? 1 : 0;
+    }
+    EXPECT_GT(hit, 200);
+    EXPECT_GT(passed, 200);
+}
 
 TEST(RayCaster, keeps_its_accuracy_for_centimetre_scenes_far_from_the_origin) {
     const Vec3 center{0.3, -0.2, 5};
