@@ -78,10 +78,10 @@ HWY_INLINE void shade_one(const StripShades& strip, Floats n, Floats K, Floats (
 }
 
 // Of samples that show different ones.
-HWY_INLINE void shade_several(const std::uint32_t* numbers, const StripShades* strips, Floats n, Floats K,
+HWY_INLINE void shade_several(const std::uint64_t* words, const StripShades* strips, Floats n, Floats K,
                               Floats (&values)[4]) {
     const float* from[hn::MaxLanes(FloatTag())];
-    for (std::size_t i = 0; i < hn::MaxLanes(FloatTag()); ++i) from[i] = &strips[numbers[i]].x0;
+    for (std::size_t i = 0; i < hn::MaxLanes(FloatTag()); ++i) from[i] = &strips[words[i] & 0xffffffff].x0;
     const auto load = [&](std::size_t first, std::size_t part) HWY_ATTR {
         const float* of_part[hn::MaxLanes(FloatTag())];
         for (std::size_t i = first; i < hn::MaxLanes(FloatTag()); i += 4) of_part[i - first] = from[i] + part;
@@ -99,60 +99,58 @@ HWY_INLINE void shade_several(const std::uint32_t* numbers, const StripShades* s
     transpose(values);
 }
 
-// The numbers of a vector of samples, of which nothing is seen afterwards; those beyond `count` show nobody.
-HWY_INLINE hn::Vec<NumberTag> take_numbers(std::uint64_t* words, std::size_t count) {
+// The values of a vector of samples.
+HWY_INLINE void shade_vector(const std::uint64_t* words, const StripShades* strips, Floats n, Floats K,
+                             Floats (&values)[4]) {
+    const FloatTag d;
     const NumberTag du;
     const hn::RepartitionToWide<NumberTag> d64;
-    const std::size_t lanes = hn::Lanes(du), half = lanes / 2;
-    if (count < lanes) {
-        HWY_ALIGN std::uint32_t numbers[hn::MaxLanes(du)] = {};
-        for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(words[i]);
-        std::fill_n(words, count, EpipolarPlane::nothing);
-        return hn::Load(du, numbers);
-    }
-    const auto low = hn::LoadU(d64, words), high = hn::LoadU(d64, words + half);
-    const auto nothing = hn::Set(d64, EpipolarPlane::nothing);
-    hn::StoreU(nothing, d64, words);
-    hn::StoreU(nothing, d64, words + half);
-    return hn::ConcatEven(du, hn::BitCast(du, high), hn::BitCast(du, low));
+    const auto numbers = hn::ConcatEven(du, hn::BitCast(du, hn::LoadU(d64, words + hn::Lanes(d64))),
+                                        hn::BitCast(du, hn::LoadU(d64, words)));
+    const auto first = static_cast<std::uint32_t>(words[0]);
+    if (!hn::AllTrue(du, hn::Eq(numbers, hn::Set(du, first))))
+        shade_several(words, strips, n, K, values);
+    else if (first != EpipolarPlane::nobody)
+        shade_one(strips[first], n, K, values);
+    else
+        for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, strips[EpipolarPlane::nobody].value0[i]);
 }
 
 void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
-    static_assert(EpipolarPlane::nobody == 0);
     const FloatTag d;
-    const NumberTag du;
+    const hn::RepartitionToWide<NumberTag> d64;
     const std::size_t lanes = hn::Lanes(d), directions = plane.directions;
     const bool aligned = out.begins_at_multiples(lanes);
     const StripShades* const shades = strips.data();
-    Floats background[4];
-    for (int i = 0; i < 4; ++i) background[i] = hn::Set(d, shades[EpipolarPlane::nobody].value0[i]);
-    HWY_ALIGN std::uint32_t numbers[hn::MaxLanes(d)];
+    const auto nothing = hn::Set(d64, EpipolarPlane::nothing);
     for (std::size_t column = 0; column < plane.columns; ++column) {
-        std::uint64_t* const words = plane.words + column * directions;
+        std::uint64_t* words = plane.words + column * directions;
         float* to[4];
         for (int i = 0; i < 4; ++i) to[i] = out.values[i] ? out.values[i] + column * out.strides[i] : nullptr;
         const Floats n = hn::Set(d, static_cast<float>(plane.first_column) + static_cast<float>(column));
-        for (std::size_t k = 0; k < directions; k += lanes) {
+        Floats values[4];
+        std::size_t k = 0;
+        for (; aligned && k + lanes <= directions; k += lanes, words += lanes) {
+            shade_vector(words, shades, n, hn::Iota(d, plane.first_direction + static_cast<float>(k)), values);
+            hn::StoreU(nothing, d64, words);
+            hn::StoreU(nothing, d64, words + lanes / 2);
+            // Past the caches: nobody reads a sample soon after.
+            if (to[0]) hn::Stream(values[0], d, to[0] + k);
+            if (to[1]) hn::Stream(values[1], d, to[1] + k);
+            if (to[2]) hn::Stream(values[2], d, to[2] + k);
+            if (to[3]) hn::Stream(values[3], d, to[3] + k);
+        }
+        for (; k < directions; k += lanes, words += lanes) {
             const std::size_t count = std::min(lanes, directions - k);
-            const auto shown = take_numbers(words + k, count);
-            hn::Store(shown, du, numbers);
-            const Floats K = hn::Iota(d, plane.first_direction + static_cast<float>(k));
-            Floats values[4];
-            if (!hn::AllTrue(du, hn::Eq(shown, hn::Set(du, numbers[0]))))
-                shade_several(numbers, shades, n, K, values);
-            else if (numbers[0] == EpipolarPlane::nobody)
-                std::copy_n(background, 4, values);
-            else
-                shade_one(shades[numbers[0]], n, K, values);
+            HWY_ALIGN std::uint64_t some_words[hn::MaxLanes(d)] = {};
+            std::copy_n(words, count, some_words);
+            std::fill_n(words, count, EpipolarPlane::nothing);
+            shade_vector(some_words, shades, n, hn::Iota(d, plane.first_direction + static_cast<float>(k)), values);
             for (int i = 0; i < 4; ++i) {
                 if (!to[i]) continue;
-                if (aligned && count == lanes) {
-                    hn::Stream(values[i], d, to[i] + k);  // past the caches: nobody reads a sample soon after
-                } else {
-                    HWY_ALIGN float some[hn::MaxLanes(d)];
-                    hn::Store(values[i], d, some);
-                    std::memcpy(to[i] + k, some, count * sizeof(float));
-                }
+                HWY_ALIGN float some[hn::MaxLanes(d)];
+                hn::Store(values[i], d, some);
+                std::memcpy(to[i] + k, some, count * sizeof(float));
             }
         }
     }
