@@ -25,7 +25,10 @@ void Occlusion::update(const EpipolarPlane& plane) {
     for (std::size_t row = 0; row < PlaneCells::rows(plane.directions); ++row)
         for (std::size_t first = 0; first < plane.columns; first += group) {
             const std::uint32_t* cell = plane.cells->farthest.data() + row * plane.columns + first;
-            cells_.push_back(*std::max_element(cell, cell + std::min(group, plane.columns - first)));
+            const std::size_t count = std::min(group, plane.columns - first);
+            std::uint32_t most = 0;
+            for (std::size_t i = 0; i < count; ++i) most = std::max(most, cell[i]);
+            cells_.push_back(most);
         }
     // Objects that stand alone hide too little to pay for the asking.
     constexpr std::uint32_t open = ordered_bits(std::numeric_limits<float>::infinity());
