@@ -25,7 +25,8 @@ constexpr std::size_t most_waiting = 64;
 constexpr std::size_t most_tile_bytes = std::size_t{384} << 20;
 
 // After so many strips, or more if a plane has many samples, it is looked again which samples are covered: often enough
-// to leave little in vain, and seldom enough to cost little.
+// to leave little in vain, and seldom enough to cost little. Strips that cover many cells are looked at sooner: as soon
+// as so much has been drawn as would fill the plane.
 constexpr std::size_t fewest_between_updates = 128, samples_between_updates = 256;
 
 class EpiRenderer final : public LightFieldSource {
@@ -63,12 +64,16 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
         std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions + EpipolarPlane::spare,
                                                                             EpipolarPlane::nothing);
+        PlaneCells cells;
         Work work;
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow)
             for (std::size_t row = 0; row < axes_.slow_hogels(range); ++row) {
                 const EpipolarFrame::Plane place = frame_.plane(first_row + row, slow);
                 for (std::size_t column = 0; column < hogels; column += columns) {
-                    const EpipolarPlane plane{words.data(), std::min(columns, hogels - column), directions,
+                    const EpipolarPlane plane{words.data(),
+                                              &cells,
+                                              std::min(columns, hogels - column),
+                                              directions,
                                               frame_.first_column() + static_cast<std::int32_t>(first_column + column),
                                               frame_.first_direction(), scene_->fronts_only};
                     draw_plane(plane, place, work);
@@ -111,6 +116,7 @@ class EpiRenderer final : public LightFieldSource {
 
     // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
     void draw_plane(const EpipolarPlane& plane, const EpipolarFrame::Plane& place, Work& work) const {
+        const PlaneCells& cells = *plane.cells;
         const double n_first = plane.first_column, k_first = plane.first_direction;
         const PlaneRays rays{place.row,
                              place.slope,
@@ -121,7 +127,7 @@ class EpiRenderer final : public LightFieldSource {
                              k_first,
                              k_first + static_cast<double>(plane.directions) - 1,
                              place.deepening * frame_.metres(1)};
-        work.occlusion.clear();
+        work.occlusion.clear(plane);
         work.count = 0;
         make_room(work, 1);
         work.strips[0] = {};
@@ -129,7 +135,7 @@ class EpiRenderer final : public LightFieldSource {
         work.count = 1;
         std::size_t between_updates =
             std::max(fewest_between_updates, plane.columns * plane.directions / samples_between_updates);
-        std::size_t drawn = 1;
+        std::size_t drawn = 1, updated = 1;
         const auto draw_rest = [&] {
             draw(std::span(work.strips).subspan(drawn, work.count - drawn), drawn, plane);
             drawn = work.count;
@@ -146,10 +152,13 @@ class EpiRenderer final : public LightFieldSource {
             }
             if (work.waiting.size() < most_waiting) continue;
             add_strips(work, rays);
-            if (work.count < drawn + between_updates) continue;
+            if (work.count < drawn + fewest_between_updates) continue;
             draw_rest();
+            const bool after_many = work.count >= updated + between_updates;
+            if (!after_many && cells.drawn < plane.columns * PlaneCells::rows(plane.directions)) continue;
             work.occlusion.update(plane);
-            between_updates += between_updates / 2;
+            updated = work.count;
+            if (after_many) between_updates += between_updates / 2;
         }
         add_strips(work, rays);
         draw_rest();

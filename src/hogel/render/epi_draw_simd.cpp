@@ -17,9 +17,36 @@ namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// In about processor cycles: a vector of directions or columns, candidates in it, a hit that is put in its place by
+// itself, a column of directions at once.
+constexpr float cost_of_vector = 20, cost_of_candidates = 12, cost_of_hit = 3, cost_of_row = 7;
+
+constexpr std::size_t most_lanes = HWY_MAX_BYTES / 4;
+
+// Bounds of what a vector of strips can cover, and the way to go over each that takes least.
+struct Bounded {
+    enum Way : std::int32_t { nowhere, rows, directions, columns };
+    HWY_ALIGN float n_begin[most_lanes], n_end[most_lanes], per_z0[most_lanes], per_z1[most_lanes], margin[most_lanes],
+        K_begin[most_lanes], K_end[most_lanes];
+    HWY_ALIGN std::int32_t way[most_lanes], nearest[most_lanes];
+};
+
 // Of the samples of a plane.
 struct Extent {
     float n_first, n_last, k_first, k_last;
+};
+
+// The directions of a vector in which interleaving makes words of neighbours, and the lanes in their own order.
+struct LaneOrder {
+    HWY_ALIGN float in_order[most_lanes], steps[most_lanes];
+
+    LaneOrder() {
+        const std::size_t half = hn::Lanes(FloatTag()) / 2;
+        for (std::size_t i = 0; i < 2 * half; ++i) {
+            in_order[i] = static_cast<float>(i % 4 / 2 * half + i / 4 * 2 + i % 2);
+            steps[i] = static_cast<float>(i);
+        }
+    }
 };
 
 // What the loops below need to know of a strip and the plane that it is drawn into.
@@ -30,45 +57,85 @@ struct Drawing {
     Hits& hits;
     Candidates& candidates;
     const Extent& extent;
+    const LaneOrder& lanes;
+    std::uint32_t nearest;  // ordered bits of a depth in front of all samples of the strip
 };
+
+// The columns that see a strip from each of a vector's rows of cells.
+HWY_INLINE void columns_of_rows(const StripLanes& strip, const Extent& extent, std::size_t first_row, float K_end,
+                                Floats& first, Floats& last) {
+    const FloatTag d;
+    const Floats one = hn::Set(d, 1.0f), size = hn::Set(d, static_cast<float>(cell_directions));
+    const Floats K_low = hn::Add(hn::Set(d, extent.k_first + static_cast<float>(first_row * cell_directions)),
+                                 hn::Mul(hn::Iota(d, 0), size));
+    const Floats K_high = hn::Min(hn::Add(K_low, hn::Sub(size, one)), hn::Set(d, K_end));
+    // c is monotonic in K, also as it is rounded.
+    const Floats a = strip.c0(K_low), b = strip.c0(K_high), c = strip.c1(K_low), e = strip.c1(K_high);
+    const Floats low = hn::Floor(hn::Min(hn::Min(a, b), hn::Min(c, e)));
+    const Floats high = hn::Floor(hn::Max(hn::Max(a, b), hn::Max(c, e)));
+    first = hn::Max(hn::Set(d, extent.n_first), hn::Add(low, one));
+    last = hn::Min(hn::Set(d, extent.n_last), high);
+}
 
 #if HWY_TARGET != HWY_SCALAR
 // One direction a lane, and a column at a time, of which the lanes lie side by side: those that are not hits keep what
-// they have, even if they lie beyond the plane's directions.
+// they have, even if they lie beyond the plane's directions. Vectors begin where cells do, or a part of one, and what
+// is hidden is passed over.
 void along_rows(const Drawing& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
-    const hn::ScalableTag<std::uint64_t> d64;
-    const hn::Half<NumberTag> du_half;
+    const NumberTag du;
+    const hn::RepartitionToWide<NumberTag> d64;
     const StripLanes strip = in_all_lanes(on.strip);
-    const Floats one = hn::Set(d, 1.0f), far = hn::Set(d, std::numeric_limits<float>::infinity());
-    const Floats n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
-    const Ints nothing = hn::Set(di, -1);
-    const auto number = hn::Set(d64, on.number);
-    const std::size_t half = hn::Lanes(d64);
-    for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
-        const Floats K = hn::Iota(d, begin);
-        const Floats c0 = strip.c0(K), c1 = strip.c1(K), slope = strip.slope(c0, c1);
-        const Floats from = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
-        const Floats to = hn::Min(n_last, hn::Floor(hn::Max(c0, c1)));
-        const FloatMask any = hn::And(hn::Le(from, to), hn::Le(K, hn::Set(d, K_end)));
-        if (hn::AllFalse(d, any)) continue;
-        const Floats first = hn::IfThenElse(any, from, far), last = hn::IfThenElse(any, to, hn::Neg(far));
-        const float n_end = hn::GetLane(hn::MaxOfLanes(d, last));
-        float n = hn::GetLane(hn::MinOfLanes(d, first));
-        std::uint64_t* words = on.plane.words + static_cast<std::size_t>(n - on.extent.n_first) * on.plane.directions +
-                               static_cast<std::size_t>(begin - on.extent.k_first);
-        for (; n <= n_end; n += 1, words += on.plane.directions) {
-            const Floats ns = hn::Set(d, n);
-            const auto hit = hn::RebindMask(di, hn::And(hn::Le(first, ns), hn::Le(ns, last)));
-            const Ints ordered = ordered_bits_of(strip.depth(ns, c0, slope));
-            const auto depths = hn::BitCast(NumberTag(), hn::IfThenElse(hit, ordered, nothing));
-            const auto low = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(d64, hn::LowerHalf(du_half, depths))), number);
-            const auto high = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(d64, hn::UpperHalf(du_half, depths))), number);
-            hn::StoreU(hn::Min(low, hn::LoadU(d64, words)), d64, words);
-            hn::StoreU(hn::Min(high, hn::LoadU(d64, words + half)), d64, words + half);
+    const std::size_t lanes = hn::Lanes(d), half = lanes / 2;
+    const std::size_t plane_columns = on.plane.columns, directions = on.plane.directions;
+    std::uint64_t* const plane_words = on.plane.words;
+    const std::uint32_t* const farthest = on.plane.cells->farthest.data();
+    const auto number = hn::Set(du, on.number), nearest = hn::Set(du, on.nearest);
+    const Floats nothing = hn::BitCast(d, hn::Set(di, -1));
+    const Floats order = hn::Load(d, on.lanes.in_order), last = hn::Set(d, K_end);
+    const auto k_begin = static_cast<std::size_t>(K_begin - on.extent.k_first);
+    const auto k_end = static_cast<std::size_t>(K_end - on.extent.k_first);
+    const std::size_t row_end = k_end / cell_directions + 1;
+    HWY_ALIGN float firsts[most_lanes];
+    HWY_ALIGN std::int32_t columns[most_lanes], counts[most_lanes];
+    std::size_t drawn = 0;
+    for (std::size_t group = k_begin / cell_directions; group < row_end; group += lanes) {
+        Floats from, to;
+        columns_of_rows(strip, on.extent, group, K_end, from, to);
+        hn::Store(from, d, firsts);
+        hn::Store(hn::ConvertTo(di, hn::Sub(from, hn::Set(d, on.extent.n_first))), di, columns);
+        hn::Store(hn::ConvertTo(di, hn::Add(hn::Sub(to, from), hn::Set(d, 1.0f))), di, counts);
+        for (std::size_t row = group; row < std::min(row_end, group + lanes); ++row) {
+            float first = firsts[row - group];
+            auto column = static_cast<std::size_t>(columns[row - group]);
+            for (std::int32_t count = counts[row - group]; count > 0;
+                 count -= static_cast<std::int32_t>(lanes), first += static_cast<float>(lanes), column += lanes) {
+                std::uint64_t open =
+                    bits_of(hn::Not(hn::Lt(hn::LoadU(du, farthest + row * plane_columns + column), nearest)));
+                open &= ~std::uint64_t{0} >> (64 - std::min(count, 32));
+                if (open == 0) continue;
+                drawn += static_cast<std::size_t>(std::popcount(open));
+                for (std::size_t k = row * cell_directions; k < (row + 1) * cell_directions && k <= k_end; k += lanes) {
+                    const Floats K = hn::Add(hn::Set(d, on.extent.k_first + static_cast<float>(k)), order);
+                    const Floats c0 = strip.c0(K), c1 = hn::IfThenElse(hn::Le(K, last), strip.c1(K), c0);
+                    const Floats slope = strip.slope(c0, c1);
+                    for (std::uint64_t rest = open; rest != 0; rest &= rest - 1) {
+                        const auto next = static_cast<std::size_t>(std::countr_zero(rest));
+                        const Floats n = hn::Set(d, first + on.lanes.steps[next]);
+                        const Floats z = hn::BitCast(d, ordered_bits_of(strip.depth(n, c0, slope)));
+                        const auto depth = hn::BitCast(du, hn::IfThenElse(StripLanes::covers(n, c0, c1), z, nothing));
+                        std::uint64_t* words = plane_words + (column + next) * directions + k;
+                        const auto low = hn::BitCast(d64, hn::InterleaveLower(du, number, depth));
+                        const auto high = hn::BitCast(d64, hn::InterleaveUpper(du, number, depth));
+                        hn::StoreU(hn::Min(low, hn::LoadU(d64, words)), d64, words);
+                        hn::StoreU(hn::Min(high, hn::LoadU(d64, words + half)), d64, words + half);
+                    }
+                }
+            }
         }
     }
+    on.plane.cells->drawn += drawn;
 }
 #endif
 
@@ -134,19 +201,6 @@ void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, 
     }
 }
 
-// In about processor cycles: a vector of directions or columns, candidates in it, a hit that is put in its place by
-// itself, a column of directions at once.
-constexpr float cost_of_vector = 20, cost_of_candidates = 12, cost_of_hit = 3, cost_of_row = 8;
-
-// Bounds of what a vector of strips can cover, and the way to go over each that takes least.
-struct Bounded {
-    enum Way : std::int32_t { nowhere, rows, directions, columns };
-    static constexpr std::size_t most_lanes = HWY_MAX_BYTES / 4;
-    HWY_ALIGN float n_begin[most_lanes], n_end[most_lanes], per_z0[most_lanes], per_z1[most_lanes], margin[most_lanes],
-        K_begin[most_lanes], K_end[most_lanes];
-    HWY_ALIGN std::int32_t way[most_lanes];
-};
-
 // @param ends  x0, z0, x1, z1 of a vector of strips
 void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
     const FloatTag d;
@@ -196,11 +250,13 @@ void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
     const Floats by_columns = hn::Add(hn::Mul(n_vectors, each(hn::Mul(across, steepest))), hits);
     Ints way = hn::IfThenElse(hn::RebindMask(di, hn::And(bounded, hn::Lt(by_columns, by_directions))),
                               hn::Set(di, Bounded::columns), hn::Set(di, Bounded::directions));
-#if HWY_TARGET != HWY_SCALAR
     const Floats deepest = hn::Max(hn::Abs(z0), hn::Abs(z1));
+    // Beyond the rounding of a sample's depth.
+    const Floats nearest = hn::Sub(hn::Min(z0, z1), hn::Mul(hn::Set(d, 1e-6f), deepest));
+#if HWY_TARGET != HWY_SCALAR
     const Floats steps = hn::Add(hn::Add(across, hn::Mul(lanes, deepest)), one);
     const Floats by_rows =
-        hn::Mul(K_vectors, hn::Add(hn::Set(d, 2 * cost_of_vector), hn::Mul(hn::Set(d, cost_of_row), steps)));
+        hn::Mul(K_vectors, hn::Add(hn::Set(d, cost_of_vector), hn::Mul(hn::Set(d, cost_of_row), steps)));
     const FloatMask rows = hn::And(bounded, hn::Lt(by_rows, hn::Min(by_directions, by_columns)));
     way = hn::IfThenElse(hn::RebindMask(di, rows), hn::Set(di, Bounded::rows), way);
 #endif
@@ -213,17 +269,19 @@ void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
     hn::Store(K_begin, d, to.K_begin);
     hn::Store(K_end, d, to.K_end);
     hn::Store(way, di, to.way);
+    hn::Store(ordered_bits_of(nearest), di, to.nearest);
 }
 
 void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
     const auto n_first = static_cast<float>(plane.first_column);
     const Extent extent{n_first, n_first + static_cast<float>(plane.columns) - 1, plane.first_direction,
                         plane.first_direction + static_cast<float>(plane.directions) - 1};
+    const LaneOrder order;
     Hits hits(plane);
     Candidates candidates(plane, strips, first, hits);
     const std::size_t lanes = hn::Lanes(FloatTag());
     Bounded bounded;
-    HWY_ALIGN Strip last[Bounded::most_lanes];
+    HWY_ALIGN Strip last[most_lanes];
     for (std::size_t begin = 0; begin < strips.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, strips.size() - begin);
         const Strip* some = strips.data() + begin;
@@ -234,8 +292,8 @@ void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane&
         bound_strips(&some->x0, extent, bounded);
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = static_cast<std::uint32_t>(begin + i);
-            const Drawing on{some[i],    index, static_cast<std::uint32_t>(first) + index, plane, hits,
-                             candidates, extent};
+            const Drawing on{some[i], index, static_cast<std::uint32_t>(first) + index,     plane, hits, candidates,
+                             extent,  order, static_cast<std::uint32_t>(bounded.nearest[i])};
             switch (bounded.way[i]) {
 #if HWY_TARGET != HWY_SCALAR
                 case Bounded::rows:

@@ -20,7 +20,8 @@ namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::ScalableTag<float>;
+// A vector of directions is in one cell.
+using FloatTag = hn::CappedTag<float, cell_directions>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using NumberTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
@@ -57,6 +58,15 @@ HWY_INLINE Ints ordered_bits_of(Floats z) {
     const IntTag di;
     const Ints bits = hn::BitCast(di, z);
     return hn::Xor(bits, hn::Or(hn::BroadcastSignBit(bits), hn::Set(di, std::numeric_limits<std::int32_t>::min())));
+}
+
+// Which lanes are true, as bits.
+HWY_INLINE std::uint64_t bits_of(hn::Mask<NumberTag> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(NumberTag(), mask, bytes);
+    std::uint64_t bits;
+    std::memcpy(&bits, bytes, sizeof(bits));
+    return hn::Lanes(NumberTag()) < 8 ? bits & 0xff : bits;
 }
 
 // How many hits or candidates are kept before they are worked off, and what a vector may write beyond them.

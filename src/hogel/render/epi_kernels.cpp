@@ -1,9 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hogel/render/epi_kernels_internal.h"
 
 namespace hogel {
+
+void PlaneCells::clear(std::size_t columns, std::size_t directions) {
+    constexpr std::size_t spare = 64;
+    farthest.assign(columns * rows(directions) + spare, ~std::uint32_t{0});
+    drawn = 0;
+}
 
 void draw_plain(std::span<const Strip> strips, std::size_t first_number, const EpipolarPlane& plane) {
     const auto first = static_cast<float>(plane.first_column);
@@ -26,12 +33,13 @@ void draw_plain(std::span<const Strip> strips, std::size_t first_number, const E
     }
 }
 
-void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
-    const std::size_t across = (plane.directions + cell_directions - 1) / cell_directions;
-    std::fill(cells.begin(), cells.end(), 0);
+void find_farthest_plain(const EpipolarPlane& plane) {
+    PlaneCells& cells = *plane.cells;
+    cells.clear(plane.columns, plane.directions);
+    std::fill_n(cells.farthest.begin(), plane.columns * PlaneCells::rows(plane.directions), 0);
     for (std::size_t column = 0; column < plane.columns; ++column)
         for (std::size_t k = 0; k < plane.directions; ++k) {
-            std::uint32_t& cell = cells[column / cell_columns * across + k / cell_directions];
+            std::uint32_t& cell = cells.farthest[k / cell_directions * plane.columns + column];
             cell = std::max(cell, static_cast<std::uint32_t>(plane.words[column * plane.directions + k] >> 32));
         }
 }

@@ -22,10 +22,27 @@ struct StripShades {
     float value0[4], difference[4];  ///< R, G, B (or the only channel first), depth ζ in metres
 };
 
+/// Samples of a column that lie side by side, of which it is known how far the farthest of them is.
+constexpr std::size_t cell_directions = 16;
+
+/// What is known of the cells of a plane, columns fastest; those at the columns' ends may be smaller.
+struct PlaneCells {
+    /// A depth (ordered bits) for each beyond which none of its samples sees anything; all ones where one may have seen
+    /// nothing yet. Some more behind the last may be read.
+    std::vector<std::uint32_t> farthest;
+    /// How often something has been drawn into one since, as far as it is known.
+    std::size_t drawn = 0;
+
+    static std::size_t rows(std::size_t directions) { return (directions + cell_directions - 1) / cell_directions; }
+    /// Nothing has been drawn into so many samples.
+    void clear(std::size_t columns, std::size_t directions);
+};
+
 /// The samples (n, k) of one epipolar plane, k fastest: in each word what is seen first so far, as its depth and the
 /// number of its strip.
 struct EpipolarPlane {
     std::uint64_t* words;
+    PlaneCells* cells;
     std::size_t columns, directions;
     std::int32_t first_column;  ///< n of the first column
     float first_direction;      ///< K of k = 0
@@ -62,15 +79,13 @@ struct ShadedPlane {
 /// too many and puts them to the same test.
 
 /// Draws strips number `first`, first + 1, … into a plane: wherever strip i is nearer than what is there (or as near,
-/// with a smaller number), the word becomes ordered_bits(z) · 2³² + i.
+/// with a smaller number), the word becomes ordered_bits(z) · 2³² + i. What the cells say is hidden may be passed over.
 void draw_plain(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane);
 void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane);
 
-/// The depths (ordered bits) of the farthest sample of each cell of the plane, directions fastest; all ones where a
-/// sample has seen nothing yet. Cells at the far edges of the plane may be smaller.
-constexpr std::size_t cell_columns = 8, cell_directions = 16;
-void farthest_plain(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
-void farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells);
+/// Takes into the cells of a plane what has been drawn by now.
+void find_farthest_plain(const EpipolarPlane& plane);
+void find_farthest(const EpipolarPlane& plane);
 
 /// The values of what each sample of the plane sees, by the numbers of the strips. Afterwards nothing is seen in it.
 void shade_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);

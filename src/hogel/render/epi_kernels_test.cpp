@@ -81,6 +81,36 @@ TEST_P(EveryTarget, vector_and_plain_drawings_are_the_same) {
     EXPECT_GT(covered, 50000u);
 }
 
+// Strips in layers one behind the other and across each other, as wide as cells and wider: what is passed over because
+// of what was drawn before is what cannot be seen.
+TEST_P(EveryTarget, what_is_drawn_over_what_is_known_is_the_same_as_drawn_at_once) {
+    Places places(7);
+    std::size_t hidden = 0;
+    for (int round = 0; round < 150; ++round) {
+        const std::size_t columns = places.between(1, 60), directions = places.between(1, 120);
+        const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
+        TestPlane fast(columns, directions, first), plain(columns, directions, first);
+        std::size_t number = 1;
+        for (int layer = 0; layer < 8; ++layer) {
+            std::vector<Strip> strips(places.between(0, 6));
+            for (Strip& strip : strips) {
+                // Several in the same depth, also that of the hologram.
+                const float z = places.coin() ? 0.25f * float(layer - 3) : places.uniform(2);
+                const float x = places.uniform(90);
+                strip = {x, z, x + places.uniform(60), places.coin() ? z : z + places.uniform(0.3f)};
+            }
+            draw(strips, number, fast.plane);
+            draw_plain(strips, number, plain.plane);
+            ASSERT_EQ(fast.words, plain.words) << round << " " << layer;
+            number += strips.size();
+            find_farthest(fast.plane);
+            for (std::size_t i = 0; i < columns * PlaneCells::rows(directions); ++i)
+                hidden += fast.cells.farthest[i] < ordered_bits(1) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hidden, 10000u);
+}
+
 TEST(EpipolarKernels, triangles_that_share_an_edge_are_cut_in_the_same_point) {
     Places places(6);
     using Three = std::array<double, 3>;

@@ -118,7 +118,7 @@ TEST_P(EveryTargetOfLight, vector_and_plain_shadings_are_the_same_and_show_what_
         std::vector<std::uint64_t> words(size, EpipolarPlane::nothing);
         for (std::uint64_t& word : words)
             if (random() % 4 != 0) word = std::uint64_t{12345} << 32 | (1 + random() % 40);
-        const EpipolarPlane plane{words.data(), columns, directions, -3, 0.5f - 0.5f * float(directions)};
+        const EpipolarPlane plane{words.data(), nullptr, columns, directions, -3, 0.5f - 0.5f * float(directions)};
         for (const bool colour : {true, false})
             for (const bool depth : {true, false})
                 for (const std::size_t offset : {0, 1}) {

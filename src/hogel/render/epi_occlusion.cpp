@@ -7,15 +7,29 @@
 namespace hogel {
 namespace {
 
-std::size_t cells_across(const EpipolarPlane& plane) {
-    return (plane.directions + cell_directions - 1) / cell_directions;
-}
+// Of so many columns the farthest are taken together to ask about boxes.
+constexpr std::size_t group = 8;
+
+std::size_t groups_of(const EpipolarPlane& plane) { return (plane.columns + group - 1) / group; }
 
 }  // namespace
 
+void Occlusion::clear(const EpipolarPlane& plane) {
+    plane.cells->clear(plane.columns, plane.directions);
+    worth_asking_ = false;
+}
+
 void Occlusion::update(const EpipolarPlane& plane) {
-    cells_.resize((plane.columns + cell_columns - 1) / cell_columns * cells_across(plane));
-    farthest(plane, cells_);
+    find_farthest(plane);
+    cells_.clear();
+    for (std::size_t row = 0; row < PlaneCells::rows(plane.directions); ++row)
+        for (std::size_t first = 0; first < plane.columns; first += group) {
+            const std::uint32_t* cell = plane.cells->farthest.data() + row * plane.columns + first;
+            const std::size_t count = std::min(group, plane.columns - first);
+            std::uint32_t most = 0;
+            for (std::size_t i = 0; i < count; ++i) most = std::max(most, cell[i]);
+            cells_.push_back(most);
+        }
     // Objects that stand alone hide too little to pay for the asking.
     constexpr std::uint32_t open = ordered_bits(std::numeric_limits<float>::infinity());
     const auto covered = std::count_if(cells_.begin(), cells_.end(), [](std::uint32_t cell) { return cell < open; });
@@ -39,10 +53,11 @@ bool Occlusion::hides(const ClusterBounds::Box& box, const EpipolarPlane& plane,
         const double n_low = std::max(first, std::floor(x_low - most) - 1);
         const double n_high = std::min(last, std::ceil(x_high - least) + 1);
         if (!(n_low <= n_high)) continue;
-        const auto begin = static_cast<std::size_t>(n_low - first) / cell_columns;
-        const auto end = static_cast<std::size_t>(n_high - first) / cell_columns;
+        const auto begin = static_cast<std::size_t>(n_low - first) / group;
+        const auto end = static_cast<std::size_t>(n_high - first) / group;
+        const std::uint32_t* cells = cells_.data() + k / cell_directions * groups_of(plane);
         for (std::size_t cell = begin; cell <= end; ++cell)
-            if (cells_[cell * cells_across(plane) + k / cell_directions] >= near_bits) return false;
+            if (cells[cell] >= near_bits) return false;
     }
     return true;
 }

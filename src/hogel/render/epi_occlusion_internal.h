@@ -11,9 +11,9 @@ namespace hogel {
 /// How far the samples of an epipolar plane are already covered, cell by cell: what lies behind that need not be drawn.
 class Occlusion {
   public:
-    /// Nothing is covered.
-    void clear() { worth_asking_ = false; }
-    /// Takes in what has been drawn by now.
+    /// Nothing is covered: also in the plane's own cells.
+    void clear(const EpipolarPlane& plane);
+    /// Takes in what has been drawn by now, the plane too.
     void update(const EpipolarPlane& plane);
     /// Whether every sample of the plane that may see into the box sees something in front of it. Never true of a box
     /// that holds something visible, or just as near as what is seen. The box is moved by (shift, −z0) first.

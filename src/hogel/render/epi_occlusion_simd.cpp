@@ -1,4 +1,4 @@
-// The vector twin of farthest_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first
+// The vector twin of find_farthest_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first
 // called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi_occlusion_simd.cpp"
@@ -15,28 +15,68 @@ namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void Farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
-    const hn::ScalableTag<std::uint64_t> d;
-    const std::size_t lanes = hn::Lanes(d);
-    std::size_t cell = 0;
-    for (std::size_t c0 = 0; c0 < plane.columns; c0 += cell_columns)
-        for (std::size_t k0 = 0; k0 < plane.directions; k0 += cell_directions, ++cell) {
-            const std::size_t c1 = std::min(c0 + cell_columns, plane.columns);
-            const std::size_t k1 = std::min(k0 + cell_directions, plane.directions);
-            auto most = hn::Zero(d);
-            std::uint64_t rest = 0;
-            for (std::size_t column = c0; column < c1; ++column) {
-                const std::uint64_t* row = plane.words + column * plane.directions;
-                std::size_t k = k0;
-                for (; k + lanes <= k1; k += lanes) most = hn::Max(most, hn::LoadU(d, row + k));
-                for (; k < k1; ++k) rest = std::max(rest, row[k]);
-            }
-            HWY_ALIGN std::uint64_t lane[HWY_MAX_BYTES / 8];
-            hn::Store(most, d, lane);
-            for (std::size_t i = 0; i < lanes; ++i) rest = std::max(rest, lane[i]);
-            cells[cell] = static_cast<std::uint32_t>(rest >> 32);
-        }
+#if HWY_TARGET == HWY_SCALAR
+// A single lane holds no four columns.
+void FindFarthest(const EpipolarPlane& plane) { find_farthest_plain(plane); }
+#else
+using Tag = hn::CappedTag<std::uint32_t, cell_directions>;
+using Depths = hn::Vec<Tag>;
+
+// The greatest depths of the lanes of a cell's words.
+HWY_INLINE Depths farthest_lanes(const std::uint64_t* words) {
+    const Tag d;
+    const hn::RepartitionToWide<Tag> d64;
+    Depths most = hn::Zero(d);
+    for (std::size_t i = 0; i < cell_directions; i += hn::Lanes(d)) {
+        const auto low = hn::BitCast(d, hn::LoadU(d64, words + i));
+        const auto high = hn::BitCast(d, hn::LoadU(d64, words + i + hn::Lanes(d64)));
+        most = hn::Max(most, hn::ConcatOdd(d, high, low));
+    }
+    return most;
 }
+
+// Of four columns' cells.
+HWY_INLINE void find_four(const std::uint64_t* const (&words)[4], std::uint32_t (&farthest)[4]) {
+    const Tag d;
+    const hn::RepartitionToWide<Tag> d64;
+    const hn::FixedTag<std::uint32_t, 4> d4;
+    // Within blocks of four lanes every lane becomes one of the columns.
+    const auto pair = [&](std::size_t i) HWY_ATTR {
+        const Depths a = farthest_lanes(words[i]), b = farthest_lanes(words[i + 1]);
+        return hn::BitCast(d64, hn::Max(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b)));
+    };
+    const auto first = pair(0), last = pair(2);
+    const Depths all = hn::Max(hn::BitCast(d, hn::InterleaveLower(d64, first, last)),
+                               hn::BitCast(d, hn::InterleaveUpper(d64, first, last)));
+    HWY_ALIGN std::uint32_t lanes[HWY_MAX_BYTES / 4];
+    hn::Store(all, d, lanes);
+    auto most = hn::Load(d4, lanes);
+    for (std::size_t i = 4; i < hn::Lanes(d); i += 4) most = hn::Max(most, hn::Load(d4, lanes + i));
+    hn::StoreU(most, d4, farthest);
+}
+
+void FindFarthest(const EpipolarPlane& plane) {
+    PlaneCells& cells = *plane.cells;
+    cells.drawn = 0;
+    for (std::size_t column = 0; column < plane.columns; column += 4) {
+        const std::size_t count = std::min<std::size_t>(4, plane.columns - column);
+        const std::uint64_t* words[4];
+        for (std::size_t i = 0; i < 4; ++i)
+            words[i] = plane.words + (column + std::min(i, count - 1)) * plane.directions;
+        std::uint32_t* farthest = &cells.farthest[column];
+        for (std::size_t k = 0; k < plane.directions; k += cell_directions, farthest += plane.columns) {
+            std::uint32_t four[4];
+            if (const std::size_t size = plane.directions - k; size >= cell_directions)
+                find_four(words, four);
+            else
+                for (std::size_t i = 0; i < 4; ++i)
+                    four[i] = static_cast<std::uint32_t>(*std::max_element(words[i], words[i] + size) >> 32);
+            std::copy_n(four, count, farthest);
+            for (const std::uint64_t*& of_column : words) of_column += cell_directions;
+        }
+    }
+}
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel
@@ -45,11 +85,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace hogel {
 
-HWY_EXPORT(Farthest);
+HWY_EXPORT(FindFarthest);
 
-void farthest(const EpipolarPlane& plane, std::span<std::uint32_t> cells) {
-    HWY_DYNAMIC_DISPATCH(Farthest)(plane, cells);
-}
+void find_farthest(const EpipolarPlane& plane) { HWY_DYNAMIC_DISPATCH(FindFarthest)(plane); }
 
 }  // namespace hogel
 #endif

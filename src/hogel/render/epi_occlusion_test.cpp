@@ -64,23 +64,26 @@ TEST(Occlusion, an_empty_plane_hides_nothing) {
 
 TEST(Occlusion, cells_hold_the_farthest_depth_in_all_kernels) {
     std::mt19937 random(2);
-    for (std::size_t columns : {1, 7, 8, 9, 24})
+    for (std::size_t columns : {1, 3, 4, 5, 24})
         for (std::size_t directions = 1; directions < 70; ++directions) {
             TestPlane drawn(columns, directions, 0);
             for (std::uint64_t& word : drawn.words)
                 if (random() % 200 != 0) word = std::uint64_t{random() % 1000} << 32 | random();
-            const std::size_t across = (directions + 15) / 16, size = (columns + 7) / 8 * across;
-            std::vector<std::uint32_t> plain(size);
-            farthest_plain(drawn.plane, plain);
+            find_farthest_plain(drawn.plane);
+            const std::vector<std::uint32_t> plain = drawn.cells.farthest;
             for (const std::int64_t target : kernel_targets()) {
-                std::vector<std::uint32_t> fast(size);
+                drawn.cells.clear(columns, directions);
                 use_kernel_target(target);
-                farthest(drawn.plane, fast);
+                find_farthest(drawn.plane);
                 use_kernel_target(0);
-                ASSERT_EQ(fast, plain) << target << " " << columns << " " << directions;
+                ASSERT_EQ(drawn.cells.farthest, plain) << target << " " << columns << " " << directions;
             }
-            for (std::size_t i = 0; i < columns * directions; ++i)
-                ASSERT_GE(plain[i / directions / 8 * across + i % directions / 16], drawn.words[i] >> 32);
+            std::vector<std::uint32_t> most((directions + 15) / 16 * columns);
+            for (std::size_t i = 0; i < columns * directions; ++i) {
+                std::uint32_t& cell = most[i % directions / 16 * columns + i / directions];
+                cell = std::max(cell, std::uint32_t(drawn.words[i] >> 32));
+            }
+            ASSERT_TRUE(std::equal(most.begin(), most.end(), plain.begin()));
         }
 }
 

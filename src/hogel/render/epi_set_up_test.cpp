@@ -45,8 +45,9 @@ TEST(ClustersCrossed, are_all_that_show_and_few_others) {
                     std::vector<StripShades> shades(places.size());
                     set_up_plain(clusters, places, rays, strips.data(), shades.data(), nullptr);
                     std::ranges::fill(words, EpipolarPlane::nothing);
-                    draw_plain(strips, 1,
-                               {words.data(), 3, grid.directions_u, std::int32_t(rays.n_first), float(rays.K_first)});
+                    draw_plain(
+                        strips, 1,
+                        {words.data(), nullptr, 3, grid.directions_u, std::int32_t(rays.n_first), float(rays.K_first)});
                     const bool shows =
                         std::ranges::any_of(words, [](std::uint64_t word) { return word != EpipolarPlane::nothing; });
                     ASSERT_TRUE(listed || !shows) << t << " " << v << " " << first << " " << i;

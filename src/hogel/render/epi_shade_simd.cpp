@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "hogel/render/epi_kernels_internal.h"
@@ -17,114 +18,145 @@ namespace hogel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+#if HWY_TARGET == HWY_SCALAR
+// A single lane holds no four values.
+void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
+    shade_plain(plane, strips, out);
+}
+#else
+#if HWY_HAVE_SCALABLE
+using FloatTag = hn::FixedTag<float, 4>;
+#else
 using FloatTag = hn::ScalableTag<float>;
+#endif
 using NumberTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 
-// So many samples of a column are taken at once that what is gathered has left the store buffers when it is read.
-constexpr std::size_t run = 64;
-
-// The strips of a run of samples, each of the three parts of StripShades side by side.
-struct Gathered {
-    HWY_ALIGN float places[run][4], values[run][4], differences[run][4];
-};
-
-// One strip in all lanes, or a strip a lane.
-struct Lanes {
-    Floats x0, z0, dx, dz, value0[4], difference[4];
-};
-
-HWY_INLINE void shade_lanes(const Lanes& strip, float n, float K, Floats (&values)[4]) {
+// Four floats from each of these places, one after the other.
+HWY_INLINE Floats load_blocks(const float* const* from) {
     const FloatTag d;
-    const Floats Ks = hn::Iota(d, K), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const Floats part = hn::Div(hn::Add(hn::Sub(hn::Set(d, n), strip.x0), hn::Mul(Ks, strip.z0)),
-                                hn::Sub(strip.dx, hn::Mul(Ks, strip.dz)));
+    constexpr std::size_t lanes = hn::MaxLanes(d);
+    if constexpr (lanes == 4)
+        return hn::LoadU(d, from[0]);
+    else if constexpr (lanes == 8)
+        return hn::OddEvenBlocks(hn::LoadDup128(d, from[4]), hn::LoadDup128(d, from[0]));
+    else
+        return hn::ConcatUpperLower(d, hn::OddEvenBlocks(hn::LoadDup128(d, from[12]), hn::LoadDup128(d, from[8])),
+                                    hn::OddEvenBlocks(hn::LoadDup128(d, from[4]), hn::LoadDup128(d, from[0])));
+}
+
+// Four vectors, whose block b holds four floats of sample 4 b + i, become those floats of all samples: and back.
+HWY_INLINE void transpose(Floats (&v)[4]) {
+    const FloatTag d;
+    const hn::RepartitionToWide<FloatTag> dw;
+    const auto wide = [&](Floats f) HWY_ATTR { return hn::BitCast(dw, f); };
+    const auto a = wide(hn::InterleaveLower(d, v[0], v[1])), b = wide(hn::InterleaveLower(d, v[2], v[3]));
+    const auto c = wide(hn::InterleaveUpper(d, v[0], v[1])), e = wide(hn::InterleaveUpper(d, v[2], v[3]));
+    v[0] = hn::BitCast(d, hn::InterleaveLower(dw, a, b));
+    v[1] = hn::BitCast(d, hn::InterleaveUpper(dw, a, b));
+    v[2] = hn::BitCast(d, hn::InterleaveLower(dw, c, e));
+    v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, c, e));
+}
+
+// As part_of_strip.
+HWY_INLINE Floats parts_of_strips(Floats n, Floats K, const Floats (&place)[4]) {
+    const FloatTag d;
+    const auto& [x0, z0, dx, dz] = place;
+    const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const Floats part = hn::Div(hn::Add(hn::Sub(n, x0), hn::Mul(K, z0)), hn::Sub(dx, hn::Mul(K, dz)));
     const Floats positive = hn::IfThenElse(hn::Gt(part, zero), part, zero);
-    const Floats inside = hn::IfThenElse(hn::Lt(positive, one), positive, one);
-    for (int i = 0; i < 4; ++i) values[i] = hn::Add(strip.value0[i], hn::Mul(inside, strip.difference[i]));
+    return hn::IfThenElse(hn::Lt(positive, one), positive, one);
 }
 
-HWY_INLINE Lanes one_strip(const StripShades& strip) {
+// Of samples that all show one strip.
+HWY_INLINE void shade_one(const StripShades& strip, Floats n, Floats K, Floats (&values)[4]) {
     const FloatTag d;
-    Lanes lanes{hn::Set(d, strip.x0), hn::Set(d, strip.z0), hn::Set(d, strip.dx), hn::Set(d, strip.dz), {}, {}};
-    for (int i = 0; i < 4; ++i) {
-        lanes.value0[i] = hn::Set(d, strip.value0[i]);
-        lanes.difference[i] = hn::Set(d, strip.difference[i]);
-    }
-    return lanes;
+    const Floats part =
+        parts_of_strips(n, K, {hn::Set(d, strip.x0), hn::Set(d, strip.z0), hn::Set(d, strip.dx), hn::Set(d, strip.dz)});
+    for (int i = 0; i < 4; ++i)
+        values[i] = hn::Add(hn::Set(d, strip.value0[i]), hn::Mul(part, hn::Set(d, strip.difference[i])));
 }
 
-HWY_INLINE Lanes gathered_strips(const Gathered& from, std::size_t first) {
+// Of samples that show different ones.
+HWY_INLINE void shade_several(const std::uint64_t* words, const StripShades* strips, Floats n, Floats K,
+                              Floats (&values)[4]) {
+    const float* from[hn::MaxLanes(FloatTag())];
+    for (std::size_t i = 0; i < hn::MaxLanes(FloatTag()); ++i) from[i] = &strips[words[i] & 0xffffffff].x0;
+    const auto load = [&](std::size_t first, std::size_t part) HWY_ATTR {
+        const float* of_part[hn::MaxLanes(FloatTag())];
+        for (std::size_t i = first; i < hn::MaxLanes(FloatTag()); i += 4) of_part[i - first] = from[i] + part;
+        return load_blocks(of_part);
+    };
+    Floats place[4] = {load(0, 0), load(1, 0), load(2, 0), load(3, 0)};
+    transpose(place);
+    const Floats part = parts_of_strips(n, K, place);
+    constexpr std::size_t value0 = offsetof(StripShades, value0) / sizeof(float),
+                          difference = offsetof(StripShades, difference) / sizeof(float);
+    values[0] = hn::Add(load(0, value0), hn::Mul(hn::Broadcast<0>(part), load(0, difference)));
+    values[1] = hn::Add(load(1, value0), hn::Mul(hn::Broadcast<1>(part), load(1, difference)));
+    values[2] = hn::Add(load(2, value0), hn::Mul(hn::Broadcast<2>(part), load(2, difference)));
+    values[3] = hn::Add(load(3, value0), hn::Mul(hn::Broadcast<3>(part), load(3, difference)));
+    transpose(values);
+}
+
+// The values of a vector of samples.
+HWY_INLINE void shade_vector(const std::uint64_t* words, const StripShades* strips, Floats n, Floats K,
+                             Floats (&values)[4]) {
     const FloatTag d;
-    Lanes lanes;
-    hn::LoadInterleaved4(d, from.places[first], lanes.x0, lanes.z0, lanes.dx, lanes.dz);
-    hn::LoadInterleaved4(d, from.values[first], lanes.value0[0], lanes.value0[1], lanes.value0[2], lanes.value0[3]);
-    hn::LoadInterleaved4(d, from.differences[first], lanes.difference[0], lanes.difference[1], lanes.difference[2],
-                         lanes.difference[3]);
-    return lanes;
-}
-
-// Copies the strips of a vector of samples that do not all show the same.
-HWY_INLINE void gather(const std::uint32_t* numbers, std::size_t count, std::span<const StripShades> strips,
-                       Gathered& to, std::size_t first) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const StripShades& from = strips[numbers[i]];
-        std::memcpy(to.places[first + i], &from.x0, sizeof(float[4]));
-        std::memcpy(to.values[first + i], from.value0, sizeof(float[4]));
-        std::memcpy(to.differences[first + i], from.difference, sizeof(float[4]));
-    }
-}
-
-HWY_INLINE bool show_one_strip(const std::uint32_t* numbers) {
     const NumberTag du;
-    return hn::AllTrue(du, hn::Eq(hn::Load(du, numbers), hn::Set(du, numbers[0])));
+    const hn::RepartitionToWide<NumberTag> d64;
+    const auto numbers = hn::ConcatEven(du, hn::BitCast(du, hn::LoadU(d64, words + hn::Lanes(d64))),
+                                        hn::BitCast(du, hn::LoadU(d64, words)));
+    const auto first = static_cast<std::uint32_t>(words[0]);
+    if (!hn::AllTrue(du, hn::Eq(numbers, hn::Set(du, first))))
+        shade_several(words, strips, n, K, values);
+    else if (first != EpipolarPlane::nobody)
+        shade_one(strips[first], n, K, values);
+    else
+        for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, strips[EpipolarPlane::nobody].value0[i]);
 }
 
 void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     const FloatTag d;
-    const std::size_t lanes = hn::Lanes(d);
+    const hn::RepartitionToWide<NumberTag> d64;
+    const std::size_t lanes = hn::Lanes(d), directions = plane.directions;
     const bool aligned = out.begins_at_multiples(lanes);
-    const Lanes background = one_strip(strips[EpipolarPlane::nobody]);
-    Gathered gathered;
-    HWY_ALIGN std::uint32_t numbers[run];
-    bool one[run];
-    for (std::size_t column = 0; column < plane.columns; ++column)
-        for (std::size_t begin = 0; begin < plane.directions; begin += run) {
-            const std::size_t size = std::min(run, plane.directions - begin);
-            std::uint64_t* words = plane.words + column * plane.directions + begin;
-            for (std::size_t j = 0; j < size; ++j) numbers[j] = static_cast<std::uint32_t>(words[j]);
-            std::fill(words, words + size, EpipolarPlane::nothing);
-            std::fill(numbers + size, numbers + run, EpipolarPlane::nobody);
-            for (std::size_t j = 0; j < size; j += lanes) {
-                one[j] = show_one_strip(numbers + j);
-                if (!one[j]) gather(numbers + j, lanes, strips, gathered, j);
-            }
-            const float n = static_cast<float>(plane.first_column) + static_cast<float>(column);
-            for (std::size_t j = 0; j < size; j += lanes) {
-                const float K = plane.first_direction + static_cast<float>(begin + j);
-                Floats values[4];
-                if (!one[j])
-                    shade_lanes(gathered_strips(gathered, j), n, K, values);
-                else if (numbers[j] == EpipolarPlane::nobody)
-                    for (int i = 0; i < 4; ++i) values[i] = background.value0[i];
-                else
-                    shade_lanes(one_strip(strips[numbers[j]]), n, K, values);
-                const std::size_t count = std::min(lanes, size - j);
-                for (int i = 0; i < 4; ++i) {
-                    if (!out.values[i]) continue;
-                    float* to = out.values[i] + column * out.strides[i] + begin + j;
-                    if (aligned && count == lanes) {
-                        hn::Stream(values[i], d, to);  // past the caches: nobody reads a sample soon after
-                    } else {
-                        HWY_ALIGN float some[HWY_MAX_BYTES / 4];
-                        hn::Store(values[i], d, some);
-                        std::memcpy(to, some, count * sizeof(float));
-                    }
-                }
+    const StripShades* const shades = strips.data();
+    const auto nothing = hn::Set(d64, EpipolarPlane::nothing);
+    for (std::size_t column = 0; column < plane.columns; ++column) {
+        std::uint64_t* words = plane.words + column * directions;
+        float* to[4];
+        for (int i = 0; i < 4; ++i) to[i] = out.values[i] ? out.values[i] + column * out.strides[i] : nullptr;
+        const Floats n = hn::Set(d, static_cast<float>(plane.first_column) + static_cast<float>(column));
+        Floats values[4];
+        std::size_t k = 0;
+        for (; aligned && k + lanes <= directions; k += lanes, words += lanes) {
+            shade_vector(words, shades, n, hn::Iota(d, plane.first_direction + static_cast<float>(k)), values);
+            hn::StoreU(nothing, d64, words);
+            hn::StoreU(nothing, d64, words + lanes / 2);
+            // Past the caches: nobody reads a sample soon after.
+            if (to[0]) hn::Stream(values[0], d, to[0] + k);
+            if (to[1]) hn::Stream(values[1], d, to[1] + k);
+            if (to[2]) hn::Stream(values[2], d, to[2] + k);
+            if (to[3]) hn::Stream(values[3], d, to[3] + k);
+        }
+        for (; k < directions; k += lanes, words += lanes) {
+            const std::size_t count = std::min(lanes, directions - k);
+            HWY_ALIGN std::uint64_t some_words[hn::MaxLanes(d)] = {};
+            std::copy_n(words, count, some_words);
+            std::fill_n(words, count, EpipolarPlane::nothing);
+            shade_vector(some_words, shades, n, hn::Iota(d, plane.first_direction + static_cast<float>(k)), values);
+            for (int i = 0; i < 4; ++i) {
+                if (!to[i]) continue;
+                HWY_ALIGN float some[hn::MaxLanes(d)];
+                hn::Store(values[i], d, some);
+                std::memcpy(to[i] + k, some, count * sizeof(float));
             }
         }
+    }
     hwy::FlushStream();
 }
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel
