@@ -34,6 +34,7 @@ struct Bounded {
 // Of the samples of a plane.
 struct Extent {
     float n_first, n_last, k_first, k_last;
+    bool fronts_only;
 };
 
 // The directions of a vector in which interleaving makes words of neighbours, and the lanes in their own order.
@@ -90,6 +91,7 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
     const std::size_t lanes = hn::Lanes(d), half = lanes / 2;
     const std::size_t plane_columns = on.plane.columns, directions = on.plane.directions;
     std::uint64_t* const plane_words = on.plane.words;
+    const bool fronts_only = on.plane.fronts_only;
     const std::uint32_t* const farthest = on.plane.cells->farthest.data();
     const auto number = hn::Set(du, on.number), nearest = hn::Set(du, on.nearest);
     const Floats nothing = hn::BitCast(d, hn::Set(di, -1));
@@ -118,7 +120,8 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
                 drawn += static_cast<std::size_t>(std::popcount(open));
                 for (std::size_t k = row * cell_directions; k < (row + 1) * cell_directions && k <= k_end; k += lanes) {
                     const Floats K = hn::Add(hn::Set(d, on.extent.k_first + static_cast<float>(k)), order);
-                    const Floats c0 = strip.c0(K), c1 = hn::IfThenElse(hn::Le(K, last), strip.c1(K), c0);
+                    const Floats c0 = strip.c0(K);
+                    const Floats c1 = hn::IfThenElse(hn::Le(K, last), strip.c1(K, c0, fronts_only), c0);
                     const Floats slope = strip.slope(c0, c1);
                     for (std::uint64_t rest = open; rest != 0; rest &= rest - 1) {
                         const auto next = static_cast<std::size_t>(std::countr_zero(rest));
@@ -150,7 +153,7 @@ void along_directions(const Drawing& on, float K_begin, float K_end) {
     const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
     for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats K = hn::Iota(d, begin);
-        const Floats c0 = strip.c0(K), c1 = strip.c1(K), slope = strip.slope(c0, c1);
+        const Floats c0 = strip.c0(K), c1 = strip.c1(K, c0, on.plane.fronts_only), slope = strip.slope(c0, c1);
         const Floats end = hn::IfThenElse(hn::Le(K, K_last), hn::Min(n_last, hn::Floor(hn::Max(c0, c1))), none);
         const Ints k = hn::ConvertTo(di, hn::Sub(K, k_first));
         Floats n = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
@@ -175,6 +178,7 @@ void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, 
                  columns_end = hn::Set(d, n_end);
     const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
     const std::size_t few = hn::Lanes(d) / 4;
+    const bool fronts_only = on.plane.fronts_only;
     for (float begin = n_begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats n = hn::Iota(d, begin);
         const Floats K0 = hn::Mul(hn::Sub(strip.x0, n), steep0), K1 = hn::Mul(hn::Sub(strip.x1, n), steep1);
@@ -189,7 +193,7 @@ void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, 
             if (count <= few) {
                 on.candidates.add(candidate, n, k, on.index);
             } else {
-                const Floats K = hn::Add(k, k_first), c0 = strip.c0(K), c1 = strip.c1(K);
+                const Floats K = hn::Add(k, k_first), c0 = strip.c0(K), c1 = strip.c1(K, c0, fronts_only);
                 const FloatMask hit = hn::And(candidate, StripLanes::covers(n, c0, c1));
                 on.hits.add(hit, strip.depth(n, c0, strip.slope(c0, c1)), hn::Add(rows, hn::ConvertTo(di, k)),
                             on.number);
@@ -218,7 +222,15 @@ void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
     // c is linear in K: these bound the columns that see a strip.
     const Floats c[] = {strip.c0(k_first), strip.c0(k_last), strip.c1(k_first), strip.c1(k_last)};
     const Floats low = least(c[0], c[1], c[2], c[3]), high = most(c[0], c[1], c[2], c[3]);
-    const FloatMask seen = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
+    FloatMask seen = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
+    if (plane.fronts_only) {
+        // Beyond the rounding of c.
+        const Floats most_steps = hn::Max(hn::Abs(k_first), hn::Abs(k_last));
+        const Floats size =
+            hn::Add(hn::Max(hn::Abs(x0), hn::Abs(x1)), hn::Mul(most_steps, hn::Max(hn::Abs(z0), hn::Abs(z1))));
+        const Floats back = hn::Mul(hn::Set(d, -1e-6f), size);
+        seen = hn::And(seen, hn::Or(hn::Ge(hn::Sub(c[2], c[0]), back), hn::Ge(hn::Sub(c[3], c[1]), back)));
+    }
     const Floats n_begin = hn::Max(n_first, hn::Floor(low)), n_end = hn::Min(n_last, hn::Floor(high));
 
     // Column n sees p in direction (x_p − n) / z_p. If both ends lie on one side of the hologram, the directions that
@@ -275,7 +287,7 @@ void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
 void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
     const auto n_first = static_cast<float>(plane.first_column);
     const Extent extent{n_first, n_first + static_cast<float>(plane.columns) - 1, plane.first_direction,
-                        plane.first_direction + static_cast<float>(plane.directions) - 1};
+                        plane.first_direction + static_cast<float>(plane.directions) - 1, plane.fronts_only};
     const LaneOrder order;
     Hits hits(plane);
     Candidates candidates(plane, strips, first, hits);
@@ -326,7 +338,6 @@ namespace hogel {
 HWY_EXPORT(Draw);
 
 void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
-    if (plane.fronts_only) return draw_plain(strips, first, plane);
     HWY_DYNAMIC_DISPATCH(Draw)(strips, first, plane);
 }
 

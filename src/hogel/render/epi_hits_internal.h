@@ -35,6 +35,10 @@ struct StripLanes {
 
     HWY_INLINE Floats c0(Floats K) const { return hn::Sub(x0, hn::Mul(K, z0)); }
     HWY_INLINE Floats c1(Floats K) const { return hn::Sub(x1, hn::Mul(K, z1)); }
+    // The same so that nothing lies between the two where the back is seen and fronts alone are wanted.
+    HWY_INLINE Floats c1(Floats K, Floats c0, bool fronts_only) const {
+        return fronts_only ? hn::Max(c0, c1(K)) : c1(K);
+    }
     static HWY_INLINE FloatMask covers(Floats n, Floats c0, Floats c1) { return hn::Xor(hn::Lt(c0, n), hn::Lt(c1, n)); }
     // Depth from column to column.
     HWY_INLINE Floats slope(Floats c0, Floats c1) const { return hn::Div(hn::Sub(z1, z0), hn::Sub(c1, c0)); }
@@ -149,7 +153,7 @@ class Candidates {
         for (std::size_t i = 0; i < count_; i += lanes) {
             const StripLanes strip = strip_a_lane(ends_[i]);
             const Floats n = hn::Load(d, n_ + i), k = hn::Load(d, k_ + i), K = hn::Add(k, k_first);
-            const Floats c0 = strip.c0(K), c1 = strip.c1(K);
+            const Floats c0 = strip.c0(K), c1 = strip.c1(K, c0, plane_.fronts_only);
             const FloatMask hit = hn::And(hn::Ge(k, hn::Zero(d)), StripLanes::covers(n, c0, c1));
             const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
             hits_.add(hit, strip.depth(n, c0, strip.slope(c0, c1)),

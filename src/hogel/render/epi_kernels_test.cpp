@@ -73,6 +73,7 @@ TEST_P(EveryTarget, vector_and_plain_drawings_are_the_same) {
         const std::size_t columns = places.between(1, 45), directions = places.between(1, 80);
         const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
         TestPlane fast(columns, directions, first), plain(columns, directions, first);
+        fast.plane.fronts_only = plain.plane.fronts_only = round % 3 == 0;
         draw(strips, 3, fast.plane);
         draw_plain(strips, 3, plain.plane);
         ASSERT_EQ(fast.words, plain.words) << round;  // what is to spare too
@@ -90,6 +91,7 @@ TEST_P(EveryTarget, what_is_drawn_over_what_is_known_is_the_same_as_drawn_at_onc
         const std::size_t columns = places.between(1, 60), directions = places.between(1, 120);
         const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
         TestPlane fast(columns, directions, first), plain(columns, directions, first);
+        fast.plane.fronts_only = plain.plane.fronts_only = round % 3 == 0;
         std::size_t number = 1;
         for (int layer = 0; layer < 8; ++layer) {
             std::vector<Strip> strips(places.between(0, 6));
@@ -109,6 +111,32 @@ TEST_P(EveryTarget, what_is_drawn_over_what_is_known_is_the_same_as_drawn_at_onc
         }
     }
     EXPECT_GT(hidden, 10000u);
+}
+
+// A strip whose ends change places turns its back to those who saw its front: each sees the one or the other.
+TEST(EpipolarKernels, front_and_back_share_out_what_a_strip_covers) {
+    Places places(8);
+    std::size_t fronts = 0, backs = 0;
+    for (int round = 0; round < 400; ++round) {
+        const Strip strip{places.x(), places.z(), places.x(), places.z()},
+            turned{strip.x1, strip.z1, strip.x0, strip.z0};
+        const auto drawn = [&](const Strip& of, bool fronts_only) {
+            TestPlane test(30, 40, -15);
+            test.plane.fronts_only = fronts_only;
+            draw_plain({&of, 1}, 1, test.plane);
+            return test.words;
+        };
+        const auto both = drawn(strip, false), front = drawn(strip, true), back = drawn(turned, true);
+        for (std::size_t i = 0; i < both.size(); ++i) {
+            const bool in_front = front[i] != EpipolarPlane::nothing, in_back = back[i] != EpipolarPlane::nothing;
+            ASSERT_EQ(both[i] != EpipolarPlane::nothing, in_front != in_back) << round;
+            ASSERT_FALSE(in_front && in_back);
+            fronts += in_front ? 1 : 0;
+            backs += in_back ? 1 : 0;
+        }
+    }
+    EXPECT_GT(fronts, 1000u);
+    EXPECT_GT(backs, 1000u);
 }
 
 TEST(EpipolarKernels, triangles_that_share_an_edge_are_cut_in_the_same_point) {
