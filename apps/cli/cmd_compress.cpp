@@ -17,6 +17,7 @@ struct Options {
     CompressionOptions compression;
     std::string hemicube = "faces";
     Counts tile;
+    bool no_depth = false;
 };
 
 const std::map<std::string, HemicubeLayout> layouts{{"faces", HemicubeLayout::faces},
@@ -38,12 +39,17 @@ int compress_file(Options options, const Session& session) {
         compression.method.transform = default_transform(compression.method.coder);
     compression.metadata = describe_run(session);
     compression.layout = layouts.at(options.hemicube);
-    if (faces.front()->has_depth()) session.say("hogel: the depth is left out");
+    compression.with_depth = faces.front()->has_depth() && !options.no_depth;
+    if (compression.depth_error > 0 && !compression.with_depth)
+        throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
     Stage stage(session, "compressing");
     const CompressionResult result = compress(faces, options.output, compression, stage.progress());
     session.say(fmt::format("{}: {}, {:.2f} dB, {:.4g} pixels per bit, coded {} {}", options.output,
                             format_bytes(static_cast<double>(result.bytes)), result.sqnr, result.pixels_per_bit,
                             result.passes, result.passes == 1 ? "time" : "times"));
+    if (compression.with_depth)
+        session.say(fmt::format("of which depth: {}, to within {:.3g} m",
+                                format_bytes(static_cast<double>(result.depth_bytes)), result.depth_error));
     return 0;
 }
 
@@ -100,6 +106,11 @@ void add_compress(CLI::App& app, Session& session) {
         ->type_name("faces|unfolded")
         ->check(CLI::IsMember(layouts).description(""))
         ->capture_default_str();
+    CLI::Option* no_depth = command->add_flag("--no-depth", options->no_depth, "Leave the depth of the rays out");
+    add_length(command, "--depth-error", options->compression.depth_error,
+               "The depth of every ray within this of what it was (default: a 1,000th of the range)")
+        ->default_str("")
+        ->excludes(no_depth);
     add_counts(command, "--tile", options->tile, "Hogels across and down that are coded together; 0: as suits")
         ->default_str("");
 }

@@ -24,7 +24,7 @@ void copy_together(const std::vector<std::unique_ptr<LightFieldSource>>& faces,
             for (std::size_t i = 0; i < faces.size(); ++i) {
                 const HogelRange range{s, t, std::min(size.ns, grid.hogels_s - s),
                                        std::min(size.nt, grid.hogels_t - t)};
-                LightFieldTile tile(faces[i]->grid(), range, false);
+                LightFieldTile tile(faces[i]->grid(), range, faces[i]->has_depth());
                 faces[i]->read(tile);
                 sinks[i]->write(tile);
             }
@@ -44,6 +44,7 @@ int decompress_file(const Options& options, const Session& session) {
     const bool exact = coder == "lossless" || coder == "bounded";
     file.type = options.single || (exact && !options.half) ? SampleType::single : SampleType::half;
     file.metadata = describe_run(session);
+    file.with_depth = faces.front()->has_depth();
     std::vector<LightFieldGrid> grids;
     for (const auto& face : faces) grids.push_back(face->grid());
     const auto sinks = create_light_field_faces(options.output, grids, file);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Decodes a compressed light field (.hgl) of the coders "hogel", "lossless" and "bounded" as docs/format.md says, slowly
 and plainly, and compares it with what `hogel decompress --float` made of it: every sample must be the same, to the last
-bit. Corners of an unfolded hemicube are nobody's.
+bit, and every depth, where there is depth. Corners of an unfolded hemicube are nobody's.
 
 usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5
 """
@@ -548,13 +548,13 @@ def exact(version, coder, data, shape, aspect, counts):
     return tile
 
 
-def main():
-    data = open(sys.argv[1], "rb").read()
+def check(data, file, beyond=None):
+    """A stream against a light field; with `beyond` against its depths, which from there on are infinite."""
     source = Bytes(data)
     assert data[:8] == b"\x89HGL\r\n\x1a\n"
     source.at = 8
     version, length = source.take("II")
-    assert version in (1, 2, 3, 4)
+    assert version in (1, 2, 3, 4, 5)
     channels, columns, rows, n_u, n_v = source.take("5Q")
     _, tan_u, tan_v, _, _ = source.take("5d")
     assert source.text() == "front"
@@ -584,6 +584,11 @@ def main():
             parts = [(u2, v2, tan_u * u2 / n_u, tan_v * v2 / n_v, places)]
     if version > 2:
         layers = source.take("I")
+    if version > 4:
+        depth_bytes, _, depth_beyond = source.take("Qdd")
+        if depth_bytes:
+            check(data[-depth_bytes:], file, depth_beyond)
+            data = data[:-depth_bytes]
     assert source.at == 16 + length
     assert source.take("I") == zlib.crc32(data[:16 + length])
     tiles = len(parts) * -(-rows // tile_t) * -(-columns // tile_s)
@@ -605,10 +610,12 @@ def main():
         codes[number % tiles] += code
     assert source.at == (len(data) if version > 2 else begin)
     codes = iter(codes)
-    file = h5py.File(sys.argv[2], "r")
     for u, v, tan_u, tan_v, faces in parts:
         aspect = f32((2 * tan_u / u) / (2 * tan_v / v))
-        expected = {name: file[name][:] for name, *_ in faces}
+        if beyond is None:
+            expected = {name: file[name][:] for name, *_ in faces}
+        else:
+            expected = {name: file[name.replace("radiance", "depth")][:][np.newaxis] for name, *_ in faces}
         for t0 in range(0, rows, tile_t):
             for s0 in range(0, columns, tile_s):
                 code = next(codes)
@@ -621,10 +628,12 @@ def main():
                     tile = joined(tile, (channels, down, across, v, u))
                 else:
                     tile = exact(version, coder, code, (channels, down, across, v, u), aspect, counts)
+                if beyond is not None:
+                    tile = np.where(tile < beyond, tile, f32(np.inf))
                 for name, u0, u1, v0, v1 in faces:
                     truth = expected[name][:, t0:t0 + down, s0:s0 + across]
                     assert np.array_equal(tile[..., v0:v1, u0:u1].view("u4"), truth.view("u4")), "samples differ"
-    print("the same")
 
 
-main()
+check(open(sys.argv[1], "rb").read(), h5py.File(sys.argv[2], "r"))
+print("the same")

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "hogel/codec/block_kernels_internal.h"
+#include "hogel/codec/depth_internal.h"
 #include "hogel/codec/exact_coder_internal.h"
 #include "hogel/codec/search_internal.h"
 #include "hogel/codec/stream_internal.h"
@@ -288,6 +289,26 @@ std::unique_ptr<TileCoder> coder_for(const StreamInfo& info, const LightFieldGri
     return make_tile_coder(info.method, part, counted(info));
 }
 
+// Writes the stream of the depths alone.
+StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+                                 const CompressionOptions& options) {
+    for (const LightFieldSource* face : faces)
+        if (!face->has_depth())
+            throw Error(ErrorCode::usage, "compression: depth was asked for, and the light field has none");
+    if (!(options.depth_error >= 0 && std::isfinite(options.depth_error)))
+        throw Error(ErrorCode::usage, fmt::format("an error of depth of {} m was asked for, expected a positive one",
+                                                  options.depth_error));
+    const DepthCoding coding = depth_coding(faces, options.depth_error);
+    std::vector<std::unique_ptr<LightFieldSource>> sources;
+    std::vector<const LightFieldSource*> depths;
+    for (const LightFieldSource* face : faces)
+        depths.push_back(sources.emplace_back(depth_as_radiance(*face, coding)).get());
+    CompressionOptions exact;
+    exact.target.max_error = coding.error;
+    exact.tile = options.tile;
+    return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
+}
+
 }  // namespace
 
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
@@ -322,7 +343,9 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
     info.layer_ends.resize(parts.front().coder->layers(info.tile));
-    StreamWriter writer(path, info);
+    std::optional<OutputFile> depth;
+    if (options.with_depth) info.depth = compress_depth(faces, depth.emplace(path).temporary(), options);
+    StreamWriter writer(path, info, depth ? depth->temporary() : std::filesystem::path());
     Compression compression(parts, info, writer, progress);
     const CompressionTarget& target = options.target;
     const std::vector<std::size_t> all = all_tiles(compression.tiles());
@@ -358,6 +381,8 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
         }
     }
     result.bytes = writer.size();
+    result.depth_bytes = info.depth.bytes;
+    result.depth_error = info.depth.error;
     writer.finish();
     result.sqnr = outcome.sqnr();
     result.pixels_per_bit = pixels / (8 * static_cast<double>(result.bytes));

@@ -25,13 +25,17 @@ struct CompressionOptions {
     std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
     Metadata metadata;
     HemicubeLayout layout = HemicubeLayout::faces;  ///< of several faces
+    bool with_depth = false;                        ///< whether the sources' depth is stored, too
+    double depth_error = 0;                         ///< of each at most, metres; 0: a 1,000th of the depths' range
 };
 
 struct CompressionResult {
     std::uint64_t bytes = 0;
     double sqnr = 0, pixels_per_bit = 0;
-    double step = 0;  ///< the one that was found
-    int passes = 0;   ///< how often the light field was read and coded, whole
+    double step = 0;                ///< the one that was found
+    int passes = 0;                 ///< how often the light field was read and coded, whole
+    std::uint64_t depth_bytes = 0;  ///< of `bytes`
+    double depth_error = 0;         ///< metres
 };
 
 /// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads; memory: some tiles a thread.
@@ -40,9 +44,9 @@ struct CompressionResult {
 ///   or the rate is met to within 2% (a file is never larger than asked for; exact where the coder is embedded).
 /// Within an error, or lossless, what is coded beside the prediction makes it so, and the step is the one among some
 /// that gives the smallest tiles; with the coder hogel alone. Where that cannot be (a light field of few samples), the
-/// file is the smallest that has the SQNR, or the best that has the rate. Depth is not stored. The file appears when it
-/// is complete. Throws Error(usage) for a target or method that makes no sense, Error(bad_input) for radiance that is
-/// not finite (within an error, or lossless: it may be), Error(cannot_write).
+/// file is the smallest that has the SQNR, or the best that has the rate. Depth is coded first, and counts as a part of
+/// the file. The file appears when it is complete. Throws Error(usage) for a target or method that makes no sense,
+/// Error(bad_input) for radiance that is not finite (within an error, or lossless: it may be), Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});
 

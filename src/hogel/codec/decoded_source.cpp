@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <algorithm>
-
+#include "hogel/codec/depth_internal.h"
 #include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/recent_results.h"
@@ -14,8 +13,9 @@ namespace {
 // A stream, and the tiles of it that were decoded last.
 class DecodedStream {
   public:
-    DecodedStream(const std::filesystem::path& path, const StreamOptions& options, bool coefficients)
-        : reader_(path),
+    DecodedStream(const std::filesystem::path& path, const StreamOptions& options, bool coefficients,
+                  StreamReader::Content content = StreamReader::Content::light_field)
+        : reader_(path, content),
           coders_(coders_of(reader_)),
           coefficients_(coefficients),
           layers_(layers_of(reader_, options.layers)),
@@ -150,22 +150,27 @@ class DecodedStream {
 // One face of a stream.
 class DecodedFace final : public LightFieldSource {
   public:
-    DecodedFace(std::shared_ptr<const DecodedStream> stream, std::size_t face)
-        : stream_(std::move(stream)), grid_(stream_->info().faces()[face]), part_(face) {
+    // @param depth   the same face of the stream of depths, or null
+    DecodedFace(std::shared_ptr<const DecodedStream> stream, std::size_t face,
+                std::unique_ptr<LightFieldSource> depth = {})
+        : stream_(std::move(stream)), depth_(std::move(depth)), grid_(stream_->info().faces()[face]), part_(face) {
         if (stream_->info().layout != HemicubeLayout::unfolded) return;
         part_ = 0;
         place_ = Unfolding(stream_->info().faces()).place(grid_.face);
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return depth_ != nullptr; }
     HogelRange preferred_tile() const override { return stream_->info().tile; }
     void read(LightFieldTile& tile) const override {
         validate(tile, grid_);
         stream_->read(part_, place_, tile);
+        if (depth_ && tile.depth.size() > 0) read_depth(*depth_, stream_->info().depth.beyond, tile);
     }
 
   private:
     std::shared_ptr<const DecodedStream> stream_;
+    std::unique_ptr<LightFieldSource> depth_;
     LightFieldGrid grid_;
     std::size_t part_;
     Unfolding::Place place_{0, 0};
@@ -180,9 +185,15 @@ std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path,
 std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::filesystem::path& path,
                                                                  const StreamOptions& options) {
     const auto stream = std::make_shared<const DecodedStream>(path, options, false);
+    const StreamInfo& info = stream->info();
+    std::shared_ptr<const DecodedStream> depth;
+    if (info.depth_there || (info.depth.bytes > 0 && options.layers == 0))
+        depth = std::make_shared<const DecodedStream>(path, StreamOptions{.memory = options.memory}, false,
+                                                      StreamReader::Content::its_depth);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
-    for (std::size_t face = 0; face <= stream->info().sides.size(); ++face)
-        faces.push_back(std::make_unique<DecodedFace>(stream, face));
+    for (std::size_t face = 0; face <= info.sides.size(); ++face)
+        faces.push_back(std::make_unique<DecodedFace>(
+            stream, face, depth ? std::make_unique<DecodedFace>(depth, face) : std::unique_ptr<DecodedFace>()));
     return faces;
 }
 

@@ -24,6 +24,16 @@ bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
     return room > 0;
 }
 
+// Whether two streams are of the same rays, whatever their channels.
+bool same_faces(const StreamInfo& a, const StreamInfo& b) {
+    const auto rays = [](const StreamInfo& info) {
+        std::vector<LightFieldGrid> faces = info.faces();
+        for (LightFieldGrid& face : faces) face.channels = 1;
+        return faces;
+    };
+    return rays(a) == rays(b);
+}
+
 }  // namespace
 
 std::vector<LightFieldGrid> StreamInfo::faces() const {
@@ -53,12 +63,14 @@ HogelRange Tiling::operator[](std::size_t tile) const {
     return {s0, t0, std::min(size_.ns, hogels_s_ - s0), std::min(size_.nt, hogels_t_ - t0)};
 }
 
-StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& info)
+StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& info, std::filesystem::path depth)
     : output_(path),
       spool_(path),
       spooled_(spool_.temporary(), RawFile::Mode::create, path),
       header_(header_of(info)),
-      layers_(info.layer_ends.size()) {
+      layers_(info.layer_ends.size()),
+      depth_(std::move(depth)),
+      depth_bytes_(info.depth.bytes) {
     for (const LightFieldGrid& part : coded_parts(info))
         if (!tile_fits(part, info.tile))
             throw Error(ErrorCode::usage,
@@ -84,7 +96,7 @@ void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const st
 }
 
 std::uint64_t StreamWriter::overhead(std::size_t tiles) const {
-    return header_.size() + tiles * layers_ * entry_bytes + checksum_bytes;
+    return header_.size() + tiles * layers_ * entry_bytes + checksum_bytes + depth_bytes_;
 }
 
 void StreamWriter::finish() {
@@ -102,22 +114,46 @@ void StreamWriter::finish() {
     file.write(header_.size(), index.bytes.data(), index.bytes.size());
     std::uint64_t at = header_.size() + index.bytes.size();
     Bytes bytes;
-    for (const StreamEntry& entry : entries) {
-        bytes.resize(entry.bytes);
-        spooled_.read(entry.offset, bytes.data(), bytes.size());
+    const auto copy = [&](const RawFile& from, std::uint64_t offset, std::uint64_t count) {
+        bytes.resize(count);
+        from.read(offset, bytes.data(), bytes.size());
         file.write(at, bytes.data(), bytes.size());
         at += bytes.size();
+    };
+    for (const StreamEntry& entry : entries) copy(spooled_, entry.offset, entry.bytes);
+    if (depth_bytes_ > 0) {
+        constexpr std::uint64_t most = std::uint64_t{1} << 24;
+        const RawFile depth(depth_, RawFile::Mode::read, depth_);
+        for (std::uint64_t done = 0; done < depth_bytes_; done += most)
+            copy(depth, done, std::min(most, depth_bytes_ - done));
     }
     file.close();
     output_.commit();
 }
 
-StreamReader::StreamReader(const std::filesystem::path& path)
-    : file_(path, RawFile::Mode::read, path), what_(fmt::format("cannot read '{}'", path.string())) {
-    const std::uint64_t size = file_.size();
+StreamReader::StreamReader(const std::filesystem::path& path, Content content)
+    : file_(path, RawFile::Mode::read, path),
+      what_(fmt::format("cannot read '{}'", path.string())),
+      end_(file_.size()) {
+    const std::uint64_t all = end_, index = read_header(0);
+    info_.version < 3 ? read_index_at_end(index) : read_index(index);
+    if (content == Content::light_field) return;
+    if (!info_.depth_there)
+        damaged(info_.depth.bytes > 0 ? "it is truncated: its depth is missing" : "it has no depth");
+    const StreamInfo outer = std::move(info_);
+    end_ = all;
+    index_.clear();
+    read_index(read_header(all - outer.depth.bytes));
+    if (info_.grid.channels != 1 || !same_faces(info_, outer) || info_.depth.bytes > 0 || info_.version < 5)
+        damaged("what stands behind it is not its depth");
+}
+
+// Returns where it ends.
+std::uint64_t StreamReader::read_header(std::uint64_t at) {
+    const std::uint64_t size = end_ - at;
     if (size < prefix + 4) damaged("it is too short for a compressed light field");
     Bytes header(prefix);
-    file_.read(0, header.data(), prefix);
+    file_.read(at, header.data(), prefix);
     if (!std::equal(stream_magic.begin(), stream_magic.end(), header.begin()))
         damaged("it is not a compressed light field");
     ByteReader begin(std::span<const std::uint8_t>(header).subspan(stream_magic.size()), what_);
@@ -127,7 +163,7 @@ StreamReader::StreamReader(const std::filesystem::path& path)
     const auto length = begin.take<std::uint32_t>();
     if (length > most_header || length + prefix + 4 > size) damaged("its header is longer than the file");
     header.resize(prefix + length + 4);
-    file_.read(prefix, header.data() + prefix, length + 4);
+    file_.read(at + prefix, header.data() + prefix, length + 4);
     ByteReader end(std::span<const std::uint8_t>(header).last(4), what_);
     if (end.take<std::uint32_t>() != checksum(std::span(header).first(prefix + length)))
         damaged("its header is damaged");
@@ -143,11 +179,11 @@ StreamReader::StreamReader(const std::filesystem::path& path)
     for (const LightFieldGrid& part : parts_)
         if (!tile_fits(part, info_.tile)) damaged("its header has impossible tiles");
     tiling_.emplace(info_.grid, info_.tile);
-    version < 3 ? read_index_at_end(header.size()) : read_index(header.size());
+    return at + header.size();
 }
 
 void StreamReader::read_index(std::uint64_t header) {
-    const std::uint64_t size = file_.size(), most = size - header, layers = info_.layer_ends.size();
+    const std::uint64_t most = end_ - header, layers = info_.layer_ends.size();
     if (most < checksum_bytes || tiling_->count() > (most - checksum_bytes) / entry_bytes / parts_.size() / layers)
         damaged("it is truncated");
     Bytes index(tiles() * layers * entry_bytes + checksum_bytes);
@@ -161,18 +197,20 @@ void StreamReader::read_index(std::uint64_t header) {
             offset += bytes;
         }
         layer_end = offset;
-        if (offset <= size) ++info_.layers_there;
+        if (offset <= end_) ++info_.layers_there;
     }
     if (entries.take<std::uint32_t>() != checksum(std::span(index).first(index.size() - checksum_bytes)))
         damaged("its index is damaged");
     if (info_.layers_there == 0) damaged("it is truncated");
-    if (offset < size) damaged("it has bytes left over");
+    // Behind the last layer comes the depth, or nothing.
+    info_.depth_there = info_.depth.bytes > 0 && offset <= end_ && end_ - offset >= info_.depth.bytes;
+    if (offset < end_ && end_ - offset > info_.depth.bytes) damaged("it has bytes left over");
 }
 
 // Of versions 1 and 2.
 void StreamReader::read_index_at_end(std::uint64_t header) {
     constexpr std::size_t old_entry_bytes = 12, footer_bytes = 12;
-    const std::uint64_t size = file_.size(), most = size - header;
+    const std::uint64_t size = end_, most = size - header;
     if (most < footer_bytes || tiling_->count() > (most - footer_bytes) / old_entry_bytes / parts_.size())
         damaged("it is truncated");
     Bytes index(tiles() * old_entry_bytes + footer_bytes);

@@ -24,6 +24,13 @@ struct StreamInfo {
     /// have a single one.
     std::vector<std::uint64_t> layer_ends = {};
     std::size_t layers_there = 0;  ///< that the file has whole; fewer where it was cut off
+    /// Of the depths of all faces, which stand behind the layers as a stream of their own.
+    struct Depth {
+        std::uint64_t bytes = 0;  ///< 0: there are none
+        double error = 0;         ///< of each at most, metres
+        double beyond = 0;        ///< from there on what the stream holds is infinity, metres
+    } depth = {};
+    bool depth_there = false;  ///< whether the file has them whole
 
     /// `grid` and `sides`.
     std::vector<LightFieldGrid> faces() const;
@@ -39,14 +46,14 @@ StreamInfo read_stream_info(const std::filesystem::path& path);
 /// How a stream is opened.
 struct StreamOptions {
     std::size_t memory = std::size_t{1} << 29;  ///< bytes for decoded tiles
-    std::size_t layers = 0;  ///< how many to decode: fewer are coarser and need less of the file; 0: all
+    std::size_t layers = 0;  ///< how many to decode: fewer are coarser and need less of the file; 0: all, and depth
 };
 
 /// A compressed light field, decoded where it is read. Of the coder hogel as far as is needed for the hogels that are
 /// asked for, of others a whole tile. The tiles last decoded are kept, as many as `memory` bytes hold, at least one. Of
 /// a hemicube this opens the front. Throws Error(bad_input) for a file that is damaged, of another version, or cut off
 /// before the end of the last layer that is wanted; damage inside a tile shows when that tile is read. Throws
-/// Error(usage) for more layers than there are.
+/// Error(usage) for more layers than there are. Depth is there if it was compressed, too, and the file has it.
 std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, const StreamOptions& options = {});
 
 /// All faces, the front first. They share what is decoded.

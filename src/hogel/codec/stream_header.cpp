@@ -1,6 +1,7 @@
 #include "hogel/codec/stream_header_internal.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hogel {
 namespace {
@@ -71,6 +72,8 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     }
     put_sides(fields, info);
     fields.put(static_cast<std::uint32_t>(info.layer_ends.size()));
+    fields.put(info.depth.bytes);
+    for (const double number : {info.depth.error, info.depth.beyond}) fields.put(number);
     ByteWriter header;
     header.put(std::span(stream_magic));
     header.put(latest_version);
@@ -102,6 +105,11 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
     const auto layers = version > 2 ? reader.take<std::uint32_t>() : 1;
     if (layers == 0 || layers > most_layers) reader.damaged("its header has an impossible number of layers");
     info.layer_ends.resize(layers);
+    if (version > 4) {
+        info.depth.bytes = reader.take<std::uint64_t>();
+        for (double* number : {&info.depth.error, &info.depth.beyond}) *number = reader.take_double();
+        if (!std::isfinite(info.depth.beyond)) reader.damaged("its header has depths that are no numbers");
+    }
     return info;
 }
 

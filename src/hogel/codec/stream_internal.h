@@ -47,7 +47,8 @@ struct StreamEntry {
 // into the file, layer by layer.
 class StreamWriter {
   public:
-    StreamWriter(const std::filesystem::path& path, const StreamInfo& info);
+    // @param depth   the file of the stream that info.depth speaks of
+    StreamWriter(const std::filesystem::path& path, const StreamInfo& info, std::filesystem::path depth = {});
     // Forgets the tiles so far.
     void restart();
     // @param layers   where they end; the last of the stream's may be missing
@@ -63,6 +64,8 @@ class StreamWriter {
     RawFile spooled_;  // tile by tile
     std::vector<std::uint8_t> header_;
     std::size_t layers_;
+    std::filesystem::path depth_;
+    std::uint64_t depth_bytes_;
     std::uint64_t next_ = 0;
     std::vector<StreamEntry> entries_;  // the layers of each tile
 };
@@ -70,7 +73,8 @@ class StreamWriter {
 // Reads a stream's header and index, and tiles on demand. Errors name the file.
 class StreamReader {
   public:
-    explicit StreamReader(const std::filesystem::path& path);
+    enum class Content { light_field, its_depth };
+    explicit StreamReader(const std::filesystem::path& path, Content content = Content::light_field);
     const StreamInfo& info() const { return info_; }
     const Tiling& tiling() const { return *tiling_; }
     const std::vector<LightFieldGrid>& parts() const { return parts_; }
@@ -80,11 +84,13 @@ class StreamReader {
 
   private:
     std::uint64_t tiles() const { return tiling_->count() * parts_.size(); }
+    std::uint64_t read_header(std::uint64_t begin);
     void read_index(std::uint64_t header);
     void read_index_at_end(std::uint64_t header);
 
     RawFile file_;
     std::string what_;
+    std::uint64_t end_;  // of the stream in the file
     StreamInfo info_;
     std::optional<Tiling> tiling_;  // of each part
     std::vector<LightFieldGrid> parts_;

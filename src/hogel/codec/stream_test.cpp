@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <limits>
 
 #include "hogel/codec/bytes_internal.h"
 #include "hogel/codec/compress.h"
@@ -154,14 +156,15 @@ TEST(Stream, header_that_lies_is_refused) {
     compress(textured_planes(4, 3, 4, 4, 1), folder / "a.hgl", small_tiles("threepass", "ai13"));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
     const std::size_t length = good[12] | std::size_t{good[13]} << 8;
-    const auto forged = [&](std::size_t field, std::uint64_t value) {
+    const auto forged_at = [&](std::size_t at, std::uint64_t value) {
         std::vector<std::uint8_t> bytes = good;
-        for (std::size_t i = 0; i < 8; ++i) bytes[16 + 8 * field + i] = static_cast<std::uint8_t>(value >> (8 * i));
+        for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
         const std::uint32_t sum = checksum(std::span(std::as_const(bytes)).first(16 + length));
         for (std::size_t i = 0; i < 4; ++i) bytes[16 + length + i] = static_cast<std::uint8_t>(sum >> (8 * i));
         write_bytes(folder / "b.hgl", bytes);
         return outcome(folder / "b.hgl");
     };
+    const auto forged = [&](std::size_t field, std::uint64_t value) { return forged_at(16 + 8 * field, value); };
     EXPECT_EQ(forged(0, 1), std::nullopt);  // that is what it was
     for (std::size_t field = 0; field < 10; ++field)
         for (const std::uint64_t value : {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{1} << 40, ~std::uint64_t{0},
@@ -170,6 +173,10 @@ TEST(Stream, header_that_lies_is_refused) {
             EXPECT_TRUE(!code || code == ErrorCode::bad_input) << field;
         }
     EXPECT_EQ(forged(1, std::uint64_t{1} << 40), ErrorCode::bad_input);
+    // The bytes of depth behind it, and from where on depths are infinite.
+    for (const std::uint64_t value : {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{0}})
+        EXPECT_EQ(forged_at(16 + length - 24, value), ErrorCode::bad_input);
+    EXPECT_EQ(forged_at(16 + length - 8, std::uint64_t{0x7FF} << 52), ErrorCode::bad_input);
 }
 
 TEST(Stream, other_versions_and_other_files_are_named) {
@@ -187,6 +194,109 @@ TEST(Stream, other_versions_and_other_files_are_named) {
     write_bytes(folder / "c.hgl", {'P', 'N', 'G'});
     EXPECT_FALSE(is_stream(folder / "c.hgl"));
     EXPECT_EQ(outcome(folder / "c.hgl"), ErrorCode::bad_input);
+}
+
+// Two depths and nothing at all, at which no ray is like its neighbour.
+LightField with_depth(std::size_t hogels) {
+    const LightField textured = textured_planes(hogels, 3, 11, 9, 3);
+    LightField field(textured.grid(), true);
+    std::ranges::copy(textured.radiance.elements(), field.radiance.elements().begin());
+    std::size_t i = 0;
+    for (float& depth : field.depth.elements()) {
+        const float places[] = {std::numeric_limits<float>::infinity(), -2e-3f, 5e-3f};
+        depth = places[i * i / 7 % 3] + 1e-3f * float(i % 17);
+        ++i;
+    }
+    return field;
+}
+
+TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
+    const TestFolder folder;
+    const LightField field = with_depth(5);
+    CompressionOptions options;
+    options.target.sqnr = 25;
+    options.tile = HogelRange{0, 0, 3, 2};
+    options.with_depth = true;
+    for (const double error : {0.0, 1e-4, 1e-7}) {
+        options.depth_error = error;
+        const CompressionResult result = compress(field, folder / "d.hgl", options);
+        const double expected = error > 0 ? error : 1e-3 * (21e-3 + 2e-3);
+        EXPECT_NEAR(result.depth_error, expected, error > 0 ? 0 : 1e-5);
+        EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "d.hgl"));
+        LightField decoded(field.grid(), true);
+        copy(*open_stream(folder / "d.hgl"), decoded);
+        EXPECT_GE(sqnr_of(field, decoded), 25);
+        std::size_t finite = 0;
+        for (std::size_t i = 0; i < field.depth.size(); ++i) {
+            const float truth = field.depth.data()[i], found = decoded.depth.data()[i];
+            if (!std::isfinite(truth)) {
+                ASSERT_EQ(found, truth);
+                continue;
+            }
+            ++finite;
+            ASSERT_NEAR(found, truth, result.depth_error * (1 + 1e-6) + 1e-9);
+        }
+        EXPECT_GT(finite, field.depth.size() / 2);
+    }
+    // A part of it, and a light field in which nothing is to be seen.
+    LightFieldTile part(field.grid(), {1, 1, 3, 2}, true), same(field.grid(), {1, 1, 3, 2}, true);
+    open_stream(folder / "d.hgl")->read(part);
+    field.read(same);
+    for (std::size_t i = 0; i < part.depth.size(); ++i)
+        if (std::isfinite(same.depth.data()[i])) {
+            ASSERT_NEAR(part.depth.data()[i], same.depth.data()[i], 2e-7);
+        }
+    LightField empty(field.grid(), true);
+    std::ranges::fill(empty.depth.elements(), std::numeric_limits<float>::infinity());
+    compress(empty, folder / "e.hgl", options);
+    LightField decoded(field.grid(), true);
+    copy(*open_stream(folder / "e.hgl"), decoded);
+    for (const float depth : decoded.depth.elements()) ASSERT_EQ(depth, std::numeric_limits<float>::infinity());
+    EXPECT_THROW(compress(textured_planes(3, 3, 5, 5, 1), folder / "no.hgl", options), Error);
+    empty.depth(0, 0, 0, 0) = std::nanf("");
+    EXPECT_THROW(compress(empty, folder / "no.hgl", options), Error);
+    EXPECT_FALSE(std::filesystem::exists(folder / "no.hgl"));
+}
+
+// Damage in the stream of depths is noticed as any other; who asks for layers of the radiance alone needs none of it.
+TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
+    const TestFolder folder;
+    const LightField field = with_depth(2);
+    CompressionOptions options;
+    options.target.sqnr = 20;
+    options.with_depth = true;
+    options.depth_error = 1e-3;
+    const CompressionResult result = compress(field, folder / "good.hgl", options);
+    const std::vector<std::uint8_t> good = bytes_of_file(folder / "good.hgl");
+    const std::size_t depth_begins = good.size() - result.depth_bytes;
+    const std::size_t layers = read_stream_info(folder / "good.hgl").layer_ends.size();
+    const auto decodes = [&](const std::vector<std::uint8_t>& bytes, std::size_t wanted) {
+        write_bytes(folder / "bad.hgl", bytes);
+        try {
+            const auto source = open_stream(folder / "bad.hgl", {.layers = wanted});
+            LightFieldTile tile(field.grid(), {0, 0, 2, 3}, source->has_depth());
+            source->read(tile);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+            return false;
+        }
+        return true;
+    };
+    EXPECT_TRUE(decodes(good, 0));
+    for (std::size_t length = depth_begins; length < good.size(); ++length) {
+        const std::vector<std::uint8_t> cut(good.begin(), good.begin() + std::ptrdiff_t(length));
+        ASSERT_FALSE(decodes(cut, 0)) << length;
+        ASSERT_TRUE(decodes(cut, layers)) << length;
+        ASSERT_FALSE(open_stream(folder / "bad.hgl", {.layers = layers})->has_depth());
+    }
+    for (std::size_t at = 0; at < good.size(); ++at) {
+        std::vector<std::uint8_t> bad = good;
+        bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
+        ASSERT_FALSE(decodes(bad, 0)) << at;
+    }
+    std::vector<std::uint8_t> longer = good;
+    longer.push_back(0);
+    EXPECT_FALSE(decodes(longer, 0));
 }
 
 }  // namespace

@@ -101,11 +101,17 @@ void describe(const StreamInfo& info, FileSummary& summary) {
         summary.text.emplace_back("layers", fmt::format("{} of {}", info.layers_there, info.layer_ends.size()));
         summary.text.emplace_back("layers_end_at", fmt::format("{}", fmt::join(info.layer_ends, " ")));
     }
-    summary.numbers.insert(summary.numbers.end(),
-                           {{"format_version", static_cast<double>(info.version)},
-                            {"tile_s", static_cast<double>(info.tile.ns)},
-                            {"tile_t", static_cast<double>(info.tile.nt)},
-                            {"pixels_per_bit", pixels / (8 * static_cast<double>(info.layer_ends.back()))}});
+    if (info.version > 4)
+        summary.text.emplace_back("depth", info.depth.bytes == 0 ? "no" : info.depth_there ? "yes" : "cut off");
+    if (info.depth.bytes > 0)
+        summary.numbers.insert(summary.numbers.end(), {{"depth_bytes", static_cast<double>(info.depth.bytes)},
+                                                       {"depth_error_m", info.depth.error}});
+    summary.numbers.insert(
+        summary.numbers.end(),
+        {{"format_version", static_cast<double>(info.version)},
+         {"tile_s", static_cast<double>(info.tile.ns)},
+         {"tile_t", static_cast<double>(info.tile.nt)},
+         {"pixels_per_bit", pixels / (8 * static_cast<double>(info.layer_ends.back() + info.depth.bytes))}});
     summary.text.insert(summary.text.end(), info.metadata.begin(), info.metadata.end());
 }
 
