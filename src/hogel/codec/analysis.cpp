@@ -103,7 +103,7 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
                     const Shift shift = shift_of(disparity, axis[n].place, setup.aspect);
                     if (whole_directions) {
                         const PlaneWindow window(plane, x + ((shift.u + 32) >> 6), y + ((shift.v + 32) >> 6),
-                                                 block_side);
+                                                 block_side, block_side);
                         errors[n] = squared_difference(window.rows(), window.stride(), block);
                     } else {
                         BlockSamples other;

@@ -93,7 +93,7 @@ void BlockSearch::follow_slopes(int likeliest) {
     if (!slopes_known_) {
         const auto reach = static_cast<std::ptrdiff_t>(slope_reach);
         const PlaneWindow window(source_, static_cast<std::ptrdiff_t>(x_) - reach,
-                                 static_cast<std::ptrdiff_t>(y_) - reach, slope_window_side);
+                                 static_cast<std::ptrdiff_t>(y_) - reach, slope_window_side, slope_window_side);
         slopes_of_block(window.rows(), window.stride(), slopes_);
         slopes_known_ = true;
     }

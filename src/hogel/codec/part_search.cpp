@@ -30,14 +30,14 @@ void PartSearch::see(std::size_t x, std::size_t y, const BlockSamples& wanted, i
     for (std::uint8_t side = 0; side < ReferenceWeights::sides; ++side) {
         const auto& choice = weights_.choose(disparity, static_cast<ReferenceWeights::Side>(side));
         if (choice.count == 0) continue;
-        BlockSamples errors = fetch(choice, 0);
-        if (choice.count == 2) mix_blocks(errors, fetch(choice, 1), choice.weight[0], choice.weight[1], errors);
-        for (std::size_t n = 0; n < block_samples; ++n) {
-            const float error = errors[n] - wanted[n];
-            errors[n] = error * error;
+        const BlockSamples* prediction = &fetch(choice, 0);
+        BlockSamples mixed;
+        if (choice.count == 2) {
+            mix_blocks(*prediction, fetch(choice, 1), choice.weight[0], choice.weight[1], mixed);
+            prediction = &mixed;
         }
         const float cost = bit_ * (bits + (side == 0 ? best_of_all_sides : one_side));
-        take_better(errors, cost, static_cast<float>(ways_.size()), lines_of_samples(), main_, beyond_);
+        take_better(*prediction, wanted, cost, static_cast<float>(ways_.size()), lines_in_rows(), main_, beyond_);
         ways_.push_back({static_cast<std::int16_t>(disparity), side});
     }
 }

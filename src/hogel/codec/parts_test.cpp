@@ -24,7 +24,9 @@ TEST(Parts, main_part_holds_the_middle) {
                 EXPECT_NE(beyond, nearer);
             }
             for (std::size_t n = 0; n < block_samples; ++n)
-                EXPECT_EQ(lines_of_samples()[n][line], float(beyond >> n & 1));
+                EXPECT_EQ(
+                    sample_in_cut(n % block_side, static_cast<std::size_t>(lines_in_rows()[n / block_side][line])),
+                    (beyond >> n & 1) != 0);
         }
     }
     // The last column; the last three rows.
