@@ -20,7 +20,7 @@ constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
 // further.
 constexpr float well_estimated = 1;
 // Bits that parts take, and how many more there have to be before they are looked for.
-constexpr float in_parts = 14, least_gain_by_parts = 8;
+constexpr float in_parts = 14, least_gain_by_parts = 16;
 constexpr std::int32_t most_level = 1 << 24;
 
 BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {

@@ -62,6 +62,12 @@ void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight
     for (std::size_t k = 0; k < block_samples; ++k) out[k] = weight_a * a[k] + weight_b * b[k];
 }
 
+float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                            const BlockSamples& wanted, BlockSamples& out) {
+    mix_blocks_plain(a, b, weight_a, weight_b, out);
+    return squared_difference_plain(out.data(), block_side, wanted);
+}
+
 float squared_difference_plain(const float* a, std::size_t stride, const BlockSamples& b) {
     return sum_in_columns([&](std::size_t k) {
         const float difference = a[k / block_side * stride + k % block_side] - b[k];

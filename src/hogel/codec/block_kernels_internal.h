@@ -27,6 +27,12 @@ void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* 
 void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
 void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
 
+// The same into `out`, which is neither. Returns Σ (out − wanted)².
+float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                      const BlockSamples& wanted, BlockSamples& out);
+float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                            const BlockSamples& wanted, BlockSamples& out);
+
 // Σ (a − b)², of a block in rows `stride` samples apart.
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b);
 float squared_difference_plain(const float* a, std::size_t stride, const BlockSamples& b);

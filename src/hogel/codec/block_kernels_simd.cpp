@@ -107,6 +107,17 @@ HWY_INLINE float SumInColumns(Term&& term) {
     return sum[0];
 }
 
+float MixAndCompare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                    const BlockSamples& wanted, BlockSamples& out) {
+    return SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
+        const auto mixed = hn::Add(hn::Mul(hn::Set(d, weight_a), hn::LoadU(d, &a[k])),
+                                   hn::Mul(hn::Set(d, weight_b), hn::LoadU(d, &b[k])));
+        hn::StoreU(mixed, d, &out[k]);
+        const auto difference = hn::Sub(mixed, hn::LoadU(d, &wanted[k]));
+        return hn::Mul(difference, difference);
+    });
+}
+
 float SquaredDifference(const float* a, std::size_t stride, const BlockSamples& b) {
     return SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
         const float* at = a + k / block_side * stride + k % block_side;
@@ -289,6 +300,7 @@ namespace hogel {
 
 HWY_EXPORT(InterpolateBlock);
 HWY_EXPORT(MixBlocks);
+HWY_EXPORT(MixAndCompare);
 HWY_EXPORT(SquaredDifference);
 HWY_EXPORT(TakeBetter);
 HWY_EXPORT(SquaredDifferenceOfRows);
@@ -305,6 +317,11 @@ void interpolate_block(const float* rows, std::size_t stride, const Taps* along_
 
 void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
     HWY_DYNAMIC_DISPATCH(MixBlocks)(a, b, weight_a, weight_b, out);
+}
+
+float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                      const BlockSamples& wanted, BlockSamples& out) {
+    return HWY_DYNAMIC_DISPATCH(MixAndCompare)(a, b, weight_a, weight_b, wanted, out);
 }
 
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b) {

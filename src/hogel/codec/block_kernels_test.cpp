@@ -44,6 +44,9 @@ TEST(BlockKernels, vectors_give_the_same_bits) {
         mix_blocks(a, b, u[0], u[1], fast);
         mix_blocks_plain(a, b, u[0], u[1], plain);
         EXPECT_EQ(fast, plain);
+        EXPECT_EQ(mix_and_compare(a, matrix, u[2], u[3], b, fast),
+                  mix_and_compare_plain(a, matrix, u[2], u[3], b, plain));
+        EXPECT_EQ(fast, plain);
         Slopes slopes, plain_slopes;
         slopes_of_block(rows.data() + 1, stride, slopes);
         slopes_of_block_plain(rows.data() + 1, stride, plain_slopes);

@@ -41,8 +41,9 @@ BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel,
     least_error_ = least_error * step * step;
 }
 
-bool BlockSearch::take_if_better(const BlockSamples& prediction, float bits, int side, int disparity) {
-    const float error = squared_difference(prediction, *wanted_), cost = error + worth_ * bits;
+// Whether a prediction, whose error this is, is the best so far; then it is noted.
+bool BlockSearch::take_if_better(const BlockSamples& prediction, float error, float bits, int side, int disparity) {
+    const float cost = error + worth_ * bits;
     if (!(cost < best_.cost)) return false;
     best_ = {cost, error, static_cast<std::uint8_t>(1 + side), static_cast<std::int16_t>(disparity), &prediction};
     return true;
@@ -53,10 +54,15 @@ void BlockSearch::try_any_side(int disparity, float bits) {
     const auto& choice = weights_.choose(disparity, ReferenceWeights::Side::any);
     if (choice.count == 0) return;
     BlockSamples& spare = kept_[best_.prediction == &kept_[0] ? 1 : 0];
-    const BlockSamples& prediction = seen_.predict(disparity, choice, spare);
-    if (!take_if_better(prediction, bits + best_of_all_sides, 0, disparity)) return;
-    if (&prediction != &spare) spare = prediction;
-    best_.prediction = &spare;
+    const BlockSamples& first = seen_.by(disparity, choice.reference[0], choice.shift[0]);
+    if (choice.count == 2) {
+        const BlockSamples& second = seen_.by(disparity, choice.reference[1], choice.shift[1]);
+        const float error = mix_and_compare(first, second, choice.weight[0], choice.weight[1], *wanted_, spare);
+        take_if_better(spare, error, bits + best_of_all_sides, 0, disparity);
+    } else {
+        const float error = squared_difference(first, *wanted_);
+        if (take_if_better(spare, error, bits + best_of_all_sides, 0, disparity)) spare = first;
+    }
 }
 
 void BlockSearch::try_single_sides(int disparity, float bits) {
@@ -66,9 +72,9 @@ void BlockSearch::try_single_sides(int disparity, float bits) {
         const auto& choice = weights_.choose(disparity, static_cast<ReferenceWeights::Side>(side));
         if (choice.count == 0) continue;
         const BlockSamples& view = seen_.by(disparity, choice.reference[0], choice.shift[0]);
-        if (!take_if_better(view, bits + one_side, side, disparity)) continue;
+        const float error = squared_difference(view, *wanted_);
+        if (!take_if_better(kept_[0], error, bits + one_side, side, disparity)) continue;
         kept_[0] = view;
-        best_.prediction = &kept_[0];
     }
 }
 

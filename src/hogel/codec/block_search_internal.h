@@ -41,7 +41,7 @@ class BlockSearch {
 
   private:
     bool may_win(float bits) const { return least_error_ + worth_ * bits < best_.cost; }
-    bool take_if_better(const BlockSamples& prediction, float bits, int side, int disparity);
+    bool take_if_better(const BlockSamples& prediction, float error, float bits, int side, int disparity);
     void try_any_side(int disparity, float bits);
     void try_single_sides(int disparity, float bits);
     void follow_slopes();

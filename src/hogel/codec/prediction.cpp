@@ -84,6 +84,9 @@ void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& bl
     };
     const Axis u = along(x, shift.u), v = along(y, shift.v);
     const PlaneWindow window(plane, u.first, v.first, u.count, v.count);
+    // Whoever looks here soon looks at blocks farther to the right.
+    constexpr std::size_t ahead = 4 * block_side;
+    for (std::size_t r = 0; r < v.count; ++r) __builtin_prefetch(window.rows() + r * window.stride() + ahead);
     interpolate_block(window.rows(), window.stride(), u.weights, v.weights, block);
 }
 
