@@ -167,15 +167,15 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
 // The number of references that does best on two windows of directions. It does not change with every small change of
 // the step, so that a search for a step sees a function without jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
-    const double octave = std::exp2(std::round(std::log2(step)));
+    const double near = std::exp2(std::round(2 * std::log2(step)) / 2);
     constexpr std::size_t windows = 2, ways = references_a_side.size();
     std::array<double, windows * ways> costs{};
     parallel_for(costs.size(), [&](std::size_t n) {
         const Window window = window_of(tile, grid, 1 + n / ways * 2);
-        const auto coded = TileEncoder(window.tile, window.grid, {}, static_cast<float>(octave),
+        const auto coded = TileEncoder(window.tile, window.grid, {}, static_cast<float>(near),
                                        references_a_side[n % ways], Effort::glance)
                                .run();
-        costs[n] = coded.squared_error + bit_worth * octave * octave * 8 * static_cast<double>(coded.bytes.size());
+        costs[n] = coded.squared_error + bit_worth * near * near * 8 * static_cast<double>(coded.bytes.size());
     });
     std::array<double, ways> cost{};
     for (std::size_t n = 0; n < costs.size(); ++n) cost[n % ways] += costs[n];
