@@ -158,7 +158,7 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
 
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
                    const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
-                   const std::vector<std::int16_t>& estimated, Effort effort, std::vector<Picture>& pictures) {
+                   const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures) {
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
@@ -166,7 +166,7 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     ReferenceWeights weights(place, setup.noise, setup.aspect);
     SeenBlocks seen(place, pictures);
     PartSearch parts(seen, weights);
-    BlockSearch search(setup, place, source[0], seen, weights, {estimated, moved, beside}, effort);
+    BlockSearch search(setup, place, source[0], seen, weights, {estimated, moved, beside});
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
     BlockSamples prediction;
@@ -207,7 +207,7 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
             channel.prediction = *best.prediction;
             quantise(wanted, best.error, step, rounding_across, channel);
         }
-        if (!first && effort == Effort::full) {
+        if (!first) {
             const auto bits_of_parts = [](const Block& of) { return of.mode == parted ? in_parts : 0; };
             // `other` shows the block otherwise; what is worth more is taken.
             const auto offer = [&](const Block& otherwise, float error) {

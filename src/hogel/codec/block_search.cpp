@@ -24,14 +24,13 @@ constexpr int farthest_look = 4;  // in units of disparity
 }  // namespace
 
 BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source, SeenBlocks& seen,
-                         ReferenceWeights& weights, const Known& known, Effort effort)
+                         ReferenceWeights& weights, const Known& known)
     : setup_(setup),
       hogel_(hogel),
       source_(source),
       seen_(seen),
       weights_(weights),
       known_(known),
-      effort_(effort),
       unit_(disparity_unit(hogel)) {
     const float step = setup.step[static_cast<std::size_t>(hogel.level)];
     const bool last = hogel.level + 1 == setup.order.levels();
@@ -181,7 +180,7 @@ const BlockSearch::Found& BlockSearch::run(std::size_t k, const BlockSamples& wa
         if (best_.disparity == before) break;
         try_single_sides(best_.disparity, new_disparity);
     }
-    if (effort_ == Effort::full) try_nearby(k, candidates);
+    try_nearby(k, candidates);
     return best_;
 }
 

@@ -19,7 +19,7 @@ class BlockSearch {
     };
     // @param seen   of the block that is searched for
     BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source, SeenBlocks& seen,
-                ReferenceWeights& weights, const Known& known, Effort effort);
+                ReferenceWeights& weights, const Known& known);
     BlockSearch(const BlockSearch&) = delete;
     BlockSearch& operator=(const BlockSearch&) = delete;
 
@@ -55,7 +55,6 @@ class BlockSearch {
     SeenBlocks& seen_;
     ReferenceWeights& weights_;
     Known known_;
-    Effort effort_;
     float worth_, good_enough_, worth_looking_, least_error_;
     int unit_;
 

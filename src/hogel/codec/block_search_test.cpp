@@ -32,7 +32,7 @@ struct Views {
         const Plane source = pictures.back()[0];
         SeenBlocks seen(hogel, pictures);
         ReferenceWeights weights(hogel, setup.noise, setup.aspect);
-        BlockSearch blocks(setup, hogel, source, seen, weights, known, known.beside ? Effort::full : Effort::glance);
+        BlockSearch blocks(setup, hogel, source, seen, weights, known);
         BlockSamples wanted;
         for (std::size_t k = 0; k < block_samples; ++k)
             wanted[k] = source.samples[(8 + k / block_side) * source.width + 8 + k % block_side];
