@@ -20,7 +20,7 @@ constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
 // further.
 constexpr float well_estimated = 1;
 // Bits that parts take, and how many more there have to be before they are looked for.
-constexpr float in_parts = 14, least_gain_by_parts = 8;
+constexpr float in_parts = 14, least_gain_by_parts = 16;
 constexpr std::int32_t most_level = 1 << 24;
 
 BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
@@ -103,7 +103,7 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
                     const Shift shift = shift_of(disparity, axis[n].place, setup.aspect);
                     if (whole_directions) {
                         const PlaneWindow window(plane, x + ((shift.u + 32) >> 6), y + ((shift.v + 32) >> 6),
-                                                 block_side);
+                                                 block_side, block_side);
                         errors[n] = squared_difference(window.rows(), window.stride(), block);
                     } else {
                         BlockSamples other;
@@ -158,17 +158,19 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
 
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
                    const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
-                   const std::vector<std::int16_t>& estimated, Effort effort, std::vector<Picture>& pictures) {
+                   const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures) {
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
     Picture picture = setup.blank();
     ReferenceWeights weights(place, setup.noise, setup.aspect);
-    PartSearch parts(place, pictures, weights);
-    BlockSearch search(setup, place, source[0], pictures, estimated, effort);
+    SeenBlocks seen(place, pictures);
+    PartSearch parts(seen, weights);
+    BlockSearch search(setup, place, source[0], seen, weights, {estimated, moved, beside});
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
     BlockSamples prediction;
+    CodedChannel channel, other;
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
         const Candidates candidates = candidates_for(k, setup.grid, coded.blocks, moved[k], beside);
@@ -190,8 +192,7 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
             }
             if (block.mode == 0) block.disparity = first && !estimated.empty() ? estimated[k] : candidates.disparity[0];
         }
-        CodedChannel channel;
-        const auto code_channel = [&](const Block& as, std::size_t c) {
+        const auto code_as = [&](const Block& as, std::size_t c) {
             if (as.mode == 0)
                 predict_within(picture[c], x, y, as.within, channel.prediction);
             else
@@ -201,22 +202,42 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
                      as.mode == 0 ? rounding_within : rounding_across, channel);
         };
         if (block.mode == 0) {
-            code_channel(block, 0);
+            code_as(block, 0);
         } else {
             channel.prediction = *best.prediction;
             quantise(wanted, best.error, step, rounding_across, channel);
         }
-        if (!first && effort == Effort::full && channel.cost > worth * (in_parts + least_gain_by_parts)) {
-            const auto in_two = parts.run(x, y, wanted, candidates, best.disparity, worth);
-            const CodedChannel whole = channel;
-            if (in_two) code_channel(*in_two, 0);
-            if (in_two && channel.cost + worth * in_parts < whole.cost)
-                block = *in_two;
-            else
-                channel = whole;
+        if (!first) {
+            const auto bits_of_parts = [](const Block& of) { return of.mode == parted ? in_parts : 0; };
+            // `other` shows the block otherwise; what is worth more is taken.
+            const auto offer = [&](const Block& otherwise, float error) {
+                quantise(wanted, error, step, rounding_across, other);
+                if (!(other.cost + worth * bits_of_parts(otherwise) < channel.cost + worth * bits_of_parts(block)))
+                    return;
+                block = otherwise;
+                std::swap(channel, other);
+            };
+            const auto offer_parts = [&] {
+                parts.add(best.disparity);
+                if (const auto in_two = parts.best(other.prediction))
+                    offer(*in_two, squared_difference(other.prediction, wanted));
+            };
+            const float worth_parts = worth * (in_parts + least_gain_by_parts);
+            if (channel.cost > worth_parts) {
+                parts.begin(wanted, candidates, worth);
+                offer_parts();
+            }
+            if (channel.cost > search.worth_looking() && block.mode != 0 && search.look_around()) {
+                Block whole;
+                whole.mode = best.mode;
+                whole.disparity = best.disparity;
+                other.prediction = *best.prediction;
+                offer(whole, best.error);
+                if (channel.cost > worth_parts) offer_parts();
+            }
         }
         for (std::size_t c = 0; c < setup.grid.channels; ++c) {
-            if (c > 0) code_channel(block, c);
+            if (c > 0) code_as(block, c);
             if (channel.any_levels) {
                 block.coded = static_cast<std::uint8_t>(block.coded | 1 << c);
                 coded.levels.push_back(channel.levels);

@@ -14,15 +14,9 @@ constexpr float bit_worth = 0.18f;
 std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const LightFieldTile& tile,
                                                const HogelOrder::Hogel& hogel);
 
-// How much there is to be looked for.
-enum class Effort {
-    glance,  // likely disparities and what their slopes lead to, from all sides: enough to compare codes by
-    full,
-};
-
 // Decides on all blocks of a hogel and makes its picture as a decoder will have it. `estimated` may be empty.
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
                    const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
-                   const std::vector<std::int16_t>& estimated, Effort effort, std::vector<Picture>& pictures);
+                   const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures);
 
 }  // namespace hogel

@@ -32,12 +32,13 @@ double sum_of_squares_in_eight(std::size_t count, Value&& value) {
 void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
                              BlockSamples& block) {
     float across[window_side * block_side];
-    for (std::size_t r = 0; r < window_side; ++r) {
+    const std::size_t count = along_v ? window_side : block_side;
+    for (std::size_t r = 0; r < count; ++r) {
         const float* in = rows + r * stride;
         float* out = across + r * block_side;
         for (std::size_t c = 0; c < block_side; ++c) {
             if (!along_u) {
-                out[c] = in[taps_before + c];
+                out[c] = in[c];
                 continue;
             }
             float sum = (*along_u)[0] * in[c];
@@ -49,7 +50,7 @@ void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* 
         for (std::size_t c = 0; c < block_side; ++c) {
             float& out = block[r * block_side + c];
             if (!along_v) {
-                out = across[(r + taps_before) * block_side + c];
+                out = across[r * block_side + c];
                 continue;
             }
             out = (*along_v)[0] * across[r * block_side + c];
@@ -59,6 +60,12 @@ void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* 
 
 void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
     for (std::size_t k = 0; k < block_samples; ++k) out[k] = weight_a * a[k] + weight_b * b[k];
+}
+
+float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                            const BlockSamples& wanted, BlockSamples& out) {
+    mix_blocks_plain(a, b, weight_a, weight_b, out);
+    return squared_difference_plain(out.data(), block_side, wanted);
 }
 
 float squared_difference_plain(const float* a, std::size_t stride, const BlockSamples& b) {
@@ -101,18 +108,27 @@ void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes
         }
 }
 
-void take_better_plain(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines,
-                       BestOfLines& main, BestOfLines& beyond) {
-    const float all = more + sum_in_columns([&](std::size_t k) { return errors[k]; });
+void take_better_plain(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
+                       const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond) {
+    std::array<std::array<float, row_cuts>, block_side> sums{};
+    for (std::size_t n = 0; n < block_samples; ++n) {
+        const float difference = prediction[n] - wanted[n], error = difference * difference;
+        for (std::size_t cut = 0; cut < row_cuts; ++cut)
+            if (sample_in_cut(n % block_side, cut)) sums[n / block_side][cut] += error;
+    }
+    float all = sums[0][block_side];
+    for (std::size_t r = 1; r < block_side; ++r) all += sums[r][block_side];
     for (std::size_t line = 0; line < block_lines; ++line) {
-        float sum = 0;
-        for (std::size_t n = 0; n < block_samples; ++n) sum += errors[n] * lines[n][line];
-        if (all - sum < main.cost[line]) {
-            main.cost[line] = all - sum;
+        const auto in_row = [&](std::size_t r) { return sums[r][static_cast<std::size_t>(lines[r][line])]; };
+        float sum = in_row(0);
+        for (std::size_t r = 1; r < block_side; ++r) sum += in_row(r);
+        const float of_main = all - sum + more, of_beyond = sum + more;
+        if (of_main < main.cost[line]) {
+            main.cost[line] = of_main;
             main.way[line] = way;
         }
-        if (more + sum < beyond.cost[line]) {
-            beyond.cost[line] = more + sum;
+        if (of_beyond < beyond.cost[line]) {
+            beyond.cost[line] = of_beyond;
             beyond.way[line] = way;
         }
     }

@@ -16,8 +16,8 @@ using BlockSamples = std::array<float, block_samples>;
 constexpr std::size_t taps = 6, taps_before = taps / 2 - 1, window_side = block_side + taps - 1;
 using Taps = std::array<float, taps>;
 
-// A block from a window of window_side rows, the next one `stride` samples on; interpolated along u, along v, or where
-// the weights are null not at all.
+// A block from a window of rows `stride` samples apart, with window_side samples along each axis with weights;
+// interpolated along u, along v, or where the weights are null not at all.
 void interpolate_block(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
                        BlockSamples& block);
 void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
@@ -26,6 +26,12 @@ void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* 
 // weight_a a + weight_b b; `out` may be a or b.
 void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
 void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
+
+// The same into `out`, which is neither. Returns Σ (out − wanted)².
+float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                      const BlockSamples& wanted, BlockSamples& out);
+float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                            const BlockSamples& wanted, BlockSamples& out);
 
 // Σ (a − b)², of a block in rows `stride` samples apart.
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b);
@@ -67,17 +73,23 @@ void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes
 // For each line that may cut a block, what is the best found so far for the samples on one side of it.
 constexpr std::size_t block_lines = 128;
 using OfLines = std::array<float, block_lines>;
-using LinesOfSamples = std::array<OfLines, block_samples>;  // 1 where a sample lies beyond a line, else 0
 struct BestOfLines {
     OfLines cost, way;
     friend bool operator==(const BestOfLines&, const BestOfLines&) = default;
 };
-// Takes `way` where its errors, summed over the samples beyond a line or over the others, and `more` are less than what
-// is there.
-void take_better(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
-                 BestOfLines& beyond);
-void take_better_plain(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines,
-                       BestOfLines& main, BestOfLines& beyond);
+// Which samples of a row lie beyond a line, [row][line]: for n < block_side the first n of them, else all from
+// n − block_side on.
+constexpr std::size_t row_cuts = 2 * block_side;
+constexpr bool sample_in_cut(std::size_t column, std::size_t cut) {
+    return cut < block_side ? column < cut : column >= cut - block_side;
+}
+using LinesInRows = std::array<std::array<std::int32_t, block_lines>, block_side>;
+// Takes `way` where the squared differences of its prediction, summed over the samples beyond a line or over the
+// others, and `more` are less than what is there.
+void take_better(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
+                 const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond);
+void take_better_plain(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
+                       const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond);
 
 // matrix · in · matrixᵀ; the transposed matrix is given too.
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,

@@ -16,19 +16,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Row = hn::CappedTag<float, block_side>;       // a row of a block, or an even part of one
 using Rows = hn::CappedTag<float, 2 * block_side>;  // or two of them, one after the other
 
-// Rows of a block, from those of a window at their place along u.
-HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t count, const Taps* weights, float* out) {
+// Rows of a block, or of a window for it, from those of a window.
+HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t count, const Taps& weights, float* out) {
     const Row d;
+    const auto w0 = hn::Set(d, weights[0]), w1 = hn::Set(d, weights[1]), w2 = hn::Set(d, weights[2]);
+    const auto w3 = hn::Set(d, weights[3]), w4 = hn::Set(d, weights[4]), w5 = hn::Set(d, weights[5]);
     for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
         const float* in = rows + c;
         float* to = out + c;
-        if (!weights) {
-            for (std::size_t r = 0; r < count; ++r, in += stride, to += block_side)
-                hn::StoreU(hn::LoadU(d, in + taps_before), d, to);
-            continue;
-        }
-        const auto w0 = hn::Set(d, (*weights)[0]), w1 = hn::Set(d, (*weights)[1]), w2 = hn::Set(d, (*weights)[2]);
-        const auto w3 = hn::Set(d, (*weights)[3]), w4 = hn::Set(d, (*weights)[4]), w5 = hn::Set(d, (*weights)[5]);
         for (std::size_t r = 0; r < count; ++r, in += stride, to += block_side) {
             auto sum = hn::Mul(w0, hn::LoadU(d, in));
             sum = hn::Add(sum, hn::Mul(w1, hn::LoadU(d, in + 1)));
@@ -41,17 +36,49 @@ HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t cou
     }
 }
 
+HWY_INLINE void AlongColumns(const float* rows, std::size_t stride, const Taps& weights, float* out) {
+    const Row d;
+    for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
+        // Rows that have been loaded serve for the next ones too.
+        const float* in = rows + c;
+        auto r0 = hn::LoadU(d, in), r1 = hn::LoadU(d, in + stride), r2 = hn::LoadU(d, in + 2 * stride);
+        auto r3 = hn::LoadU(d, in + 3 * stride), r4 = hn::LoadU(d, in + 4 * stride);
+        in += 5 * stride;
+        const auto w0 = hn::Set(d, weights[0]), w1 = hn::Set(d, weights[1]), w2 = hn::Set(d, weights[2]);
+        const auto w3 = hn::Set(d, weights[3]), w4 = hn::Set(d, weights[4]), w5 = hn::Set(d, weights[5]);
+        for (std::size_t r = 0; r < block_side; ++r, in += stride) {
+            const auto r5 = hn::LoadU(d, in);
+            auto sum = hn::Mul(w0, r0);
+            sum = hn::Add(sum, hn::Mul(w1, r1));
+            sum = hn::Add(sum, hn::Mul(w2, r2));
+            sum = hn::Add(sum, hn::Mul(w3, r3));
+            sum = hn::Add(sum, hn::Mul(w4, r4));
+            sum = hn::Add(sum, hn::Mul(w5, r5));
+            hn::StoreU(sum, d, out + r * block_side + c);
+            r0 = r1;
+            r1 = r2;
+            r2 = r3;
+            r3 = r4;
+            r4 = r5;
+        }
+    }
+}
+
 void InterpolateBlock(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
                       BlockSamples& block) {
-    if (!along_v) return AlongRows(rows + taps_before * stride, stride, block_side, along_u, block.data());
-    HWY_ALIGN float across[window_side * block_side];
-    AlongRows(rows, stride, window_side, along_u, across);
-    const Rows d;
-    for (std::size_t n = 0; n < block_samples; n += hn::Lanes(d)) {
-        auto sum = hn::Mul(hn::Set(d, (*along_v)[0]), hn::LoadU(d, across + n));
-        for (std::size_t k = 1; k < taps; ++k)
-            sum = hn::Add(sum, hn::Mul(hn::Set(d, (*along_v)[k]), hn::LoadU(d, across + n + k * block_side)));
-        hn::StoreU(sum, d, &block[n]);
+    if (!along_u && !along_v) {
+        const Row d;
+        for (std::size_t r = 0; r < block_side; ++r)
+            for (std::size_t c = 0; c < block_side; c += hn::Lanes(d))
+                hn::StoreU(hn::LoadU(d, rows + r * stride + c), d, &block[r * block_side + c]);
+    } else if (!along_v) {
+        AlongRows(rows, stride, block_side, *along_u, block.data());
+    } else if (!along_u) {
+        AlongColumns(rows, stride, *along_v, block.data());
+    } else {
+        HWY_ALIGN float across[window_side * block_side];
+        AlongRows(rows, stride, window_side, *along_u, across);
+        AlongColumns(across, block_side, *along_v, block.data());
     }
 }
 
@@ -78,6 +105,17 @@ HWY_INLINE float SumInColumns(Term&& term) {
     for (std::size_t half = block_side / 2; half > 0; half /= 2)
         for (std::size_t c = 0; c < half; ++c) sum[c] += sum[c + half];
     return sum[0];
+}
+
+float MixAndCompare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                    const BlockSamples& wanted, BlockSamples& out) {
+    return SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
+        const auto mixed = hn::Add(hn::Mul(hn::Set(d, weight_a), hn::LoadU(d, &a[k])),
+                                   hn::Mul(hn::Set(d, weight_b), hn::LoadU(d, &b[k])));
+        hn::StoreU(mixed, d, &out[k]);
+        const auto difference = hn::Sub(mixed, hn::LoadU(d, &wanted[k]));
+        return hn::Mul(difference, difference);
+    });
 }
 
 float SquaredDifference(const float* a, std::size_t stride, const BlockSamples& b) {
@@ -169,35 +207,65 @@ void SlopesOfBlock(const float* rows, std::size_t stride, Slopes& slopes) {
         }
 }
 
-void TakeBetter(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
-                BestOfLines& beyond) {
-    const hn::CappedTag<float, block_lines / 4> d;
+// Which samples of a row each cut has, as ones and zeros: [column][cut].
+struct CutsOfRow {
+    HWY_ALIGN float of[block_side][row_cuts];
+    constexpr CutsOfRow() : of() {
+        for (std::size_t c = 0; c < block_side; ++c)
+            for (std::size_t cut = 0; cut < row_cuts; ++cut) of[c][cut] = sample_in_cut(c, cut) ? 1.0f : 0.0f;
+    }
+};
+constexpr CutsOfRow cuts;
+
+void TakeBetter(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
+                const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond) {
+    const hn::CappedTag<float, row_cuts> d;
+    const hn::RebindToSigned<decltype(d)> indices;
     const std::size_t lanes = hn::Lanes(d);
-    const float all = more + SumInColumns([&](auto row, std::size_t k) HWY_ATTR { return hn::LoadU(row, &errors[k]); });
+    HWY_ALIGN float errors[block_samples];
+    for (std::size_t k = 0; k < block_samples; k += lanes) {
+        const auto difference = hn::Sub(hn::LoadU(d, &prediction[k]), hn::LoadU(d, &wanted[k]));
+        hn::Store(hn::Mul(difference, difference), d, errors + k);
+    }
+    // What is beyond a line is looked up row by row in the sums of all cuts of the row. Products with 0 and 1 need no
+    // rounding, so that they may be added unrounded.
+    HWY_ALIGN float sums[block_side][row_cuts];
+    for (std::size_t cut = 0; cut < row_cuts; cut += lanes)
+        for (std::size_t r = 0; r < block_side; ++r) {
+            auto sum = hn::Zero(d);
+            for (std::size_t c = 0; c < block_side; ++c)
+                sum = hn::MulAdd(hn::Set(d, errors[r * block_side + c]), hn::Load(d, cuts.of[c] + cut), sum);
+            hn::Store(sum, d, sums[r] + cut);
+        }
+    float all = sums[0][block_side];
+    for (std::size_t r = 1; r < block_side; ++r) all += sums[r][block_side];
+    const auto in_row = [&](std::size_t r, std::size_t line) HWY_ATTR {
+        const auto cut = hn::LoadU(indices, &lines[r][line]);
+#if !HWY_HAVE_SCALABLE
+        if constexpr (hn::MaxLanes(d) == row_cuts)
+            return hn::TableLookupLanes(hn::Load(d, sums[r]), hn::IndicesFromVec(d, cut));
+        if constexpr (2 * hn::MaxLanes(d) == row_cuts) {
+            const auto half = hn::Set(indices, static_cast<std::int32_t>(lanes));
+            const auto in_half = hn::IndicesFromVec(d, hn::And(cut, hn::Set(indices, std::int32_t(lanes) - 1)));
+            return hn::IfThenElse(hn::RebindMask(d, hn::Lt(cut, half)),
+                                  hn::TableLookupLanes(hn::Load(d, sums[r]), in_half),
+                                  hn::TableLookupLanes(hn::Load(d, sums[r] + lanes), in_half));
+        }
+#endif
+        return hn::GatherIndex(d, sums[r], cut);
+    };
     const auto take = [&](auto cost, std::size_t line, BestOfLines& best) HWY_ATTR {
         const auto so_far = hn::LoadU(d, &best.cost[line]);
         const auto better = hn::Lt(cost, so_far);
         hn::StoreU(hn::IfThenElse(better, cost, so_far), d, &best.cost[line]);
         hn::StoreU(hn::IfThenElse(better, hn::Set(d, way), hn::LoadU(d, &best.way[line])), d, &best.way[line]);
     };
-    for (std::size_t line = 0; line < block_lines; line += 4 * lanes) {
-        // Four vectors at once, as each sum waits for the one before it. Products with 0 and 1 need no rounding, so
-        // that they may be added unrounded.
-        auto a = hn::Zero(d), b = a, c = a, e = a;
-        for (std::size_t n = 0; n < block_samples; ++n) {
-            const auto error = hn::Set(d, errors[n]);
-            const float* row = &lines[n][line];
-            a = hn::MulAdd(error, hn::LoadU(d, row), a);
-            b = hn::MulAdd(error, hn::LoadU(d, row + lanes), b);
-            c = hn::MulAdd(error, hn::LoadU(d, row + 2 * lanes), c);
-            e = hn::MulAdd(error, hn::LoadU(d, row + 3 * lanes), e);
-        }
-        std::size_t at = line;
-        for (const auto sum : {a, b, c, e}) {
-            take(hn::Sub(hn::Set(d, all), sum), at, main);
-            take(hn::Add(hn::Set(d, more), sum), at, beyond);
-            at += lanes;
-        }
+    const auto all_of_it = hn::Set(d, all), added = hn::Set(d, more);
+    for (std::size_t line = 0; line < block_lines; line += lanes) {
+        auto sum = in_row(0, line);
+        for (std::size_t r = 1; r < block_side; ++r) sum = hn::Add(sum, in_row(r, line));
+        take(hn::Add(hn::Sub(all_of_it, sum), added), line, main);
+        take(hn::Add(sum, added), line, beyond);
     }
 }
 
@@ -232,6 +300,7 @@ namespace hogel {
 
 HWY_EXPORT(InterpolateBlock);
 HWY_EXPORT(MixBlocks);
+HWY_EXPORT(MixAndCompare);
 HWY_EXPORT(SquaredDifference);
 HWY_EXPORT(TakeBetter);
 HWY_EXPORT(SquaredDifferenceOfRows);
@@ -248,6 +317,11 @@ void interpolate_block(const float* rows, std::size_t stride, const Taps* along_
 
 void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
     HWY_DYNAMIC_DISPATCH(MixBlocks)(a, b, weight_a, weight_b, out);
+}
+
+float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
+                      const BlockSamples& wanted, BlockSamples& out) {
+    return HWY_DYNAMIC_DISPATCH(MixAndCompare)(a, b, weight_a, weight_b, wanted, out);
 }
 
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b) {
@@ -272,9 +346,9 @@ void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes) {
     HWY_DYNAMIC_DISPATCH(SlopesOfBlock)(rows, stride, slopes);
 }
 
-void take_better(const BlockSamples& errors, float more, float way, const LinesOfSamples& lines, BestOfLines& main,
-                 BestOfLines& beyond) {
-    HWY_DYNAMIC_DISPATCH(TakeBetter)(errors, more, way, lines, main, beyond);
+void take_better(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
+                 const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond) {
+    HWY_DYNAMIC_DISPATCH(TakeBetter)(prediction, wanted, more, way, lines, main, beyond);
 }
 
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,

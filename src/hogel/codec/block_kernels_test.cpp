@@ -44,6 +44,9 @@ TEST(BlockKernels, vectors_give_the_same_bits) {
         mix_blocks(a, b, u[0], u[1], fast);
         mix_blocks_plain(a, b, u[0], u[1], plain);
         EXPECT_EQ(fast, plain);
+        EXPECT_EQ(mix_and_compare(a, matrix, u[2], u[3], b, fast),
+                  mix_and_compare_plain(a, matrix, u[2], u[3], b, plain));
+        EXPECT_EQ(fast, plain);
         Slopes slopes, plain_slopes;
         slopes_of_block(rows.data() + 1, stride, slopes);
         slopes_of_block_plain(rows.data() + 1, stride, plain_slopes);
@@ -57,10 +60,10 @@ TEST(BlockKernels, vectors_give_the_same_bits) {
         transform_both_ways(matrix, b, a, fast);
         transform_both_ways_plain(matrix, b, a, plain);
         EXPECT_EQ(fast, plain);
-        LinesOfSamples lines;
-        for (std::uint32_t n = 0; n < block_samples; ++n)
+        LinesInRows lines;
+        for (std::uint32_t r = 0; r < block_side; ++r)
             for (std::uint32_t line = 0; line < block_lines; ++line)
-                lines[n][line] = random_value(line, 5000 * seed + n) > 0 ? 1 : 0;
+                lines[r][line] = static_cast<std::int32_t>((random_value(line, 5000 * seed + r) + 1) * block_side);
         BestOfLines main, beyond;
         main.cost.fill(1e9f);
         beyond.cost.fill(1e9f);
@@ -68,9 +71,9 @@ TEST(BlockKernels, vectors_give_the_same_bits) {
         beyond.way.fill(-1);
         BestOfLines main_plain = main, beyond_plain = beyond;
         for (std::uint32_t way = 0; way < 5; ++way) {
-            const BlockSamples errors = random_block(3000 + 7 * seed + way);
-            take_better(errors, 0.1f, float(way), lines, main, beyond);
-            take_better_plain(errors, 0.1f, float(way), lines, main_plain, beyond_plain);
+            const BlockSamples prediction = random_block(3000 + 7 * seed + way);
+            take_better(prediction, a, 0.1f, float(way), lines, main, beyond);
+            take_better_plain(prediction, a, 0.1f, float(way), lines, main_plain, beyond_plain);
         }
         EXPECT_EQ(main, main_plain);
         EXPECT_EQ(beyond, beyond_plain);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "hogel/codec/analysis_internal.h"
+#include "hogel/codec/seen_blocks_internal.h"
 
 namespace hogel {
 
@@ -10,10 +11,15 @@ namespace hogel {
 // bits first, stops at a prediction that is good enough, and leaves out what its bits alone keep from winning.
 class BlockSearch {
   public:
-    // @param pictures    of the hogels before this one in the order
-    // @param estimated   disparities of the blocks; may be empty
-    BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source,
-                const std::vector<Picture>& pictures, std::span<const std::int16_t> estimated, Effort effort);
+    // Disparities that are known before blocks are told.
+    struct Known {
+        std::span<const std::int16_t> estimated{};             // of the blocks; may be empty
+        std::span<const std::optional<std::int16_t>> moved{};  // moved to the blocks of this hogel; may be empty
+        const std::vector<Block>* beside = nullptr;            // of the first teller; may be null
+    };
+    // @param seen   of the block that is searched for
+    BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source, SeenBlocks& seen,
+                ReferenceWeights& weights, const Known& known);
     BlockSearch(const BlockSearch&) = delete;
     BlockSearch& operator=(const BlockSearch&) = delete;
 
@@ -26,46 +32,40 @@ class BlockSearch {
     };
     // For block k, whose samples are `wanted`. Valid until the next call.
     const Found& run(std::size_t k, const BlockSamples& wanted, const Candidates& candidates);
-    // The references of what was found.
-    const ReferenceWeights::Choice& choice() {
-        return weights_.choose(best_.disparity, static_cast<ReferenceWeights::Side>(best_.mode - 1));
-    }
+    // Farther and then nearer around what was found. True if there is something better, which is found then.
+    bool look_around();
     // What was found is good enough not to look for anything else.
     bool good() const { return best_.cost < good_enough_; }
+    // What costs more than this in the end is worth looking around.
+    float worth_looking() const { return worth_looking_; }
 
   private:
     bool may_win(float bits) const { return least_error_ + worth_ * bits < best_.cost; }
-    // Stays as it is while less than `most_seen` others are looked at.
-    const BlockSamples& seen(int disparity, std::uint32_t reference, Shift shift);
-    bool take_if_better(const BlockSamples& prediction, float bits, int side, int disparity);
+    bool take_if_better(const BlockSamples& prediction, float error, float bits, int side, int disparity);
     void try_any_side(int disparity, float bits);
     void try_single_sides(int disparity, float bits);
-    void follow_slopes(int likeliest);
-    void look_around(int likeliest);
+    void follow_slopes();
+    void try_nearby(std::size_t k, const Candidates& candidates);
+    // What is not a candidate is told in units from the likeliest.
+    int told_as(float disparity) const;
 
     const TileSetup& setup_;
     const HogelOrder::Hogel& hogel_;
     const Plane& source_;
-    const std::vector<Picture>& pictures_;
-    std::span<const std::int16_t> estimated_;
-    Effort effort_;
-    ReferenceWeights weights_;
+    SeenBlocks& seen_;
+    ReferenceWeights& weights_;
+    Known known_;
     float worth_, good_enough_, worth_looking_, least_error_;
     int unit_;
 
     // Of the block that is searched for:
     std::size_t x_ = 0, y_ = 0;
     const BlockSamples* wanted_ = nullptr;
+    int likeliest_ = 0;
     Found best_;
     std::array<BlockSamples, 2> kept_;  // the best prediction, and the next one
     bool slopes_known_ = false;
     Slopes slopes_;
-    // Blocks of references that were looked at, by disparity and reference.
-    static constexpr std::size_t most_seen = 16;
-    using SeenAs = std::pair<int, std::uint32_t>;
-    std::array<SeenAs, most_seen> seen_as_;
-    std::array<BlockSamples, most_seen> seen_;
-    std::size_t seen_count_ = 0;
 };
 
 }  // namespace hogel

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 namespace hogel {
 namespace {
@@ -27,15 +28,19 @@ struct Views {
         }
     }
     // Of the block in the middle, from one candidate.
-    BlockSearch::Found search(int candidate, Effort effort) {
+    BlockSearch::Found search(int candidate, bool look = false, const BlockSearch::Known& known = {}) {
         const Plane source = pictures.back()[0];
-        BlockSearch blocks(setup, hogel, source, pictures, {}, effort);
+        SeenBlocks seen(hogel, pictures);
+        ReferenceWeights weights(hogel, setup.noise, setup.aspect);
+        BlockSearch blocks(setup, hogel, source, seen, weights, known);
         BlockSamples wanted;
         for (std::size_t k = 0; k < block_samples; ++k)
             wanted[k] = source.samples[(8 + k / block_side) * source.width + 8 + k % block_side];
         Candidates candidates;
         candidates.add(candidate);
-        return blocks.run(5, wanted, candidates);
+        const BlockSearch::Found& found = blocks.run(5, wanted, candidates);
+        if (look) blocks.look_around();
+        return found;
     }
 };
 
@@ -44,20 +49,36 @@ TEST(BlockSearch, follows_slopes_to_the_disparity) {
     for (const int disparity : {-70, 0, 33})
         for (const int away : {-56, -20, 9, 48}) {
             Views views(disparity);
-            const BlockSearch::Found found = views.search(disparity + away, Effort::glance);
+            const BlockSearch::Found found = views.search(disparity + away);
             EXPECT_GT(found.mode, 0);
             EXPECT_NEAR(found.disparity, disparity, 5) << away;
             EXPECT_LT(found.error, 2e-3f) << away;
         }
 }
 
-// What no slope leads to is found by looking around; a candidate that is right is taken as it is.
-TEST(BlockSearch, looks_around_only_where_it_must) {
-    Views views(20);
-    EXPECT_NEAR(views.search(20 - 150, Effort::full).disparity, 20, 5);
-    const BlockSearch::Found right = views.search(20, Effort::full);
-    EXPECT_EQ(right.disparity, 20);
-    EXPECT_EQ(right.mode, 1);
+// Where most references show something else, so that slopes mislead, looking around helps, or the disparity of a block
+// near by; a candidate that is right is taken as it is.
+TEST(BlockSearch, looks_farther_only_where_it_must) {
+    constexpr int disparity = 20, away = 26;
+    Views views(disparity);
+    for (std::size_t k = 0; k < views.pictures.size(); ++k) {
+        const HogelOrder::Hogel& shown = views.setup.order.hogels()[k];
+        if (shown.s + 1 == views.hogel.s || &shown == &views.hogel) continue;
+        std::uint32_t state = 1;
+        for (float& sample : views.pictures[k][0].samples)
+            sample = static_cast<float>((state = state * 1664525 + 1013904223) >> 8) * 0x1p-22f;
+    }
+    EXPECT_GT(std::abs(views.search(disparity - away).disparity - disparity), 12);
+    const BlockSearch::Found found = views.search(disparity - away, true);
+    EXPECT_NEAR(found.disparity, disparity, 5);
+    EXPECT_EQ(found.mode, 1 + static_cast<int>(ReferenceWeights::Side::left));
+    std::vector<Block> beside(views.setup.grid.count());
+    EXPECT_GT(std::abs(views.search(disparity - away, false, {{}, {}, &beside}).disparity - disparity), 12);
+    beside[6].mode = parted;
+    beside[6].disparity_beyond = disparity;
+    EXPECT_NEAR(views.search(disparity - away, false, {{}, {}, &beside}).disparity, disparity, 5);
+    beside[6].disparity_beyond = disparity + 12;
+    EXPECT_EQ(views.search(disparity, false, {{}, {}, &beside}).disparity, disparity);
 }
 
 }  // namespace

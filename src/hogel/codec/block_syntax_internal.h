@@ -53,7 +53,9 @@ struct Candidates {
     std::array<std::int16_t, 8> disparity{};
     std::size_t count = 0;
     bool contain(int value) const {
-        return std::find(disparity.begin(), disparity.begin() + count, value) != disparity.begin() + count;
+        bool found = false;  // without a way out, so that all are compared at once
+        for (std::size_t k = 0; k < disparity.size(); ++k) found |= (k < count) & (disparity[k] == value);
+        return found;
     }
     void add(int value) {
         const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));

@@ -126,16 +126,20 @@ class Compression {
         Outcome outcome;
         const bool any_value = part.coder->takes_any_value();
         const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
-        for (std::size_t row = 0; row < tile.radiance.size() / width; ++row) {
-            const auto [begin, end] = counted_.columns(row % height, width);
-            const auto values = tile.radiance.elements().subspan(row * width + begin, end - begin);
-            const double squares = sum_of_squares(values.data(), values.size());
-            if (std::isfinite(squares) || !any_value)
-                outcome.signal += squares;
-            else
-                for (const float value : values)
-                    if (std::isfinite(value)) outcome.signal += static_cast<double>(value) * value;
-        }
+        std::vector<double> signal(tile.radiance.size() / (width * height));  // of each hogel and channel
+        parallel_for(signal.size(), [&](std::size_t hogel) {
+            for (std::size_t v = 0; v < height; ++v) {
+                const auto [begin, end] = counted_.columns(v, width);
+                const auto values = tile.radiance.elements().subspan((hogel * height + v) * width + begin, end - begin);
+                const double squares = sum_of_squares(values.data(), values.size());
+                if (std::isfinite(squares) || !any_value)
+                    signal[hogel] += squares;
+                else
+                    for (const float value : values)
+                        if (std::isfinite(value)) signal[hogel] += static_cast<double>(value) * value;
+            }
+        });
+        outcome.signal = std::accumulate(signal.begin(), signal.end(), 0.0);
         if (!std::isfinite(outcome.signal))
             throw Error(ErrorCode::bad_input,
                         fmt::format("radiance is not finite everywhere in hogels {} to {} of rows {} to {}", range.s0,

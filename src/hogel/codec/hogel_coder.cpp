@@ -43,14 +43,13 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Light
 class TileEncoder {
   public:
     TileEncoder(const LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
-                std::uint8_t references, Effort effort)
+                std::uint8_t references)
         : tile_(tile),
           counted_(counted),
           setup_(HogelOrder(tile.range.ns, tile.range.nt, references, tellers_a_side), grid.directions_u,
                  grid.directions_v, grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()),
                  true),
           references_(references),
-          effort_(effort),
           order_(setup_.order.hogels()),
           pictures_(order_.size()),
           coded_(order_.size()),
@@ -88,7 +87,7 @@ class TileEncoder {
         const Picture source = picture_of(tile_, setup_, hogel.s, hogel.t);
         moved_[k] = moved_disparities(hogel, coded_, setup_.grid, setup_.aspect);
         coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
-                            k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, effort_, pictures_);
+                            k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
         errors_[k] = squared_error(pictures_[k], setup_, tile_, hogel.s, hogel.t, counted_);
         if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = {};  // nothing comes after it
     }
@@ -136,7 +135,6 @@ class TileEncoder {
     const DirectionCross& counted_;
     TileSetup setup_;
     std::uint8_t references_;
-    Effort effort_;
     const std::vector<HogelOrder::Hogel>& order_;
     std::vector<Picture> pictures_;                       // in the order
     std::array<std::vector<std::int16_t>, 4> estimated_;  // disparities of the corners, which come first
@@ -167,15 +165,14 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
 // The number of references that does best on two windows of directions. It does not change with every small change of
 // the step, so that a search for a step sees a function without jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
-    const double octave = std::exp2(std::round(std::log2(step)));
+    const double near = std::exp2(std::round(2 * std::log2(step)) / 2);
     constexpr std::size_t windows = 2, ways = references_a_side.size();
     std::array<double, windows * ways> costs{};
     parallel_for(costs.size(), [&](std::size_t n) {
         const Window window = window_of(tile, grid, 1 + n / ways * 2);
-        const auto coded = TileEncoder(window.tile, window.grid, {}, static_cast<float>(octave),
-                                       references_a_side[n % ways], Effort::glance)
-                               .run();
-        costs[n] = coded.squared_error + bit_worth * octave * octave * 8 * static_cast<double>(coded.bytes.size());
+        const auto coded =
+            TileEncoder(window.tile, window.grid, {}, static_cast<float>(near), references_a_side[n % ways]).run();
+        costs[n] = coded.squared_error + bit_worth * near * near * 8 * static_cast<double>(coded.bytes.size());
     });
     std::array<double, ways> cost{};
     for (std::size_t n = 0; n < costs.size(); ++n) cost[n % ways] += costs[n];
@@ -210,9 +207,7 @@ class HogelCoder final : public TileCoder {
                                                       "{} and {} samples in whole blocks",
                                                       tile.range.ns, tile.range.nt, most_hogel_tile_side,
                                                       most_hogel_tile_side, most_hogel_tile_samples));
-        return TileEncoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step),
-                           Effort::full)
-            .run();
+        return TileEncoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step)).run();
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {

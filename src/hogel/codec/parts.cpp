@@ -7,9 +7,19 @@
 namespace hogel {
 namespace {
 
+// Of a row with these samples; a line leaves its first or its last ones.
+std::int32_t cut_of(std::uint64_t samples) {
+    for (std::size_t cut = 0; cut < row_cuts; ++cut) {
+        std::uint64_t in_cut = 0;
+        for (std::size_t c = 0; c < block_side; ++c) in_cut |= std::uint64_t{sample_in_cut(c, cut)} << c;
+        if (in_cut == samples) return static_cast<std::int32_t>(cut);
+    }
+    return 0;
+}
+
 struct Lines {
     std::array<std::uint64_t, block_lines> beyond{};
-    LinesOfSamples of_samples{};
+    LinesInRows in_rows{};
     Lines() {
         for (std::size_t angle = 0; angle < line_angles; ++angle) {
             // In units of 2^-14, so that every machine has the same.
@@ -23,9 +33,11 @@ struct Lines {
                     if (along_u * u + along_v * v <= 2 * static_cast<long>(place) * place_size) continue;
                     const std::size_t line = line_number(angle, place);
                     beyond[line] |= std::uint64_t{1} << n;
-                    of_samples[n][line] = 1;
                 }
         }
+        for (std::size_t line = 0; line < block_lines; ++line)
+            for (std::size_t r = 0; r < block_side; ++r)
+                in_rows[r][line] = cut_of(beyond[line] >> r * block_side & 0xFF);
     }
 };
 const Lines lines;
@@ -34,7 +46,7 @@ const Lines lines;
 
 std::uint64_t samples_beyond(std::size_t line) { return lines.beyond[line]; }
 
-const LinesOfSamples& lines_of_samples() { return lines.of_samples; }
+const LinesInRows& lines_in_rows() { return lines.in_rows; }
 
 void put_beyond(std::size_t line, const BlockSamples& beyond, BlockSamples& block) {
     const std::uint64_t samples = lines.beyond[line];

@@ -20,8 +20,8 @@ constexpr std::size_t line_number(std::size_t angle, std::size_t place) { return
 
 // A bit for each sample of a block, from the lowest on: whether it lies beyond the line.
 std::uint64_t samples_beyond(std::size_t line);
-// The same as ones and zeros: [sample][line].
-const LinesOfSamples& lines_of_samples();
+// The same row by row.
+const LinesInRows& lines_in_rows();
 
 // Puts what lies beyond a line in place of what is there.
 void put_beyond(std::size_t line, const BlockSamples& beyond, BlockSamples& block);

@@ -24,7 +24,9 @@ TEST(Parts, main_part_holds_the_middle) {
                 EXPECT_NE(beyond, nearer);
             }
             for (std::size_t n = 0; n < block_samples; ++n)
-                EXPECT_EQ(lines_of_samples()[n][line], float(beyond >> n & 1));
+                EXPECT_EQ(
+                    sample_in_cut(n % block_side, static_cast<std::size_t>(lines_in_rows()[n / block_side][line])),
+                    (beyond >> n & 1) != 0);
         }
     }
     // The last column; the last three rows.
@@ -53,7 +55,11 @@ TEST(Parts, are_found_where_a_surface_ends) {
     Candidates candidates;
     candidates.add(0);
     candidates.add(disparity * shift_unit);
-    const auto block = PartSearch(middle, pictures, weights).run(8, 0, wanted, candidates, 0, 1e-4f);
+    SeenBlocks seen(middle, pictures);
+    seen.go_to(8, 0);
+    PartSearch parts(seen, weights);
+    parts.begin(wanted, candidates, 1e-4f);
+    const auto block = parts.best(prediction);
     ASSERT_TRUE(block);
     EXPECT_EQ(block->mode, parted);
     EXPECT_EQ(samples_beyond(block->line), samples_beyond(line_number(0, 1)));
@@ -61,6 +67,7 @@ TEST(Parts, are_found_where_a_surface_ends) {
     EXPECT_EQ(block->disparity_beyond, disparity * shift_unit);
     // To the right the near surface covers more of what is behind.
     EXPECT_EQ(block->side[0], static_cast<int>(ReferenceWeights::Side::left));
+    EXPECT_EQ(squared_difference(prediction, wanted), 0);
     ASSERT_TRUE(predict_parts(pictures, middle, *block, choices_of(*block, weights), 0, 8, 0, prediction));
     EXPECT_EQ(squared_difference(prediction, wanted), 0);
 }

@@ -52,31 +52,42 @@ ReferenceWeights::Side side_of(const HogelOrder::Reference& reference) {
 
 }  // namespace
 
-void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side) {
+void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows) {
     const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
-    const auto reach = static_cast<std::ptrdiff_t>(side);
     std::array<std::ptrdiff_t, window_side> column;
-    for (std::size_t c = 0; c < side; ++c)
+    for (std::size_t c = 0; c < columns; ++c)
         column[c] = std::clamp<std::ptrdiff_t>(x + static_cast<std::ptrdiff_t>(c), 0, width - 1);
-    const bool across_an_edge = x < 0 || x + std::ptrdiff_t(window_side) > width;
+    const bool across_an_edge = x < 0 || x + static_cast<std::ptrdiff_t>(columns) > width;
     float* to = copy_.data();
-    for (std::ptrdiff_t r = 0; r < reach; ++r, to += window_side) {
-        const float* from = plane.samples.data() + std::clamp<std::ptrdiff_t>(y + r, 0, height - 1) * width;
+    for (std::size_t r = 0; r < rows; ++r, to += window_side) {
+        const std::ptrdiff_t row = std::clamp<std::ptrdiff_t>(y + static_cast<std::ptrdiff_t>(r), 0, height - 1);
+        const float* from = plane.samples.data() + row * width;
         if (across_an_edge)
-            for (std::size_t c = 0; c < side; ++c) to[c] = from[column[c]];
+            for (std::size_t c = 0; c < columns; ++c) to[c] = from[column[c]];
         else
-            std::copy_n(from + x, window_side, to);
+            std::copy_n(from + x, columns, to);
     }
     rows_ = copy_.data();
     stride_ = window_side;
 }
 
 void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& block) {
-    const int x0 = x + (shift.u >> 6) - int(taps_before), y0 = y + (shift.v >> 6) - int(taps_before);
-    const std::size_t at_u = fraction_of(shift.u), at_v = fraction_of(shift.v);
-    const PlaneWindow window(plane, x0, y0, window_side);
-    interpolate_block(window.rows(), window.stride(), at_u > 0 ? &filters.of[at_u] : nullptr,
-                      at_v > 0 ? &filters.of[at_v] : nullptr, block);
+    struct Axis {
+        int first;
+        std::size_t count;
+        const Taps* weights;
+    };
+    const auto along = [](int at, int moved) {
+        const std::size_t fraction = fraction_of(moved);
+        if (fraction == 0) return Axis{at + (moved >> 6), block_side, nullptr};
+        return Axis{at + (moved >> 6) - int(taps_before), window_side, &filters.of[fraction]};
+    };
+    const Axis u = along(x, shift.u), v = along(y, shift.v);
+    const PlaneWindow window(plane, u.first, v.first, u.count, v.count);
+    // Whoever looks here soon looks at blocks farther to the right.
+    constexpr std::size_t ahead = 4 * block_side;
+    for (std::size_t r = 0; r < v.count; ++r) __builtin_prefetch(window.rows() + r * window.stride() + ahead);
+    interpolate_block(window.rows(), window.stride(), u.weights, v.weights, block);
 }
 
 BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift) {

@@ -22,15 +22,15 @@ struct Plane {
         : width(w), height(h), samples(w * h, memory) {}
 };
 
-// A square window of a plane, which goes on as its edges are: where it lies, or a copy where it reaches over an edge.
+// A window of a plane, which goes on as its edges are: where it lies, or a copy where it reaches over an edge.
 class PlaneWindow {
   public:
-    // @param side   at most window_side
-    PlaneWindow(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side) {
-        const auto reach = static_cast<std::ptrdiff_t>(side);
+    // @param columns, rows   at most window_side
+    PlaneWindow(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows) {
         const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
-        if (x < 0 || y < 0 || x + reach > width || y + reach > height) {
-            copy(plane, x, y, side);
+        if (x < 0 || y < 0 || x + static_cast<std::ptrdiff_t>(columns) > width ||
+            y + static_cast<std::ptrdiff_t>(rows) > height) {
+            copy(plane, x, y, columns, rows);
             return;
         }
         rows_ = &plane.samples[static_cast<std::size_t>(y * width + x)];
@@ -42,7 +42,7 @@ class PlaneWindow {
     PlaneWindow& operator=(const PlaneWindow&) = delete;
 
   private:
-    void copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t side);
+    void copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows);
 
     const float* rows_;
     std::size_t stride_;
