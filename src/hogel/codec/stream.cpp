@@ -57,7 +57,8 @@ StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& 
     : output_(path),
       spool_(path),
       spooled_(spool_.temporary(), RawFile::Mode::create, path),
-      header_(header_of(info)),
+      info_(info),
+      header_bytes_(header_of(info).size()),
       layers_(info.layer_ends.size()) {
     for (const LightFieldGrid& part : coded_parts(info))
         if (!tile_fits(part, info.tile))
@@ -84,10 +85,12 @@ void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const st
 }
 
 std::uint64_t StreamWriter::overhead(std::size_t tiles) const {
-    return header_.size() + tiles * layers_ * entry_bytes + checksum_bytes;
+    return header_bytes_ + tiles * layers_ * entry_bytes + checksum_bytes;
 }
 
-void StreamWriter::finish() {
+void StreamWriter::finish(std::uint64_t filler) {
+    info_.filler = filler;
+    const Bytes header = header_of(info_);
     std::vector<StreamEntry> entries;  // layer by layer
     for (std::size_t layer = 0; layer < layers_; ++layer)
         for (std::size_t k = layer; k < entries_.size(); k += layers_) entries.push_back(entries_[k]);
@@ -98,9 +101,9 @@ void StreamWriter::finish() {
     }
     index.put(checksum(index.bytes));
     RawFile file(output_.temporary(), RawFile::Mode::create, output_.target());
-    file.write(0, header_.data(), header_.size());
-    file.write(header_.size(), index.bytes.data(), index.bytes.size());
-    std::uint64_t at = header_.size() + index.bytes.size();
+    file.write(0, header.data(), header.size());
+    file.write(header.size(), index.bytes.data(), index.bytes.size());
+    std::uint64_t at = header.size() + index.bytes.size();
     Bytes bytes;
     for (const StreamEntry& entry : entries) {
         bytes.resize(entry.bytes);
