@@ -54,7 +54,7 @@ TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
     const auto source = open_coefficients(folder / "a.hgl");
     LightField coefficients(source->grid());
     copy(*source, coefficients);
-    const Pyramid pyramid = Pyramid::separate({3 * 9 * 7, 20, 24}, {{1, 2}});
+    const Pyramid pyramid = Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
     transform("ai33").inverse(pyramid, coefficients.radiance.elements());
     const LightField expected = decoded(folder / "a.hgl");
     for (std::size_t i = 0; i < expected.radiance.size(); ++i)

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <algorithm>
-
 #include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/recent_results.h"
