@@ -74,9 +74,10 @@ void add_compress(CLI::App& app, Session& session) {
             ->add_option("--sqnr", target.sqnr,
                          fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr))
             ->type_name("DB");
-    CLI::Option* ppb = command->add_option("--ppb", target.pixels_per_bit, "Size: rays, with all their colours, a bit")
-                           ->type_name("N")
-                           ->excludes(sqnr);
+    CLI::Option* ppb =
+        command->add_option("--ppb", target.pixels_per_bit, "Size, to the byte: rays, with all their colours, a bit")
+            ->type_name("N")
+            ->excludes(sqnr);
     CLI::Option* step = command->add_option("--step", target.step, "The quantiser's step, in units of radiance")
                             ->type_name("N")
                             ->excludes(sqnr)

@@ -511,14 +511,18 @@ def exact(version, coder, data, shape, aspect, counts):
     source.at += length
     if coder == "lossless":
         zero = source.take("B")
+        apart, zero = zero >> 7, zero & 127
         half = 1 << zero >> 1
     else:
         bound = source.take("d")
-    sizes = [source.take("I") for _ in range(rows)]
+        apart, bound = bound < 0, abs(bound)
+    sizes = [source.take("I") for _ in range(rows * columns if apart else rows)]
     for t in range(rows):
-        code = Exact(data[source.at:source.at + sizes[t]])
-        source.at += sizes[t]
         for s in range(columns):
+            if apart or s == 0:
+                size = sizes.pop(0)
+                code = Exact(data[source.at:source.at + size])
+                source.at += size
             before = None
             for c in range(channels):
                 seen = np.zeros((n_v, n_u), int)

@@ -87,11 +87,15 @@ TEST(BlockKernels, slopes_are_those_of_a_cubic) {
     const auto cubic = [](double x, double y) {
         return 0.01 * x * x * x - 0.2 * x * y + 0.3 * y * y + 0.02 * y * y * y;
     };
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = float(cubic(double(k % side) - 2, double(k / side) - 2));
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const std::size_t column = k % side, row = k / side;
+        rows[k] = float(cubic(double(column) - 2, double(row) - 2));
+    }
     Slopes slopes;
     slopes_of_block(rows.data(), side, slopes);
     for (std::size_t k = 0; k < block_samples; ++k) {
-        const double x = double(k % block_side), y = double(k / block_side);
+        const std::size_t column = k % block_side, row = k / block_side;
+        const double x = double(column), y = double(row);
         ASSERT_NEAR(slopes.u[k], 0.03 * x * x - 0.2 * y, 1e-4);
         ASSERT_NEAR(slopes.v[k], -0.2 * x + 0.6 * y + 0.06 * y * y, 1e-4);
     }

@@ -150,7 +150,10 @@ class ThreePassCoder final : public ClassicCoder {
 class EzwCoder final : public ClassicCoder {
   public:
     using ClassicCoder::ClassicCoder;
-    bool embedded() const override { return true; }
+    // The lengths of the codes.
+    std::optional<std::size_t> least_bytes(const LightFieldGrid& grid) const override {
+        return grid.channels * sizeof(std::uint32_t);
+    }
 
   private:
     std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numeric>
 
 #include "hogel/codec/block_kernels_internal.h"
 #include "hogel/codec/depth_internal.h"
 #include "hogel/codec/exact_coder_internal.h"
-#include "hogel/codec/search_internal.h"
+#include "hogel/codec/step_search_internal.h"
+#include "hogel/codec/stream_header_internal.h"
 #include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
@@ -19,28 +18,30 @@
 namespace hogel {
 namespace {
 
-constexpr double sqnr_tolerance = 0.1, rate_tolerance = 0.02;
-constexpr std::size_t sampled = 8;  // tiles coded to guess the step
-constexpr int most_passes = 12;
+// Of the bytes that were asked for, how many may be missing, where a step is looked for with some of the tiles and then
+// with all. The rest is filled up.
+constexpr double first_tolerance = 0.02, last_tolerance = 0.004;
+// More than a sample has to tell: floats have 24 bits, and what they are multiplied by.
+constexpr double most_bits_of_sample = 24;
+constexpr std::size_t sampled = 8;               // tiles coded to guess the step
 constexpr double likely_bounded_step = 3;        // times the error
 constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
 
-double decibels(double signal, double error) {
-    return error > 0 ? 10 * std::log10(signal / error) : std::numeric_limits<double>::infinity();
-}
-
-// What coding tiles with a step gave.
-struct Outcome {
-    double signal = 0, error = 0, bytes = 0, samples = 0;  // samples with those that do not count
-
-    double sqnr() const { return decibels(signal, error); }
-    void add(const Outcome& other) {
-        signal += other.signal;
-        error += other.error;
-        bytes += other.bytes;
-        samples += other.samples;
+// Sizes that are `room` bytes together, and each the same part of what it was beyond the least.
+std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::size_t least, double room) {
+    std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) - least * sizes.size();
+    auto bytes = static_cast<std::size_t>(std::max(room - static_cast<double>(least * sizes.size()), 0.0));
+    std::vector<std::size_t> result;
+    for (const std::size_t size : sizes) {
+        const std::size_t more = size - least;
+        const double kept =
+            left > 0 ? static_cast<double>(bytes) * static_cast<double>(more) / static_cast<double>(left) : 0;
+        result.push_back(least + static_cast<std::size_t>(kept));
+        left -= more;
+        bytes -= result.back() - least;
     }
-};
+    return result;
+}
 
 class Compression {
   public:
@@ -55,7 +56,7 @@ class Compression {
 
     // Tiles of all parts, those of the first before those of the second.
     std::size_t tiles() const { return parts_.size() * tiling_.count(); }
-    bool embedded() const { return parts_.front().coder->embedded(); }
+    bool embedded() const { return parts_.front().coder->least_bytes(parts_.front().source->grid()).has_value(); }
     double samples() const {
         double sum = 0;
         for (const Part& part : parts_) sum += part.source->grid().samples();
@@ -63,13 +64,13 @@ class Compression {
     }
 
     // Codes these tiles, and writes them where that is wanted.
-    Outcome code(std::span<const std::size_t> tiles, double step, bool write,
-                 std::span<const std::size_t> most_bytes = {}) {
+    CodingOutcome code(std::span<const std::size_t> tiles, double step, bool write,
+                       std::span<const std::size_t> most_bytes = {}) {
         if (write) {
             writer_.restart();
             sizes_.clear();
         }
-        Outcome sum;
+        CodingOutcome sum;
         parallel_ordered<Coded>(
             tiles.size(), in_flight(),
             [&](std::size_t i) {
@@ -86,11 +87,11 @@ class Compression {
         return sum;
     }
     // The sums over the signal alone.
-    Outcome look(std::span<const std::size_t> tiles) {
-        Outcome sum;
-        parallel_ordered<Outcome>(
+    CodingOutcome look(std::span<const std::size_t> tiles) {
+        CodingOutcome sum;
+        parallel_ordered<CodingOutcome>(
             tiles.size(), in_flight(), [&](std::size_t i) { return read(tiles[i]).second; },
-            [&](std::size_t, Outcome& outcome) { sum.add(outcome); });
+            [&](std::size_t, CodingOutcome& outcome) { sum.add(outcome); });
         return sum;
     }
     // The bytes of the middle of the tile in the middle, and the root mean square of what is there.
@@ -105,25 +106,28 @@ class Compression {
         const auto bytes = static_cast<double>(parts_.front().coder->encode(tile, step).bytes.size());
         return {bytes, std::sqrt(outcome.signal / outcome.samples)};
     }
-    // Of the tiles last written.
-    const std::vector<std::size_t>& sizes() const { return sizes_; }
+    // The bytes that the tiles last written may have each, so that the whole file has so many.
+    std::vector<std::size_t> cut(double file) const {
+        const double room = file - static_cast<double>(writer_.overhead(sizes_.size()));
+        return cut_sizes(sizes_, *parts_.front().coder->least_bytes(parts_.front().source->grid()), room);
+    }
 
   private:
     struct Coded {
         std::vector<std::uint8_t> bytes;
         std::vector<std::size_t> layers;
-        Outcome outcome;
+        CodingOutcome outcome;
     };
 
     std::size_t in_flight() const { return std::min(default_in_flight(), parts_.front().coder->most_at_once()); }
 
-    std::pair<LightFieldTile, Outcome> read(std::size_t index) const {
+    std::pair<LightFieldTile, CodingOutcome> read(std::size_t index) const {
         return read(parts_[index / tiling_.count()], tiling_[index % tiling_.count()]);
     }
-    std::pair<LightFieldTile, Outcome> read(const Part& part, const HogelRange& range) const {
+    std::pair<LightFieldTile, CodingOutcome> read(const Part& part, const HogelRange& range) const {
         LightFieldTile tile(part.source->grid(), range, false);
         part.source->read(tile);
-        Outcome outcome;
+        CodingOutcome outcome;
         const bool any_value = part.coder->takes_any_value();
         const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
         std::vector<double> signal(tile.radiance.size() / (width * height));  // of each hogel and channel
@@ -177,21 +181,6 @@ std::vector<std::size_t> some_tiles(std::size_t count) {
     return tiles;
 }
 
-// Sizes that are `room` bytes together, each the same part of what it was.
-std::vector<std::size_t> cut(const std::vector<std::size_t>& sizes, double room) {
-    std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
-    auto bytes = static_cast<std::size_t>(std::max(room, 0.0));
-    std::vector<std::size_t> result;
-    for (const std::size_t size : sizes) {
-        result.push_back(left > 0 ? static_cast<std::size_t>(static_cast<double>(bytes) * static_cast<double>(size) /
-                                                             static_cast<double>(left))
-                                  : 0);
-        left -= size;
-        bytes -= result.back();
-    }
-    return result;
-}
-
 void check(const CompressionTarget& target) {
     if (target.sqnr.has_value() + target.pixels_per_bit.has_value() + target.step.has_value() +
             target.max_error.has_value() + target.lossless !=
@@ -210,61 +199,24 @@ void check(const CompressionTarget& target) {
         throw Error(ErrorCode::usage, fmt::format("a step of {} was asked for, expected a positive one", *target.step));
 }
 
-// What the figure that is searched for must lie between: an SQNR, or the logarithm of the number of bytes. Both fall
-// with the logarithm of the step.
-struct Band {
-    double low, high;
-    bool above_is_better;  // of the two nearest misses, the one above the band is the better; else the one below
-    double slope;
-};
-
-Band band_of(const CompressionTarget& target, double pixels, bool embedded) {
-    if (target.sqnr) return {*target.sqnr, *target.sqnr + sqnr_tolerance, true, -5.5};
-    const double bytes = std::log2(pixels / *target.pixels_per_bit / 8);
-    // An embedded stream is made a little too long, and then cut.
-    if (embedded) return {bytes, bytes + std::log2(1 + rate_tolerance), true, -0.9};
-    return {bytes + std::log2(1 - rate_tolerance), bytes, false, -0.9};
+// Of a file of the rate that was asked for. Throws Error(usage) where that is more than there is to tell.
+double most_bytes(double pixels_per_bit, double pixels, double samples) {
+    const double bytes = std::floor(pixels / pixels_per_bit / 8);
+    if (8 * bytes > most_bits_of_sample * samples)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{} pixels per bit were asked for, more than {} bits a sample; expected at least {:.3g} "
+                        "pixels per bit, or --lossless",
+                        pixels_per_bit, most_bits_of_sample, pixels / (most_bits_of_sample * samples)));
+    return bytes;
 }
 
-// Searches with some tiles or all. Returns the logarithm of the step, and leaves the last outcome.
-class StepSearch {
-  public:
-    StepSearch(Compression& compression, const Band& band, std::function<double(const Outcome&)> figure)
-        : compression_(compression), band_(band), figure_(std::move(figure)) {}
-
-    double run(std::span<const std::size_t> tiles, bool write, double start) {
-        Search search(band_.low, band_.high, start, slope_);
-        for (int pass = 0; pass < most_passes; ++pass) {
-            const double place = search.next();
-            outcome_ = compression_.code(tiles, std::exp2(place), write);
-            ++passes_;
-            const bool found = search.tell(figure_(outcome_));
-            slope_ = search.slope();
-            if (found) return place;
-            const bool narrow =
-                search.above() && search.below() && *search.below() - *search.above() < least_difference;
-            if (narrow) break;
-        }
-        const std::optional<double> best = band_.above_is_better ? search.above() : search.below();
-        const double place = best.value_or(search.next());
-        if (write) {
-            outcome_ = compression_.code(tiles, std::exp2(place), write);
-            ++passes_;
-        }
-        return place;
-    }
-    const Outcome& outcome() const { return outcome_; }
-    int passes() const { return passes_; }
-
-  private:
-    static constexpr double least_difference = 1e-5;
-    Compression& compression_;
-    Band band_;
-    std::function<double(const Outcome&)> figure_;
-    double slope_ = band_.slope;
-    Outcome outcome_;
-    int passes_ = 0;
-};
+[[noreturn]] void refuse_rate(double pixels_per_bit, double bytes, std::uint64_t nearest) {
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("{} pixels per bit were asked for, {} bytes; the {} file of this light field has {}",
+                    pixels_per_bit, bytes, static_cast<double>(nearest) < bytes ? "largest" : "smallest", nearest));
+}
 
 // The step of a prediction that makes tiles smallest, by halves and doubles from a likely one.
 double smallest_step(const Compression& compression, const CompressionTarget& target) {
@@ -355,39 +307,53 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
     const std::vector<std::size_t> all = all_tiles(compression.tiles());
 
     CompressionResult result;
-    Outcome outcome;
+    CodingOutcome outcome;
+    std::uint64_t filler = 0;
     if (target.step || exact) {
         result.step = exact ? smallest_step(compression, target) : *target.step;
         outcome = compression.code(all, result.step, true);
         result.passes = 1;
     } else {
         const std::vector<std::size_t> some = all.size() >= 3 * sampled ? some_tiles(all.size()) : all;
-        const Outcome seen = compression.look(some);
+        const CodingOutcome seen = compression.look(some);
         // Detail of the step's size everywhere has an error of step²/12.
         const double rms = std::sqrt(seen.signal / seen.samples);
-        double place =
-            std::log2(rms > 0 ? rms * (target.sqnr ? std::sqrt(12) * std::pow(10, -*target.sqnr / 20) : 0.1) : 1);
-        StepSearch search(compression, band_of(target, pixels, compression.embedded()), [&](const Outcome& o) {
+        const double likely = rms * (target.sqnr ? std::sqrt(12) * std::pow(10, -*target.sqnr / 20) : 0.1);
+        StepSearch search(likely > 0 ? std::log2(likely) : 0, [&](const CodingOutcome& o) {
             if (target.sqnr) return o.sqnr();
             const double overhead = static_cast<double>(writer.overhead(all.size()));
             return std::log2(o.bytes * (compression.samples() / o.samples) + overhead);
         });
-        if (some.size() < all.size()) place = search.run(some, false, place);
-        place = search.run(all, true, place);
+        const auto code_some = [&](double step) { return compression.code(some, step, false); };
+        const auto code_all = [&](double step) { return compression.code(all, step, true); };
+        const double most =
+            target.pixels_per_bit ? most_bytes(*target.pixels_per_bit, pixels, compression.samples()) : 0;
+        const bool embedded = compression.embedded();
+        const double room = std::max(most - (embedded ? 0 : static_cast<double>(least_filler)), 1.0);
+        const auto band = [&](double tolerance) {
+            return target.sqnr ? band_of_sqnr(*target.sqnr) : band_of_bytes(room, tolerance, embedded);
+        };
+        if (some.size() < all.size()) search.run(band(first_tolerance), code_some);
+        const double tolerance =
+            embedded ? first_tolerance : std::min(last_tolerance, static_cast<double>(most_filler) / most);
+        const StepFound found = search.run(band(tolerance), code_all);
         outcome = search.outcome();
-        result.step = std::exp2(place);
+        result.step = search.step();
         result.passes = search.passes();
-        const double most = std::floor(pixels / target.pixels_per_bit.value_or(pixels) / 8);
-        if (target.pixels_per_bit && compression.embedded() && static_cast<double>(writer.size()) > most) {
-            const double room = most - static_cast<double>(writer.overhead(all.size()));
-            outcome = compression.code(all, result.step, true, cut(compression.sizes(), room));
-            ++result.passes;
+        if (target.pixels_per_bit) {
+            if (embedded && static_cast<double>(writer.size()) > most) {
+                outcome = compression.code(all, result.step, true, compression.cut(most));
+                ++result.passes;
+            }
+            if (found == StepFound::only_below || static_cast<double>(writer.size()) > room)
+                refuse_rate(*target.pixels_per_bit, most, writer.size());
+            filler = std::min(static_cast<std::uint64_t>(most) - writer.size(), std::uint64_t{most_filler});
         }
     }
-    result.bytes = writer.size();
+    result.bytes = writer.size() + filler;
     result.depth_bytes = info.depth.bytes;
     result.depth_error = info.depth.error;
-    writer.finish();
+    writer.finish(filler);
     result.sqnr = outcome.sqnr();
     result.pixels_per_bit = pixels / (8 * static_cast<double>(result.bytes));
     return result;

@@ -13,7 +13,7 @@ namespace hogel {
 /// What to give up for a small file: exactly one.
 struct CompressionTarget {
     std::optional<double> sqnr;            ///< 10 log10(Σ f² / Σ (f − f')²) in decibels, over all samples
-    std::optional<double> pixels_per_bit;  ///< rays (with all their channels) a bit of the whole file
+    std::optional<double> pixels_per_bit;  ///< rays (with all their channels) a bit of the whole file, to the byte
     std::optional<double> step;            ///< the quantiser's, in units of radiance, as it is
     std::optional<double> max_error;  ///< |f − f'| of every sample at most; what is not finite comes back as it is
     bool lossless = false;            ///< nothing: every float comes back with all its bits
@@ -22,8 +22,8 @@ struct CompressionTarget {
 struct CompressionOptions {
     CodingMethod method;
     CompressionTarget target;
-    std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
-    Metadata metadata;
+    std::optional<HogelRange> tile;                 ///< size of the tiles; by default what suits the coder
+    Metadata metadata;                              ///< no word of the name `filler`
     HemicubeLayout layout = HemicubeLayout::faces;  ///< of several faces
     bool with_depth = false;                        ///< whether the sources' depth is stored, too
     double depth_error = 0;                         ///< of each at most, metres; 0: a 1,000th of the depths' range
@@ -41,11 +41,12 @@ struct CompressionResult {
 /// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads; memory: some tiles a thread.
 /// The step that meets the target is found by coding, first some of the tiles and then all, until
 ///   an SQNR is met or exceeded by at most 0.1 dB,
-///   or the rate is met to within 2% (a file is never larger than asked for; exact where the coder is embedded).
+///   or the rate is met: what is missing to it to the byte, less than half a per cent but for light fields of few
+///   samples, is filled up with what says nothing, or cut off where the coder is embedded.
 /// Within an error, or lossless, what is coded beside the prediction makes it so, and the step is the one among some
 /// that gives the smallest tiles; with the coder hogel alone. Where that cannot be (a light field of few samples), the
-/// file is the smallest that has the SQNR, or the best that has the rate. Depth is coded first, and counts as a part of
-/// the file. The file appears when it is complete. Throws Error(usage) for a target or method that makes no sense,
+/// file is the smallest that has the SQNR. Depth is coded first, and counts as a part of the file. The file appears
+/// when it is complete. Throws Error(usage) for a target or method that makes no sense, and a rate that no step has,
 /// Error(bad_input) for radiance that is not finite (within an error, or lossless: it may be), Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});

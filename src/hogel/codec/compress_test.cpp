@@ -54,7 +54,7 @@ TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
     const auto source = open_coefficients(folder / "a.hgl");
     LightField coefficients(source->grid());
     copy(*source, coefficients);
-    const Pyramid pyramid = Pyramid::separate({3 * 9 * 7, 20, 24}, {{1, 2}});
+    const Pyramid pyramid = Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
     transform("ai33").inverse(pyramid, coefficients.radiance.elements());
     const LightField expected = decoded(folder / "a.hgl");
     for (std::size_t i = 0; i < expected.radiance.size(); ++i)
@@ -78,20 +78,64 @@ TEST(Compress, gives_the_sqnr_that_was_asked_for) {
     }
 }
 
+// To the byte, whatever the coder and however the light field is cut.
 TEST(Compress, gives_the_rate_that_was_asked_for) {
     const TestFolder folder;
-    const LightField field = textured_planes(8, 6, 24, 20, 3);
-    const double pixels = 8 * 6 * 24 * 20;
-    for (const CodingMethod& method :
-         {CodingMethod{"hogel", ""}, {"threepass", "ai33"}, {"ezw", "cdf97"}, {"jpeg4d", "dct8"}}) {
-        CompressionOptions options;
-        options.method = method;
-        options.target.pixels_per_bit = 2.5;
-        compress(field, folder / "a.hgl", options);
-        const double bytes = static_cast<double>(std::filesystem::file_size(folder / "a.hgl"));
-        EXPECT_LE(bytes, pixels / 2.5 / 8) << method.coder;
-        EXPECT_GE(bytes, (method.coder == "ezw" ? 1 : 0.95) * pixels / 2.5 / 8 - 1) << method.coder;
+    struct Case {
+        LightFieldGrid grid;
+        double pixels_per_bit;
+    };
+    for (const Case& c : {Case{{8, 6, 1e-3, 24, 20, 0.3, 0.3, 3}, 2.5},
+                          {{9, 7, 1e-3, 16, 16, 0.3, 0.3, 1}, 1.5},
+                          {{31, 1, 1e-3, 33, 1, 0.3, 0.3, 1}, 0.2}}) {
+        LightField field = textured_planes(c.grid.hogels_s, c.grid.hogels_t, c.grid.directions_u, c.grid.directions_v,
+                                           c.grid.channels);
+        // Of a dark tile nothing can be cut off.
+        LightFieldTile dark(c.grid, {0, 0, 5, std::min<std::size_t>(c.grid.hogels_t, 4)}, false);
+        field.write(dark);
+        const auto pixels = static_cast<double>(c.grid.hogels() * c.grid.directions());
+        for (const CodingMethod& method :
+             {CodingMethod{"hogel", ""}, {"threepass", "ai33"}, {"ezw", "cdf97"}, {"jpeg4d", "dct8"}}) {
+            CompressionOptions options;
+            options.method = method;
+            options.target.pixels_per_bit = c.pixels_per_bit;
+            if (c.grid.hogels_s == 9) options.tile = HogelRange{0, 0, 5, 4};
+            const CompressionResult result = compress(field, folder / "a.hgl", options);
+            EXPECT_EQ(std::filesystem::file_size(folder / "a.hgl"), std::floor(pixels / c.pixels_per_bit / 8))
+                << method.coder;
+            EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "a.hgl"));
+            EXPECT_NEAR(sqnr_of(field, decoded(folder / "a.hgl")), result.sqnr, 1e-6) << method.coder;
+            EXPECT_GT(result.sqnr, 5) << method.coder;
+        }
     }
+}
+
+// Little of it is filler, which whoever reads the metadata does not see.
+TEST(Compress, rate_is_not_met_by_filler_alone) {
+    const TestFolder folder;
+    CompressionOptions options;
+    options.metadata = {{"what", "a test"}};
+    options.target.pixels_per_bit = 0.5;
+    compress(textured_planes(17, 9, 32, 32, 1), folder / "a.hgl", options);
+    const StreamInfo info = read_stream_info(folder / "a.hgl");
+    EXPECT_GE(info.filler, 14u);
+    EXPECT_LT(static_cast<double>(info.filler), 14 + 0.005 * static_cast<double>(info.layer_ends.back()));
+    EXPECT_EQ(info.metadata, options.metadata);
+}
+
+TEST(Compress, rates_that_cannot_be_had_are_refused) {
+    const TestFolder folder;
+    const LightField field = textured_planes(8, 6, 24, 20, 1), dark(field.grid());
+    for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"threepass", "haar"}, {"ezw", "haar"}})
+        for (const double rate : {0.03, 1000.0, 1e9}) {
+            CompressionOptions options;
+            options.method = method;
+            options.target.pixels_per_bit = rate;
+            EXPECT_EQ(code_of([&] { compress(field, folder / "a.hgl", options); }), ErrorCode::usage) << rate;
+            options.target.pixels_per_bit = 1;
+            EXPECT_EQ(code_of([&] { compress(dark, folder / "a.hgl", options); }), ErrorCode::usage);
+        }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
 }
 
 TEST(Compress, sizes_of_all_kinds_come_back) {

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <mutex>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "hogel/codec/bytes_internal.h"
@@ -31,7 +34,24 @@ class Ordered {
         bits = bits >> 31 ? bits & ~(1u << 31) : ~(bits | ((1u << zero_bits_) - 1));
         return std::bit_cast<float>(bits);
     }
-    int zero_bits() const { return zero_bits_; }
+
+    static constexpr bool keeps_every_bit = true;
+    static Ordered for_tile(const LightFieldTile& tile, double) {
+        int zero_bits = 31;
+        for (const float value : tile.radiance.elements())
+            zero_bits = std::min(zero_bits, std::countr_zero(std::bit_cast<std::uint32_t>(value)));
+        return Ordered(zero_bits);
+    }
+    // Beside it: whether each hogel has a code of its own, not each row.
+    static std::pair<Ordered, bool> take(ByteReader& reader) {
+        const auto bits = reader.take<std::uint8_t>();
+        const int zero_bits = bits & (hogels_apart - 1);
+        if (zero_bits > 31) reader.damaged("its floats have no bits");
+        return {Ordered(zero_bits), (bits & hogels_apart) != 0};
+    }
+    void put(ByteWriter& writer, bool apart) const {
+        writer.put(static_cast<std::uint8_t>(zero_bits_ | (apart ? hogels_apart : 0)));
+    }
 
     // Special: +0.
     Residual residual(float value, float prediction) const {
@@ -51,6 +71,7 @@ class Ordered {
     }
 
   private:
+    static constexpr int hogels_apart = 0x80;
     int zero_bits_;
 };
 
@@ -58,7 +79,16 @@ class Ordered {
 class Bounded {
   public:
     explicit Bounded(double max_error) : max_error_(max_error) {}
-    double max_error() const { return max_error_; }
+
+    static constexpr bool keeps_every_bit = false;
+    static Bounded for_tile(const LightFieldTile&, double max_error) { return Bounded(max_error); }
+    // The sign says whether each hogel has a code of its own.
+    static std::pair<Bounded, bool> take(ByteReader& reader) {
+        const double max_error = reader.take_double();
+        if (!(max_error != 0 && std::isfinite(max_error))) reader.damaged("its bound is no bound");
+        return {Bounded(std::abs(max_error)), max_error < 0};
+    }
+    void put(ByteWriter& writer, bool apart) const { writer.put(apart ? -max_error_ : max_error_); }
 
     float restore(const Residual& residual, float prediction) const {
         return static_cast<float>(static_cast<double>(prediction) + 2 * max_error_ * residual.number);
@@ -81,13 +111,139 @@ class Bounded {
     double max_error_;
 };
 
+// Bytes of a hogel from which on a code of its own costs less than half a per cent.
+constexpr std::size_t least_own_code = 16384;
+
 // What the coder of the prediction can work with.
 float tamed(float value) { return std::isfinite(value) ? std::clamp(value, -0x1p60f, 0x1p60f) : 0; }
 
-class ExactCoder : public TileCoder {
+// Calls use(at, context) for the samples of a hogel, by their places in the tile, which returns what is left there.
+template <class Use>
+void for_each_sample(const LightFieldTile& tile, std::size_t t, std::size_t s, const DirectionCross& counted,
+                     Use&& use) {
+    const auto& shape = tile.radiance.shape();
+    std::vector<ResidualsAround> around;
+    for (std::size_t c = 0; c < shape[0]; ++c) {
+        around.emplace_back(shape[4], shape[3]);
+        for (std::size_t v = 0; v < shape[3]; ++v) {
+            const auto [begin, end] = counted.columns(v, shape[4]);
+            for (std::size_t u = begin; u < end; ++u) {
+                const auto at = static_cast<std::size_t>(&tile.radiance(c, t, s, v, u) - tile.radiance.data());
+                around[c].set(v, u, use(at, around[c].at(v, u, c > 0 ? &around[c - 1] : nullptr)));
+            }
+        }
+    }
+}
+
+// The parts of a tile's bytes.
+template <class Rule>
+struct ExactTile {
+    std::span<const std::uint8_t> prediction;
+    Rule rule;
+    bool hogels_apart;
+    std::vector<std::span<const std::uint8_t>> codes;  // of each hogel, row by row, or of each row of hogels
+
+    static ExactTile take(std::span<const std::uint8_t> bytes, const HogelRange& range) {
+        ByteReader reader(bytes, "tile");
+        const std::span<const std::uint8_t> prediction = reader.take(reader.take<std::uint32_t>());
+        const auto [rule, hogels_apart] = Rule::take(reader);
+        ExactTile tile{prediction, rule, hogels_apart, {}};
+        std::vector<std::uint32_t> sizes;
+        for (std::size_t k = 0; k < (hogels_apart ? range.hogels() : range.nt); ++k)
+            sizes.push_back(reader.take<std::uint32_t>());
+        for (const std::uint32_t size : sizes) tile.codes.push_back(reader.take(size));
+        if (reader.left() > 0) reader.damaged("bytes are left over");
+        return tile;
+    }
+
+    // Hogels of a row, as many as a code has, in place of their prediction.
+    void decode(std::size_t code, LightFieldTile& tile, std::size_t t, std::size_t s,
+                const DirectionCross& counted) const {
+        const ByteReader whole({}, "tile");
+        ResidualReader reader(codes[code]);
+        const auto models = std::make_unique<ResidualModels>();
+        for (const std::size_t end = hogels_apart ? s + 1 : tile.range.ns; s < end; ++s)
+            for_each_sample(tile, t, s, counted, [&](std::size_t at, const ResidualsAround::Context& context) {
+                const Residual residual = code_residual(reader, *models, context, {});
+                float& value = tile.radiance.data()[at];
+                value = residual.special ? rule.code_special(reader, 0) : rule.restore(residual, value);
+                return residual;
+            });
+        if (reader.decoder.ended()) whole.damaged("it ends too early");
+        if (!reader.decoder.all_read()) whole.damaged("bytes are left over");
+    }
+};
+
+// A tile decoded as far as it is asked for: by hogels, or rows of them. What has been decoded stays.
+template <class Rule>
+class ExactDecoder final : public TileDecoder {
   public:
-    ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted, std::uint32_t version)
-        : predictor_(make_hogel_coder(grid, counted, version)), counted_(counted), version_(version) {}
+    ExactDecoder(std::vector<std::uint8_t> bytes, ExactTile<Rule> tile, std::unique_ptr<TileDecoder> prediction,
+                 const LightFieldGrid& grid, const HogelRange& range, const DirectionCross& counted)
+        : bytes_(std::move(bytes)),
+          tile_(std::move(tile)),
+          prediction_(std::move(prediction)),
+          grid_(grid),
+          range_(range),
+          counted_(counted),
+          decoded_(range.hogels()) {}
+
+    void read(LightFieldTile& part) override {
+        // A thread that waits inside must not begin something else that waits for this tile.
+        isolate([&] {
+            const std::lock_guard lock(mutex_);
+            HogelRange coded = part.range;  // whole codes
+            if (!tile_.hogels_apart) {
+                coded.s0 = range_.s0;
+                coded.ns = range_.ns;
+            }
+            const std::size_t across = tile_.hogels_apart ? coded.ns : 1, a_code = coded.ns / across;
+            std::vector<std::size_t> missing;
+            for (std::size_t n = 0; n < across * coded.nt; ++n)
+                if (!kept(coded.t0 + n / across, coded.s0 + n % across)) missing.push_back(n);
+            if (!missing.empty()) {
+                LightFieldTile made(grid_, coded, false);
+                prediction_->read(made);
+                parallel_for(missing.size(), [&](std::size_t k) {
+                    const std::size_t t = missing[k] / across, s = missing[k] % across;
+                    const std::size_t first = place(coded.t0 + t, coded.s0 + s);
+                    tile_.decode(first / a_code, made, t, s, counted_);
+                    for (std::size_t n = 0; n < a_code; ++n) {
+                        const HogelRange hogel{coded.s0 + s + n, coded.t0 + t, 1, 1};
+                        copy_common(made, decoded_[first + n].emplace(grid_, hogel, false));
+                    }
+                });
+            }
+            parallel_for(part.range.hogels(), [&](std::size_t n) {
+                const std::size_t t = part.range.t0 + n / part.range.ns, s = part.range.s0 + n % part.range.ns;
+                copy_common(*kept(t, s), part);
+            });
+        });
+    }
+
+  private:
+    std::size_t place(std::size_t t, std::size_t s) const { return (t - range_.t0) * range_.ns + s - range_.s0; }
+    const std::optional<LightFieldTile>& kept(std::size_t t, std::size_t s) const { return decoded_[place(t, s)]; }
+
+    std::vector<std::uint8_t> bytes_;
+    ExactTile<Rule> tile_;
+    std::unique_ptr<TileDecoder> prediction_;
+    LightFieldGrid grid_;
+    HogelRange range_;
+    DirectionCross counted_;
+    std::mutex mutex_;
+    std::vector<std::optional<LightFieldTile>> decoded_;  // hogels row by row
+};
+
+template <class Rule>
+class ExactCoder final : public TileCoder {
+  public:
+    // @param max_error   for encode(), of the rules that have one
+    ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted, std::uint32_t version, double max_error)
+        : predictor_(make_hogel_coder(grid, counted, version)),
+          counted_(counted),
+          version_(version),
+          max_error_(max_error) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override { return predictor_->preferred_tile(grid); }
     std::size_t most_at_once() const override { return predictor_->most_at_once(); }
@@ -96,16 +252,47 @@ class ExactCoder : public TileCoder {
     std::size_t layers(const HogelRange& tile) const override {
         return version_ < 3 ? 1 : predictor_->layers(tile) + 1;
     }
-    std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
-                                      const HogelRange& range, std::size_t wanted) const override {
-        if (wanted == layers(range)) return TileCoder::open(std::move(bytes), grid, range, wanted);
-        ByteReader reader(bytes, "tile");
-        reader.take<std::uint32_t>();  // the length of the whole prediction
-        const std::span<const std::uint8_t> prediction = reader.take(reader.left());
-        return predictor_->open({prediction.begin(), prediction.end()}, grid, range, wanted);
+
+    Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
+        ByteWriter writer;
+        auto [decoded, layers] = encode_prediction(tile, step, writer);
+        const Rule rule = Rule::for_tile(tile, max_error_);
+        const bool apart = hogels_apart(tile, rule, decoded);
+        rule.put(writer, apart);
+        encode_codes(tile, rule, decoded, apart, writer);
+        layers.push_back(writer.bytes.size());
+        const double error = Rule::keeps_every_bit ? 0 : squared_error(tile, decoded, counted_);
+        return {std::move(writer.bytes), error, std::move(layers)};
     }
 
-  protected:
+    void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
+        const auto exact = ExactTile<Rule>::take(bytes, tile.range);
+        predictor_->decode(exact.prediction, tile);
+        const std::size_t across = exact.hogels_apart ? tile.range.ns : 1;
+        parallel_for(exact.codes.size(),
+                     [&](std::size_t k) { exact.decode(k, tile, k / across, k % across, counted_); });
+    }
+
+    std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
+                                      const HogelRange& range, std::size_t wanted) const override {
+        const std::size_t layers_of_prediction = layers(range) - 1;
+        if (wanted <= layers_of_prediction) {
+            ByteReader reader(bytes, "tile");
+            reader.take<std::uint32_t>();  // the length of the whole prediction
+            return open_prediction(reader.take(reader.left()), grid, range, wanted);
+        }
+        auto tile = ExactTile<Rule>::take(bytes, range);
+        auto prediction = open_prediction(tile.prediction, grid, range, layers_of_prediction);
+        return std::make_unique<ExactDecoder<Rule>>(std::move(bytes), std::move(tile), std::move(prediction), grid,
+                                                    range, counted_);
+    }
+
+  private:
+    std::unique_ptr<TileDecoder> open_prediction(std::span<const std::uint8_t> bytes, const LightFieldGrid& grid,
+                                                 const HogelRange& range, std::size_t levels) const {
+        return predictor_->open({bytes.begin(), bytes.end()}, grid, range, levels);
+    }
+
     // Returns the prediction, and where its layers end.
     std::pair<LightFieldTile, std::vector<std::size_t>> encode_prediction(const LightFieldTile& tile, double step,
                                                                           ByteWriter& writer) const {
@@ -118,129 +305,53 @@ class ExactCoder : public TileCoder {
         predictor_->decode(code, prediction);
         return {std::move(prediction), std::move(layers)};
     }
-    void decode_prediction(ByteReader& reader, LightFieldTile& tile) const {
-        predictor_->decode(reader.take(reader.take<std::uint32_t>()), tile);
+
+    // Whether hogels are large enough to have codes of their own, going by a row in the middle.
+    bool hogels_apart(const LightFieldTile& tile, const Rule& rule, const LightFieldTile& prediction) const {
+        std::vector<std::size_t> bytes(tile.range.ns);
+        parallel_for(bytes.size(), [&](std::size_t s) {
+            bytes[s] = encode_code(tile, rule, prediction, tile.range.nt / 2, s, s + 1, nullptr).size();
+        });
+        return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= least_own_code * bytes.size();
     }
 
-    // Calls use(v, u, context, around) for the samples of each hogel of a row and channel, where use sets what is
-    // around.
-    template <class Use>
-    void for_each_sample(const LightFieldTile& tile, std::size_t t, Use&& use) const {
-        const auto& shape = tile.radiance.shape();
-        for (std::size_t s = 0; s < shape[2]; ++s) {
-            std::vector<ResidualsAround> around;
-            for (std::size_t c = 0; c < shape[0]; ++c) {
-                around.emplace_back(shape[4], shape[3]);
-                for (std::size_t v = 0; v < shape[3]; ++v) {
-                    const auto [begin, end] = counted_.columns(v, shape[4]);
-                    for (std::size_t u = begin; u < end; ++u) {
-                        const std::size_t at =
-                            static_cast<std::size_t>(&tile.radiance(c, t, s, v, u) - tile.radiance.data());
-                        around[c].set(v, u, use(at, around[c].at(v, u, c > 0 ? &around[c - 1] : nullptr)));
-                    }
-                }
-            }
-        }
-    }
-
-    // Each row of hogels has a code of its own, so that they are coded at the same time. Replaces the prediction by
-    // what decoding gives.
-    template <class Rule>
-    void encode_rows(const LightFieldTile& tile, const Rule& rule, LightFieldTile& prediction,
-                     ByteWriter& bytes) const {
-        std::vector<std::vector<std::uint8_t>> codes(tile.range.nt);
-        parallel_for(codes.size(), [&](std::size_t t) {
-            ResidualWriter writer;
-            const auto models = std::make_unique<ResidualModels>();
-            for_each_sample(tile, t, [&](std::size_t at, const ResidualsAround::Context& context) {
+    // Hogels of a row from one to another. Where `decoded` is given, which may be the prediction, it gets their
+    // samples.
+    std::vector<std::uint8_t> encode_code(const LightFieldTile& tile, const Rule& rule,
+                                          const LightFieldTile& prediction, std::size_t t, std::size_t begin,
+                                          std::size_t end, LightFieldTile* decoded) const {
+        ResidualWriter writer;
+        const auto models = std::make_unique<ResidualModels>();
+        for (std::size_t s = begin; s < end; ++s)
+            for_each_sample(tile, t, s, counted_, [&](std::size_t at, const ResidualsAround::Context& context) {
                 const float value = tile.radiance.data()[at];
-                float& decoded = prediction.radiance.data()[at];
-                const Residual residual = rule.residual(value, decoded);
+                const float predicted = prediction.radiance.data()[at];
+                const Residual residual = rule.residual(value, predicted);
                 code_residual(writer, *models, context, residual);
                 if (residual.special) rule.code_special(writer, value);
-                decoded = residual.special ? value : rule.restore(residual, decoded);
+                if (decoded)
+                    decoded->radiance.data()[at] = residual.special ? value : rule.restore(residual, predicted);
                 return residual;
             });
-            codes[t] = writer.encoder.finish();
+        return writer.encoder.finish();
+    }
+
+    // Replaces the prediction by what decoding gives.
+    void encode_codes(const LightFieldTile& tile, const Rule& rule, LightFieldTile& prediction, bool apart,
+                      ByteWriter& bytes) const {
+        const std::size_t across = apart ? tile.range.ns : 1, a_code = tile.range.ns / across;
+        std::vector<std::vector<std::uint8_t>> codes(across * tile.range.nt);
+        parallel_for(codes.size(), [&](std::size_t k) {
+            const std::size_t s = k % across;
+            codes[k] = encode_code(tile, rule, prediction, k / across, s, s + a_code, &prediction);
         });
         for (const auto& code : codes) bytes.put(static_cast<std::uint32_t>(code.size()));
         for (const auto& code : codes) bytes.put(std::span(code));
     }
-    // In place of the prediction.
-    template <class Rule>
-    void decode_rows(ByteReader& bytes, const Rule& rule, LightFieldTile& tile) const {
-        std::vector<std::uint32_t> sizes;
-        for (std::size_t t = 0; t < tile.range.nt; ++t) sizes.push_back(bytes.take<std::uint32_t>());
-        std::vector<std::span<const std::uint8_t>> codes;
-        for (const std::uint32_t size : sizes) codes.push_back(bytes.take(size));
-        if (bytes.left() > 0) bytes.damaged("bytes are left over");
-        parallel_for(codes.size(), [&](std::size_t t) {
-            ResidualReader reader(codes[t]);
-            const auto models = std::make_unique<ResidualModels>();
-            for_each_sample(tile, t, [&](std::size_t at, const ResidualsAround::Context& context) {
-                const Residual residual = code_residual(reader, *models, context, {});
-                float& value = tile.radiance.data()[at];
-                value = residual.special ? rule.code_special(reader, 0) : rule.restore(residual, value);
-                return residual;
-            });
-            if (reader.decoder.ended()) bytes.damaged("it ends too early");
-            if (!reader.decoder.all_read()) bytes.damaged("bytes are left over");
-        });
-    }
-    const DirectionCross& counted() const { return counted_; }
 
-  private:
     std::unique_ptr<TileCoder> predictor_;
     DirectionCross counted_;
     std::uint32_t version_;
-};
-
-class LosslessCoder final : public ExactCoder {
-  public:
-    using ExactCoder::ExactCoder;
-
-    Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
-        int zero_bits = 31;
-        for (const float value : tile.radiance.elements())
-            zero_bits = std::min(zero_bits, std::countr_zero(std::bit_cast<std::uint32_t>(value)));
-        ByteWriter writer;
-        auto [decoded, layers] = encode_prediction(tile, step, writer);
-        writer.put(static_cast<std::uint8_t>(zero_bits));
-        encode_rows(tile, Ordered(zero_bits), decoded, writer);
-        layers.push_back(writer.bytes.size());
-        return {std::move(writer.bytes), 0, std::move(layers)};
-    }
-    void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        ByteReader reader(bytes, "tile");
-        decode_prediction(reader, tile);
-        const auto zero_bits = reader.take<std::uint8_t>();
-        if (zero_bits > 31) reader.damaged("its floats have no bits");
-        decode_rows(reader, Ordered(zero_bits), tile);
-    }
-};
-
-class BoundedCoder final : public ExactCoder {
-  public:
-    BoundedCoder(const LightFieldGrid& grid, const DirectionCross& counted, double max_error, std::uint32_t version)
-        : ExactCoder(grid, counted, version), max_error_(max_error) {}
-
-    Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
-        ByteWriter writer;
-        auto [decoded, layers] = encode_prediction(tile, step, writer);
-        writer.put(max_error_);
-        encode_rows(tile, Bounded(max_error_), decoded, writer);
-        layers.push_back(writer.bytes.size());
-        return {std::move(writer.bytes), squared_error(tile, decoded, counted()), std::move(layers)};
-    }
-    void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        ByteReader reader(bytes, "tile");
-        decode_prediction(reader, tile);
-        const double max_error = reader.take_double();
-        if (!(max_error > 0 && std::isfinite(max_error))) reader.damaged("its bound is no bound");
-        decode_rows(reader, Bounded(max_error), tile);
-    }
-
-  private:
     double max_error_;
 };
 
@@ -248,12 +359,12 @@ class BoundedCoder final : public ExactCoder {
 
 std::unique_ptr<TileCoder> make_lossless_coder(const LightFieldGrid& grid, const DirectionCross& counted,
                                                std::uint32_t version) {
-    return std::make_unique<LosslessCoder>(grid, counted, version);
+    return std::make_unique<ExactCoder<Ordered>>(grid, counted, version, 0);
 }
 
 std::unique_ptr<TileCoder> make_bounded_coder(const LightFieldGrid& grid, const DirectionCross& counted,
                                               double max_error, std::uint32_t version) {
-    return std::make_unique<BoundedCoder>(grid, counted, max_error, version);
+    return std::make_unique<ExactCoder<Bounded>>(grid, counted, version, max_error);
 }
 
 }  // namespace hogel

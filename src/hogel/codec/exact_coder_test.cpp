@@ -145,6 +145,25 @@ TEST(Exact, other_coders_are_refused) {
     EXPECT_THROW(compress(field, folder / "a.hgl", options), Error);
 }
 
+// Large hogels have codes of their own, small ones one a row; any part of a tile is read the same.
+TEST(Exact, reads_any_hogels_the_same) {
+    const TestFolder folder;
+    for (const std::size_t directions : {std::size_t{16}, std::size_t{128}}) {
+        const LightField field = textured_planes(5, 4, directions, directions, 1);
+        compress(field, folder / "a.hgl", lossless());
+        for (const HogelRange& range : {HogelRange{3, 2, 1, 1}, {1, 0, 3, 3}, {0, 3, 5, 1}, {4, 1, 1, 2}}) {
+            const auto source = open_stream(folder / "a.hgl");
+            for (const HogelRange& next : {range, HogelRange{0, 0, 5, 4}}) {
+                LightFieldTile tile(field.grid(), next, false), expected = tile;
+                source->read(tile);
+                field.read(expected);
+                for (std::size_t k = 0; k < tile.radiance.size(); ++k)
+                    ASSERT_EQ(tile.radiance.data()[k], expected.radiance.data()[k]) << directions;
+            }
+        }
+    }
+}
+
 // Whatever the bytes are, decoding ends, in an Error(bad_input) or with a tile.
 TEST(Exact, bytes_of_any_kind_do_no_harm) {
     const LightField field = with_oddities(1);
@@ -155,6 +174,14 @@ TEST(Exact, bytes_of_any_kind_do_no_harm) {
     };
     try_coder(*make_lossless_coder(field.grid(), {}));
     try_coder(*make_bounded_coder(field.grid(), {}, 0.01));
+    // A hogel with a code of its own.
+    LightField noise(LightFieldGrid{1, 1, 1e-3, 72, 64, 0.3, 0.3, 1});
+    std::uint32_t k = 0;
+    for (float& value : noise.radiance.elements()) value = static_cast<float>(philox({k++, 7, 7, 7}, {1, 2})[0]);
+    LightFieldTile one(noise.grid(), {0, 0, 1, 1}, false);
+    noise.read(one);
+    const auto coder = make_lossless_coder(noise.grid(), {});
+    expect_harmless_damage(*coder, coder->encode(one, 1).bytes, one, 997, 499);
 }
 
 }  // namespace

@@ -10,13 +10,19 @@ namespace {
 constexpr int most_state = 40;
 constexpr double bits_of_change = 7;  // what it takes to tell another state, about
 
+// Where a state is in a table.
+std::size_t place_of(int state) {
+    const int place = state + most_state;
+    return static_cast<std::size_t>(place);
+}
+
 struct Probabilities {
     std::array<std::uint16_t, 2 * most_state + 1> zero;          // of 2¹⁶
     std::array<std::array<double, 2>, 2 * most_state + 1> bits;  // that a zero and a one take
     Probabilities() {
         for (int state = -most_state; state <= most_state; ++state) {
             const double p = 1 / (1 + std::exp2(-state / 4.0));
-            const auto at = static_cast<std::size_t>(state + most_state);
+            const std::size_t at = place_of(state);
             zero[at] = static_cast<std::uint16_t>(std::lround(65536 * p));
             bits[at] = {-std::log2(p), -std::log2(1 - p)};
         }
@@ -25,7 +31,7 @@ struct Probabilities {
 const Probabilities probabilities;
 
 double bits_for(const BitCount& count, int state) {
-    const auto& bits = probabilities.bits[static_cast<std::size_t>(state + most_state)];
+    const auto& bits = probabilities.bits[place_of(state)];
     return count[0] * bits[0] + count[1] * bits[1];
 }
 
@@ -44,7 +50,7 @@ ModelStates::ModelStates(BlockCounts& counts, const ModelStates& before) {
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
         const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -most_state, most_state);
         const bool worth_it = bits_for(count, found) + bits_of_change < bits_for(count, old);
-        states_.push_back(static_cast<std::int8_t>(worth_it ? found : old));
+        states_.push_back(worth_it ? found : old);
     });
 }
 
@@ -52,8 +58,7 @@ BlockModels ModelStates::models() const {
     BlockModels models;
     std::size_t at = 0;
     models.for_each([&](BitModel& model) {
-        if (at < states_.size())
-            model = BitModel(probabilities.zero[static_cast<std::size_t>(states_[at++] + most_state)]);
+        if (at < states_.size()) model = BitModel(probabilities.zero[place_of(states_[at++])]);
     });
     return models;
 }
@@ -74,7 +79,7 @@ void ModelStates::code(Coder& coder, const ModelStates& before) {
                 code_number(coder, size, static_cast<std::uint32_t>(std::abs(difference) - 1)), 2 * most_state));
             state += negative ? -found - 1 : found + 1;
         }
-        states_[k] = static_cast<std::int8_t>(std::clamp(state, -most_state, most_state));
+        states_[k] = std::clamp(state, -most_state, most_state);
     }
 }
 

@@ -24,7 +24,7 @@ class ModelStates {
     void code(Coder& coder, const ModelStates& before);
 
   private:
-    std::vector<std::int8_t> states_;
+    std::vector<int> states_;
 };
 
 // The lengths of codes that follow each other.

@@ -67,10 +67,10 @@ StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& 
     : output_(path),
       spool_(path),
       spooled_(spool_.temporary(), RawFile::Mode::create, path),
-      header_(header_of(info)),
+      info_(info),
+      header_bytes_(header_of(info).size()),
       layers_(info.layer_ends.size()),
-      depth_(std::move(depth)),
-      depth_bytes_(info.depth.bytes) {
+      depth_(std::move(depth)) {
     for (const LightFieldGrid& part : coded_parts(info))
         if (!tile_fits(part, info.tile))
             throw Error(ErrorCode::usage,
@@ -96,10 +96,12 @@ void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const st
 }
 
 std::uint64_t StreamWriter::overhead(std::size_t tiles) const {
-    return header_.size() + tiles * layers_ * entry_bytes + checksum_bytes + depth_bytes_;
+    return header_bytes_ + tiles * layers_ * entry_bytes + checksum_bytes + info_.depth.bytes;
 }
 
-void StreamWriter::finish() {
+void StreamWriter::finish(std::uint64_t filler) {
+    info_.filler = filler;
+    const Bytes header = header_of(info_);
     std::vector<StreamEntry> entries;  // layer by layer
     for (std::size_t layer = 0; layer < layers_; ++layer)
         for (std::size_t k = layer; k < entries_.size(); k += layers_) entries.push_back(entries_[k]);
@@ -110,9 +112,9 @@ void StreamWriter::finish() {
     }
     index.put(checksum(index.bytes));
     RawFile file(output_.temporary(), RawFile::Mode::create, output_.target());
-    file.write(0, header_.data(), header_.size());
-    file.write(header_.size(), index.bytes.data(), index.bytes.size());
-    std::uint64_t at = header_.size() + index.bytes.size();
+    file.write(0, header.data(), header.size());
+    file.write(header.size(), index.bytes.data(), index.bytes.size());
+    std::uint64_t at = header.size() + index.bytes.size();
     Bytes bytes;
     const auto copy = [&](const RawFile& from, std::uint64_t offset, std::uint64_t count) {
         bytes.resize(count);
@@ -121,11 +123,11 @@ void StreamWriter::finish() {
         at += bytes.size();
     };
     for (const StreamEntry& entry : entries) copy(spooled_, entry.offset, entry.bytes);
-    if (depth_bytes_ > 0) {
+    if (info_.depth.bytes > 0) {
         constexpr std::uint64_t most = std::uint64_t{1} << 24;
         const RawFile depth(depth_, RawFile::Mode::read, depth_);
-        for (std::uint64_t done = 0; done < depth_bytes_; done += most)
-            copy(depth, done, std::min(most, depth_bytes_ - done));
+        for (std::uint64_t done = 0; done < info_.depth.bytes; done += most)
+            copy(depth, done, std::min(most, info_.depth.bytes - done));
     }
     file.close();
     output_.commit();

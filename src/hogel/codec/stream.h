@@ -20,6 +20,7 @@ struct StreamInfo {
     std::vector<LightFieldGrid> sides = {};  ///< further faces of a hemicube, whose front is `grid`
     HemicubeLayout layout = HemicubeLayout::faces;
     std::uint32_t version = latest_version;  ///< of the format
+    std::uint64_t filler = 0;                ///< bytes that say nothing, so that the file is as long as was asked for
     /// How often the file gets finer: where each layer of all tiles ends in it, the last one at its end. Older versions
     /// have a single one.
     std::vector<std::uint64_t> layer_ends = {};

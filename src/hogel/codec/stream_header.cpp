@@ -7,6 +7,8 @@ namespace hogel {
 namespace {
 
 constexpr std::uint32_t most_layers = 64;
+constexpr std::string_view filler_name = "filler";
+static_assert(least_filler == 2 * sizeof(std::uint32_t) + filler_name.size());
 
 constexpr std::string_view layout_name(HemicubeLayout layout) {
     return layout == HemicubeLayout::faces ? "faces" : "unfolded";
@@ -65,8 +67,10 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     fields.put(std::uint64_t{info.tile.nt});
     fields.put(std::string_view(info.method.coder));
     fields.put(std::string_view(info.method.transform));
-    fields.put(static_cast<std::uint32_t>(info.metadata.size()));
-    for (const auto& [name, value] : info.metadata) {
+    Metadata words = info.metadata;
+    if (info.filler > 0) words.emplace_back(filler_name, std::string(info.filler - least_filler, ' '));
+    fields.put(static_cast<std::uint32_t>(words.size()));
+    for (const auto& [name, value] : words) {
         fields.put(std::string_view(name));
         fields.put(std::string_view(value));
     }
@@ -99,7 +103,11 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
     const auto words = reader.take<std::uint32_t>();
     for (std::uint32_t i = 0; i < words; ++i) {
         std::string name = reader.take_text();
-        info.metadata.emplace_back(std::move(name), reader.take_text());
+        std::string value = reader.take_text();
+        if (name == filler_name)
+            info.filler += least_filler + value.size();
+        else
+            info.metadata.emplace_back(std::move(name), std::move(value));
     }
     if (version > 1) take_sides(reader, info);
     const auto layers = version > 2 ? reader.take<std::uint32_t>() : 1;

@@ -57,15 +57,16 @@ class StreamWriter {
     std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
     // What a file of so many tiles, of all parts, has beside them.
     std::uint64_t overhead(std::size_t tiles) const;
-    void finish();
+    // @param filler   by how many bytes the file is longer than size(): 0, or least_filler to most_filler
+    void finish(std::uint64_t filler = 0);
 
   private:
     OutputFile output_, spool_;
     RawFile spooled_;  // tile by tile
-    std::vector<std::uint8_t> header_;
+    StreamInfo info_;
+    std::size_t header_bytes_;  // without filler
     std::size_t layers_;
     std::filesystem::path depth_;
-    std::uint64_t depth_bytes_;
     std::uint64_t next_ = 0;
     std::vector<StreamEntry> entries_;  // the layers of each tile
 };

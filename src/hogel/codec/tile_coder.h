@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,8 +41,8 @@ class TileCoder {
     virtual std::size_t most_at_once() const { return std::numeric_limits<std::size_t>::max(); }
     /// True where radiance that is not finite is coded as it is.
     virtual bool takes_any_value() const { return false; }
-    /// True where encode() heeds most_bytes: any prefix of the bytes decodes to a coarser tile.
-    virtual bool embedded() const { return false; }
+    /// What is left of a tile at least, where encode() heeds most_bytes: with more of its bytes it is finer.
+    virtual std::optional<std::size_t> least_bytes(const LightFieldGrid&) const { return std::nullopt; }
     /// @param step   the quantiser's, in units of radiance: the larger, the coarser. An error is about step/√12 where
     ///               the tile holds detail of that size, and less elsewhere.
     virtual Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes = no_limit) const = 0;

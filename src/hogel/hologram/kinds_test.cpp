@@ -122,11 +122,11 @@ TEST(HemicubeStereogram, of_the_front_alone_is_that_of_its_front_face) {
     const LightFieldGrid grid{1, 1, 36_um, 48, 48, 1, 1, 1};
     const std::vector<LightFieldGrid> faces = hemicube(grid);
     const FrequencyGrid front(faces.front(), 64, 633_nm), all(faces, 64, 633_nm);
-    std::vector<float> radiance(all.rays()), a(64 * 64), b(64 * 64);
+    std::vector<float> radiance(all.rays()), a(std::size_t{64} * 64), b(a.size());
     for (std::size_t l = 0; l < 48; ++l)
         for (std::size_t k = 0; k < 48; ++k)
             radiance[l * 48 + k] = float(2 + std::sin(2 * grid.u(double(k))) * grid.v(double(l)));
-    front.amplitudes(std::span(radiance).first(48 * 48), a);
+    front.amplitudes(std::span(radiance).first(std::size_t{48} * 48), a);
     all.amplitudes(radiance, b);
     // Well within the front; its plain version takes a lobe for a rectangle in U and V.
     for (int j = -20; j <= 20; ++j)
@@ -148,11 +148,11 @@ TEST(FrequencyGridLightField, is_taken_as_it_is_and_agrees_with_one_in_perspecti
     };
     const LightField exact = light_field_of(sines, light);
     const FrequencyGrid frequencies(sines, 64, wavelength);
-    std::vector<float> moduli(64 * 64);
+    std::vector<float> moduli(std::size_t{64} * 64);
     frequencies.amplitudes({&exact.radiance(0, 1, 1, 0, 0), sines.directions()}, moduli);
     const LightFieldGrid tangents{2, 2, pitch, 301, 301, 0.15, 0.15, 1};
     const LightField seen = light_field_of(tangents, light);
-    std::vector<float> interpolated(64 * 64);
+    std::vector<float> interpolated(std::size_t{64} * 64);
     FrequencyGrid(tangents, 64, wavelength)
         .amplitudes({&seen.radiance(0, 1, 1, 0, 0), tangents.directions()}, interpolated);
     for (int j = -13; j <= 13; ++j)
@@ -160,7 +160,8 @@ TEST(FrequencyGridLightField, is_taken_as_it_is_and_agrees_with_one_in_perspecti
             const std::size_t at = std::size_t((64 - j) % 64) * 64 + std::size_t((64 + i) % 64);
             const double cosine = std::sqrt(1 - (i * i + j * j) * step * step);
             // The ray of frequency (i, j)/d looks the other way: column 15 − i, and rows run down.
-            const double L = exact.radiance(0, 1, 1, std::size_t(13 + j), std::size_t(15 - i));
+            const int l = 13 + j, k = 15 - i;
+            const double L = exact.radiance(0, 1, 1, std::size_t(l), std::size_t(k));
             EXPECT_NEAR(moduli[at], step * std::sqrt(L / cosine), 1e-6 * step) << i << " " << j;
             EXPECT_NEAR(interpolated[at] / moduli[at], 1, 1e-3) << i << " " << j;
         }

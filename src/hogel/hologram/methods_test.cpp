@@ -76,7 +76,8 @@ std::vector<double> focus_of(const FieldSource& source, const Vec3& point, doubl
                     const double r = std::sqrt(dx * dx + dy * dy + point.z * point.z);
                     sum += std::complex<double>(field(row, column)) * std::polar(1.0, (point.z < 0 ? -k : k) * r);
                 }
-            intensity[std::size_t(i + steps)] += std::norm(sum);
+            const int place = i + steps;
+            intensity[std::size_t(place)] += std::norm(sum);
         }
     }
     return intensity;
@@ -160,7 +161,8 @@ TEST_P(PointFocus, is_as_wide_as_one_hogel_makes_it_in_a_plain_stereogram) {
             for (int ray = -10; ray <= 10; ++ray) {
                 const double x = std::numbers::pi * (i / 80.0 - lobe / 21.0 - hat * ray / 10.0);
                 const double sinc = std::abs(x) < 1e-9 ? 1 : std::sin(x) / x;
-                expected[std::size_t(i + 80)] += sinc * sinc * (1 - std::abs(ray) / 10.0);
+                const int place = i + 80;
+                expected[std::size_t(place)] += sinc * sinc * (1 - std::abs(ray) / 10.0);
             }
     EXPECT_NEAR(inner_half(focus_of(*hologram(Phases::random, 6), point, zero)), inner_half(expected), 0.05);
     EXPECT_GT(inner_half(focus_of(*hologram(Phases::added_exactly), point, zero)), 0.97);

@@ -112,6 +112,7 @@ void describe(const StreamInfo& info, FileSummary& summary) {
          {"tile_s", static_cast<double>(info.tile.ns)},
          {"tile_t", static_cast<double>(info.tile.nt)},
          {"pixels_per_bit", pixels / (8 * static_cast<double>(info.layer_ends.back() + info.depth.bytes))}});
+    if (info.filler > 0) summary.numbers.emplace_back("filler_bytes", static_cast<double>(info.filler));
     summary.text.insert(summary.text.end(), info.metadata.begin(), info.metadata.end());
 }
 
