@@ -44,7 +44,8 @@ struct LaneOrder {
     LaneOrder() {
         const std::size_t half = hn::Lanes(FloatTag()) / 2;
         for (std::size_t i = 0; i < 2 * half; ++i) {
-            in_order[i] = static_cast<float>(i % 4 / 2 * half + i / 4 * 2 + i % 2);
+            const std::size_t direction = i % 4 / 2 * half + i / 4 * 2 + i % 2;
+            in_order[i] = static_cast<float>(direction);
             steps[i] = static_cast<float>(i);
         }
     }

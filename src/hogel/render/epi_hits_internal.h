@@ -70,7 +70,7 @@ HWY_INLINE std::uint64_t bits_of(hn::Mask<NumberTag> mask) {
     hn::StoreMaskBits(NumberTag(), mask, bytes);
     std::uint64_t bits;
     std::memcpy(&bits, bytes, sizeof(bits));
-    return hn::Lanes(NumberTag()) < 8 ? bits & 0xff : bits;
+    return bits;
 }
 
 // How many hits or candidates are kept before they are worked off, and what a vector may write beyond them.

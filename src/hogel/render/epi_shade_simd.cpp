@@ -32,17 +32,18 @@ using FloatTag = hn::ScalableTag<float>;
 using NumberTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 
-// Four floats from each of these places, one after the other.
-HWY_INLINE Floats load_blocks(const float* const* from) {
+// Four floats so far behind each fourth of these places, one after the other.
+HWY_INLINE Floats load_blocks(const float* const* places, std::size_t behind) {
     const FloatTag d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
+    const auto in_all_blocks = [&](std::size_t i) HWY_ATTR { return hn::LoadDup128(d, places[i] + behind); };
     if constexpr (lanes == 4)
-        return hn::LoadU(d, from[0]);
+        return in_all_blocks(0);
     else if constexpr (lanes == 8)
-        return hn::OddEvenBlocks(hn::LoadDup128(d, from[4]), hn::LoadDup128(d, from[0]));
+        return hn::OddEvenBlocks(in_all_blocks(4), in_all_blocks(0));
     else
-        return hn::ConcatUpperLower(d, hn::OddEvenBlocks(hn::LoadDup128(d, from[12]), hn::LoadDup128(d, from[8])),
-                                    hn::OddEvenBlocks(hn::LoadDup128(d, from[4]), hn::LoadDup128(d, from[0])));
+        return hn::ConcatUpperLower(d, hn::OddEvenBlocks(in_all_blocks(12), in_all_blocks(8)),
+                                    hn::OddEvenBlocks(in_all_blocks(4), in_all_blocks(0)));
 }
 
 // Four vectors, whose block b holds four floats of sample 4 b + i, become those floats of all samples: and back.
@@ -82,11 +83,7 @@ HWY_INLINE void shade_several(const std::uint64_t* words, const StripShades* str
                               Floats (&values)[4]) {
     const float* from[hn::MaxLanes(FloatTag())];
     for (std::size_t i = 0; i < hn::MaxLanes(FloatTag()); ++i) from[i] = &strips[words[i] & 0xffffffff].x0;
-    const auto load = [&](std::size_t first, std::size_t part) HWY_ATTR {
-        const float* of_part[hn::MaxLanes(FloatTag())];
-        for (std::size_t i = first; i < hn::MaxLanes(FloatTag()); i += 4) of_part[i - first] = from[i] + part;
-        return load_blocks(of_part);
-    };
+    const auto load = [&](std::size_t first, std::size_t behind) HWY_ATTR { return load_blocks(from + first, behind); };
     Floats place[4] = {load(0, 0), load(1, 0), load(2, 0), load(3, 0)};
     transpose(place);
     const Floats part = parts_of_strips(n, K, place);
