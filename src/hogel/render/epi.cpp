@@ -75,7 +75,8 @@ class EpiRenderer final : public LightFieldSource {
                                               std::min(columns, hogels - column),
                                               directions,
                                               frame_.first_column() + static_cast<std::int32_t>(first_column + column),
-                                              frame_.first_direction(), scene_->fronts_only};
+                                              frame_.first_direction(),
+                                              scene_->fronts_only};
                     draw_plane(plane, place, work);
                     if (axes_.turned())
                         shade_turned_plane(tile, plane, work, {first_row + row, first_column + column, slow});
