@@ -49,17 +49,26 @@ class Models(dict):
 
 def model_names(version):
     """All models of hogels, in the order in which a stream tells their states."""
+    def of_first(of, moved):
+        return [(of, name, moved, spread, around) for spread in range(4) for around in range(3)
+                for name in ("not first", "none")]
+
     def of_disparity(of):
-        names = [(of, name, spread, around) for spread in range(4) for around in range(3)
-                 for name in ("not first", "none")]
+        names = of_first(of, 0)
         names += [(of, "which", spread, k) for spread in range(4) for k in range(4)]
         return names + [(of, "sign")] + [((of, "difference"), k) for k in range(31)]
 
-    names = [("mode", context, k) for context in range(3) for k in range(6)]
+    def of_coded(moved, kinds):
+        return [("coded", moved, c, kind, surprising, around) for c in (False, True) for kind in kinds
+                for surprising in (False, True) for around in range(3)]
+
+    def of_mode(moved):
+        return [("mode", moved, context, k) for context in range(3) for k in range(6)]
+
+    names = of_mode(0)
     names += [("within", k) for k in range(3)]
     names += of_disparity("main")
-    names += [("coded", c, kind, surprising, around) for c in (False, True) for kind in ("any", "side", "within")
-              for surprising in (False, True) for around in range(3)]
+    names += of_coded(0, ("any", "side", "within"))
     for c in (False, True):
         for within in (False, True):
             of = (c, within)
@@ -69,12 +78,18 @@ def model_names(version):
             names += [(of, "above 1", total) for total in range(8)] + [(of, "above 2", total) for total in range(8)]
             names += [((of, "rest"), k) for k in range(31)]
     if version > 3:
-        names += [("parted", context) for context in range(3)]
+        names += [("parted", 0, context) for context in range(3)]
         names += [(part, "side", k) for part in ("main", "beyond") for k in range(4)]
         names += [("angle", node) for node in range(32)] + [("place", node) for node in range(4)]
         names += of_disparity("beyond")
-        names += [("coded", c, "parted", surprising, around) for c in (False, True) for surprising in (False, True)
-                  for around in range(3)]
+        names += of_coded(0, ("parted",))
+    if version > 4:
+        for moved in (1, 2):
+            names += of_mode(moved) + of_first("main", moved) + of_coded(moved, ("any", "side", "within"))
+            names += [("parted", moved, context) for context in range(3)]
+            names += of_first("beyond", moved) + of_coded(moved, ("parted",))
+        names += [("turn", node) for node in range(32)]
+        names += [("place", of, node) for of in range(4) for node in range(4)]
     return names
 
 
@@ -133,8 +148,11 @@ class Decoder:
         return value - 1
 
 
-def levels_of_places(n):
+def levels_of_places(version, n):
     level, ends, result = 1, [0, n - 1], [0] * n
+    if version > 4:
+        level, ends, result = 2, sorted({0, (n - 1) // 2, n - 1}), [1] * n
+        result[(n - 1) // 2] = 0
     while True:
         grown = []
         for a, b in zip(ends, ends[1:]):
@@ -162,9 +180,9 @@ def nearest(references, count):
     return [(k, i, j) for k, i, j in references if abs(i + j) in far((i > 0, i < 0, j > 0, j < 0))]
 
 
-def order_of(columns, rows, references_a_side, tellers_a_side):
+def order_of(version, columns, rows, references_a_side, tellers_a_side):
     """The hogels in their order, and for each its references and tellers (place in the order, i, j)."""
-    of_column, of_row = levels_of_places(columns), levels_of_places(rows)
+    of_column, of_row = levels_of_places(version, columns), levels_of_places(version, rows)
     top = max(of_column + of_row)
     waves = [[(s, t)] for t in range(rows) for s in range(columns) if of_column[s] == of_row[t] == 0]
     for level in range(1, top + 1):
@@ -221,7 +239,7 @@ class Tile:
         self.channels, self.height, self.width = shape
         self.across, self.down, self.aspect = -(-self.width // 8), -(-self.height // 8), aspect
         sides = (64, 64) if version < 3 else (source.take("B"), 1)
-        self.hogels, top = order_of(columns, rows, *sides)
+        self.hogels, top = order_of(version, columns, rows, *sides)
         self.steps = [step] * (top + 1)
         for level in range(top - 1, -1, -1):
             self.steps[level] = self.steps[level + 1] / growth
@@ -272,8 +290,8 @@ class Tile:
                 far = (u % 512 - 256)**2 + (v % 512 - 256)**2 + (i * i + j * j) * 2048
                 d = block["disparity"]
                 if place not in kept or d > kept[place][0] + 12 or (d > kept[place][0] - 12 and far < kept[place][1]):
-                    kept[place] = d, far
-        return {place: d for place, (d, _) in kept.items()}
+                    kept[place] = d, far, block
+        return {place: block for place, (_, _, block) in kept.items()}
 
     def candidates(self, hogel, n, moved):
         blocks, result = hogel.blocks, []
@@ -285,7 +303,7 @@ class Tile:
 
         left, above = n % self.across > 0, n >= self.across
         if n in moved:
-            add(moved[n])
+            add(moved[n]["disparity"])
         if left:
             add(blocks[n - 1]["disparity"])
         if above:
@@ -296,7 +314,10 @@ class Tile:
         if hogel.tellers and len(result) < 4:
             add(self.hogels[hogel.tellers[0][0]].blocks[n]["disparity"])
         near = [blocks[k] for k in [n - 1] * left + [n - self.across] * above]
-        near += [self.hogels[k].blocks[n] for k, _, _ in hogel.tellers[:1]]
+        if self.version > 4:
+            near += [moved[n]] if n in moved else []
+        else:
+            near += [self.hogels[k].blocks[n] for k, _, _ in hogel.tellers[:1]]
         for block in near:
             if block["mode"] == 6:
                 add(block["beyond"])
@@ -314,13 +335,13 @@ class Tile:
             node = node * 2 + self.decoder.bit(self.models[(*name, node)])
         return node - 2**bits
 
-    def disparity(self, of, candidates, around, unit):
+    def disparity(self, of, candidates, before, around, unit):
         bit, models = self.decoder.bit, self.models
         far = max(abs(c - candidates[0]) for c in candidates)
         spread = 0 if far == 0 else 1 if far <= 2 else 2 if far <= 12 else 3
-        if not bit(models[of, "not first", spread, around]):
+        if not bit(models[of, "not first", before, spread, around]):
             return candidates[0]
-        if not bit(models[of, "none", spread, around]):
+        if not bit(models[of, "none", before, spread, around]):
             k = 1
             while k + 1 < len(candidates) and bit(models[of, "which", spread, min(k, 3)]):
                 k += 1
@@ -357,34 +378,42 @@ class Tile:
                     hogel.blocks[n - self.across] if n >= self.across else None]
             near = [b for b in near if b]
             block = {"mode": 0, "within": 0}
+            of = moved.get(n) if self.version > 4 else None  # what tells
+            before = 0 if of is None else 1 if of["mode"] == 1 else 2
             if not first:
                 odd = sum(b["mode"] != 1 for b in near)
-                if not bit(models["mode", odd, 0]):
+                if not bit(models["mode", before, odd, 0]):
                     block["mode"] = 1
-                elif self.version > 3 and bit(models["parted", odd]):
+                elif self.version > 3 and bit(models["parted", before, odd]):
                     block["mode"] = 6
-                elif bit(models["mode", odd, 1]):
+                elif bit(models["mode", before, odd, 1]):
                     block["mode"] = 2
-                    while block["mode"] < 5 and bit(models["mode", odd, block["mode"]]):
+                    while block["mode"] < 5 and bit(models["mode", before, odd, block["mode"]]):
                         block["mode"] += 1
             if block["mode"] == 0:
                 block["within"] = self.unary(("within",), 3)
             candidates = self.candidates(hogel, n, moved)
             block["disparity"] = candidates[0]
             if block["mode"] or first:
-                block["disparity"] = self.disparity("main", candidates, sum(b["surprising"] for b in near), unit)
+                block["disparity"] = self.disparity("main", candidates, before,
+                                                    sum(b["surprising"] for b in near), unit)
             if block["mode"] == 6:
                 block["sides"] = [self.unary((part, "side"), 4) for part in ("main", "beyond")]
-                block["line"] = self.path(("angle",), 5) * 4
-                block["line"] += self.path(("place",), 2)
-                block["beyond"] = self.disparity("beyond", candidates, 0, unit)
+                if of and of["mode"] == 6:
+                    block["line"] = (of["line"] // 4 + self.path(("turn",), 5)) % 32 * 4
+                    block["line"] += self.path(("place", of["line"] % 4), 2)
+                else:
+                    block["line"] = self.path(("angle",), 5) * 4
+                    block["line"] += self.path(("place",), 2)
+                block["beyond"] = self.disparity("beyond", candidates, before, 0, unit)
             block["surprising"] = block["disparity"] != candidates[0]
             kind = "within" if block["mode"] == 0 else "any" if block["mode"] == 1 else "parted" if block["mode"] == 6 else "side"
             block["coded"] = []
             hogel.blocks.append(block)
             for c in range(self.channels):
                 around = sum(b["coded"][c] for b in near)
-                block["coded"].append(bit(models["coded", c > 0, kind, block["surprising"], around]))
+                had = 0 if of is None else 2 if of["coded"][c] else 1
+                block["coded"].append(bit(models["coded", had, c > 0, kind, block["surprising"], around]))
                 levels = self.levels((c > 0, kind == "within")) if block["coded"][c] else None
                 self.reconstruct(hogel, n, block, c, levels)
         hogel.picture = self.picture
@@ -450,6 +479,8 @@ class Tile:
             prediction = self.predict_within(plane, x, y, block["within"])
         residual = np.zeros((8, 8), f32)
         if levels is not None:
+            if self.version > 4:
+                levels = levels + np.sign(levels) * f32(3 / 16 if block["mode"] else 1 / 16)
             coefficients, across = levels * self.steps[hogel.level], np.zeros((8, 8), f32)
             for j in range(8):
                 across = across + coefficients[:, j:j + 1] * COSINES[j:j + 1, :]

@@ -15,10 +15,12 @@ namespace {
 // Bits that things cost, as they are taken into account: about what they come to.
 constexpr float within = 12, coded_block = 8, coded_level = 3.5f;
 // What is added before rounding down: less than a half, as smaller levels take fewer bits.
-constexpr float rounding_within = 0.36f, rounding_across = 0.25f;
+constexpr float rounding_within = 0.36f, rounding_across = 0.2f;
 // A block whose disparity is that of the block beside it, with less error than this in squared steps, is looked at no
 // further.
 constexpr float well_estimated = 1;
+// The error, in squared finest steps a block, from which on neighbours do not show the same.
+constexpr float most_shared_error = 6.4f;
 // Bits that parts take, and how many more there have to be before they are looked for.
 constexpr float in_parts = 14, least_gain_by_parts = 16;
 constexpr std::int32_t most_level = 1 << 24;
@@ -40,7 +42,9 @@ struct CodedChannel {
 
 // The levels of what a prediction leaves, whose sum of squares is `error`; none where they cost more than they are
 // worth.
-void quantise(const BlockSamples& truth, float error, float step, float rounding, CodedChannel& coded) {
+void quantise(const BlockSamples& truth, float error, float step, bool from_within, float beyond_level,
+              CodedChannel& coded) {
+    const float rounding = from_within ? rounding_within : rounding_across;
     const float worth = bit_worth * step * step;
     coded.cost = error;
     coded.any_levels = false;
@@ -56,8 +60,8 @@ void quantise(const BlockSamples& truth, float error, float step, float rounding
         const float size = std::min(std::abs(coefficients[k]) * per_step, static_cast<float>(most_level));
         const auto level = static_cast<std::int32_t>(size + rounding);
         const std::size_t frequency = k / block_side + k % block_side;
-        if (level == 0 || (frequency > 7 && level == 1 && size < 0.9f)) continue;
-        const float left = size - static_cast<float>(level);
+        if (level == 0) continue;
+        const float left = size - (static_cast<float>(level) + beyond_level);
         gain += size * size - left * left;
         coded.levels[k] = coefficients[k] < 0 ? -level : level;
         bits += coded_level + 2 * static_cast<float>(std::bit_width(static_cast<std::uint32_t>(level)) - 1) +
@@ -70,8 +74,7 @@ void quantise(const BlockSamples& truth, float error, float step, float rounding
 
 }  // namespace
 
-std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const LightFieldTile& tile,
-                                               const HogelOrder::Hogel& hogel) {
+Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile, const HogelOrder::Hogel& hogel) {
     const Picture picture = picture_of(tile, setup, hogel.s, hogel.t);
     const Plane& here = picture[0];
     struct Neighbour {
@@ -87,7 +90,10 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
     std::size_t counted = 0;
     for (const auto& axis : neighbours) counted += (axis.size() + 1) / 2;
     const float well_known = well_estimated * static_cast<float>(counted) * setup.step[0] * setup.step[0];
-    std::vector<std::int16_t> result(setup.grid.count());
+    const float not_shared = most_shared_error * static_cast<float>(counted) * setup.step.back() * setup.step.back();
+    Estimate estimate;
+    std::vector<std::int16_t>& result = estimate.disparities;
+    result.resize(setup.grid.count());
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const std::size_t column = k % setup.grid.columns, row = k / setup.grid.columns;
         const int x = static_cast<int>(column * block_side), y = static_cast<int>(row * block_side);
@@ -152,12 +158,13 @@ std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const Lig
         for (; part >= 2; part /= 2)
             for (const int middle = best; const int sign : {-1, 1}) try_one(middle + sign * part, false);
         result[k] = static_cast<std::int16_t>(best);
+        if (least < not_shared) estimate.shared += (1 - least / not_shared) / static_cast<float>(result.size());
     }
-    return result;
+    return estimate;
 }
 
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
-                   const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
+                   const std::vector<const Block*>& moved, const std::vector<Block>* beside,
                    const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures) {
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
@@ -198,20 +205,20 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
             else
                 predict_parts(pictures, place, as, choices_of(as, weights), c, x, y, channel.prediction);
             const BlockSamples truth = c == 0 ? wanted : block_of(source[c], x, y);
-            quantise(truth, squared_difference(channel.prediction, truth), step,
-                     as.mode == 0 ? rounding_within : rounding_across, channel);
+            quantise(truth, squared_difference(channel.prediction, truth), step, as.mode == 0,
+                     setup.beyond_level(as.mode == 0), channel);
         };
         if (block.mode == 0) {
             code_as(block, 0);
         } else {
             channel.prediction = *best.prediction;
-            quantise(wanted, best.error, step, rounding_across, channel);
+            quantise(wanted, best.error, step, false, setup.beyond_level(false), channel);
         }
         if (!first) {
             const auto bits_of_parts = [](const Block& of) { return of.mode == parted ? in_parts : 0; };
             // `other` shows the block otherwise; what is worth more is taken.
             const auto offer = [&](const Block& otherwise, float error) {
-                quantise(wanted, error, step, rounding_across, other);
+                quantise(wanted, error, step, false, setup.beyond_level(false), other);
                 if (!(other.cost + worth * bits_of_parts(otherwise) < channel.cost + worth * bits_of_parts(block)))
                     return;
                 block = otherwise;
@@ -242,7 +249,8 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
                 block.coded = static_cast<std::uint8_t>(block.coded | 1 << c);
                 coded.levels.push_back(channel.levels);
             }
-            place_block(picture[c], x, y, channel.prediction, channel.any_levels ? &channel.levels : nullptr, step);
+            place_block(picture[c], x, y, channel.prediction, channel.any_levels ? &channel.levels : nullptr, step,
+                        setup.beyond_level(block.mode == 0));
         }
     }
     pictures[hogel] = std::move(picture);

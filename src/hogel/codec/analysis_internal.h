@@ -11,12 +11,15 @@ namespace hogel {
 constexpr float bit_worth = 0.18f;
 
 // The disparity of each block of a hogel, from how its neighbours in the tile show it.
-std::vector<std::int16_t> estimate_disparities(const TileSetup& setup, const LightFieldTile& tile,
-                                               const HogelOrder::Hogel& hogel);
+struct Estimate {
+    std::vector<std::int16_t> disparities;
+    float shared = 0;  // how much of the hogel its neighbours show as it does, to within the finest step: 0 to 1
+};
+Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile, const HogelOrder::Hogel& hogel);
 
 // Decides on all blocks of a hogel and makes its picture as a decoder will have it. `estimated` may be empty.
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
-                   const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
+                   const std::vector<const Block*>& moved, const std::vector<Block>* beside,
                    const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures);
 
 }  // namespace hogel

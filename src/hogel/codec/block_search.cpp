@@ -8,8 +8,8 @@ namespace hogel {
 namespace {
 
 // Bits that things cost, as they are taken into account: about what they come to.
-constexpr float likeliest_disparity = 0.3f, each_candidate = 1.5f, new_disparity = 14;
-constexpr float best_of_all_sides = 0.3f, one_side = 6;
+constexpr float likeliest_disparity = 0.3f, other_candidate = 2, each_candidate = 0.7f, new_disparity = 14;
+constexpr float best_of_all_sides = 0.3f, one_side = 7;
 // In squared steps a block, of most levels of the order and of the last one, from which no other hogel inherits:
 // a prediction that costs no more is taken without looking further,
 constexpr float good_enough_first = 1.5f, good_enough_last = 2;
@@ -126,7 +126,7 @@ void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
         try_single_sides(told, new_disparity);
     };
     const auto try_moved = [&](std::size_t n) {
-        if (!known_.moved.empty() && known_.moved[n]) try_one(*known_.moved[n]);
+        if (!known_.moved.empty() && known_.moved[n]) try_one(known_.moved[n]->disparity);
     };
     const auto try_beside = [&](std::size_t n) {
         if (!known_.beside) return;
@@ -170,9 +170,12 @@ const BlockSearch::Found& BlockSearch::run(std::size_t k, const BlockSamples& wa
     best_ = {};
     slopes_known_ = false;
     if (hogel_.references.empty()) return best_;
-    const auto bits_of = [](std::size_t n) { return likeliest_disparity + each_candidate * static_cast<float>(n); };
+    const auto bits_of = [](std::size_t n) {
+        return n == 0 ? likeliest_disparity : other_candidate + each_candidate * static_cast<float>(n);
+    };
     for (std::size_t n = 0; n < candidates.count && !good(); ++n) try_any_side(candidates.disparity[n], bits_of(n));
-    if (!known_.estimated.empty() && !good()) try_any_side(known_.estimated[k], new_disparity);
+    if (!known_.estimated.empty() && !good())
+        try_any_side(told_as(static_cast<float>(known_.estimated[k])), new_disparity);
     for (std::size_t n = 0; n < candidates.count && !good(); ++n) try_single_sides(candidates.disparity[n], bits_of(n));
     for (int time = 0; time < times_along_slopes && !good() && may_win(new_disparity + best_of_all_sides); ++time) {
         const int before = best_.disparity;

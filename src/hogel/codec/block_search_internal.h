@@ -13,9 +13,9 @@ class BlockSearch {
   public:
     // Disparities that are known before blocks are told.
     struct Known {
-        std::span<const std::int16_t> estimated{};             // of the blocks; may be empty
-        std::span<const std::optional<std::int16_t>> moved{};  // moved to the blocks of this hogel; may be empty
-        const std::vector<Block>* beside = nullptr;            // of the first teller; may be null
+        std::span<const std::int16_t> estimated{};   // of the blocks; may be empty
+        std::span<const Block* const> moved{};       // moved to the blocks of this hogel; may be empty
+        const std::vector<Block>* beside = nullptr;  // of the first teller; may be null
     };
     // @param seen   of the block that is searched for
     BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source, SeenBlocks& seen,

@@ -11,7 +11,7 @@ namespace {
 // Three by three hogels that see a texture `disparity` 64ths of a direction away from each other; all but the last have
 // been coded, and that one is searched for.
 struct Views {
-    TileSetup setup{HogelOrder(3, 3, 3, 1), 32, 32, 1, 0.003f, 1.35f, 1, true};
+    TileSetup setup{HogelOrder(3, 3, 3, 1, HogelOrder::Begin::corners), 32, 32, 1, 0.003f, 1.35f, 1, latest_version};
     std::vector<Picture> pictures;
     const HogelOrder::Hogel& hogel = setup.order.hogels().back();
 

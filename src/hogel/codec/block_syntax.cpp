@@ -23,6 +23,9 @@ constexpr std::array<std::uint8_t, block_samples> zigzag = [] {
     return order;
 }();
 
+// What a block that is moved here tells of modes and disparities, as a number: nothing is moved here; as usual; not.
+std::size_t by_mode(const Block* moved) { return !moved ? 0 : moved->mode == 1 ? 1 : 2; }
+
 // A number of `bits` bits, from the highest on, as a path through a binary tree.
 template <class Coder, class Model, std::size_t count>
 std::size_t code_path(Coder& coder, std::array<Model, count>& models, int bits, std::size_t value) {
@@ -67,14 +70,14 @@ void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels
 }
 
 template <class Coder>
-void code_mode(Coder& coder, typename Coder::Models& models, std::size_t context, bool first, bool may_be_parted,
-               Block& block) {
+void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, std::size_t context, bool first,
+               bool may_be_parted, Block& block) {
     if (!first) {
         // The best of all sides, within, and then one side after the other.
-        auto& model = models.mode[context];
+        auto& model = models.mode[from][context];
         if (!coder.bit(model[0], block.mode != 1))
             block.mode = 1;
-        else if (may_be_parted && coder.bit(models.parts.parted[context], block.mode == parted))
+        else if (may_be_parted && coder.bit(models.parts.parted[from][context], block.mode == parted))
             block.mode = parted;
         else if (!coder.bit(model[1], block.mode != 0))
             block.mode = 0;
@@ -91,13 +94,13 @@ void code_mode(Coder& coder, typename Coder::Models& models, std::size_t context
 }
 
 template <class Coder>
-void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, std::size_t around, int unit,
-                    const Candidates& candidates, std::int16_t& disparity) {
+void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, std::size_t from, std::size_t around,
+                    int unit, const Candidates& candidates, std::int16_t& disparity) {
     const auto* end = candidates.disparity.begin() + candidates.count;
     const auto* found = std::find(candidates.disparity.begin(), end, disparity);
     const int likeliest = candidates.disparity[0];
     const std::size_t spread = candidates.spread();
-    auto& model = models.disparity[spread][around];
+    auto& model = models.disparity[from][spread][around];
     if (!coder.bit(model[0], found != candidates.disparity.begin())) {
         disparity = static_cast<std::int16_t>(likeliest);
     } else if (!coder.bit(model[1], found == end)) {
@@ -118,19 +121,27 @@ void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, 
 }
 
 // What a parted block has beside the disparity of its main part.
+// @param moved   the block that is moved here; may be null
 template <class Coder>
-void code_parts(Coder& coder, typename Coder::Models::ForParts& models, int unit, const Candidates& candidates,
-                Block& block) {
+void code_parts(Coder& coder, typename Coder::Models::ForParts& models, const Block* moved, int unit,
+                const Candidates& candidates, Block& block) {
     for (std::size_t part = 0; part < 2; ++part) {
         std::uint8_t side = 0;
         while (side + 1u < ReferenceWeights::sides && coder.bit(models.side[part][side], block.side[part] != side))
             ++side;
         block.side[part] = side;
     }
-    const std::size_t angle = code_path(coder, models.angle, 5, block.line / line_places);
-    const std::size_t place = code_path(coder, models.place, 2, block.line % line_places);
-    block.line = static_cast<std::uint8_t>(line_number(angle, place));
-    code_disparity(coder, models.beyond, 0, unit, candidates, block.disparity_beyond);
+    std::size_t angle = block.line / line_places, place = block.line % line_places;
+    if (moved && moved->mode == parted) {  // an edge is seen from near by as it is here
+        const std::size_t before = moved->line / line_places;
+        angle = before + code_path(coder, models.turn, 5, (angle + line_angles - before) % line_angles);
+        place = code_path(coder, models.place_by_moved[moved->line % line_places], 2, place);
+    } else {
+        angle = code_path(coder, models.angle, 5, angle);
+        place = code_path(coder, models.place, 2, place);
+    }
+    block.line = static_cast<std::uint8_t>(line_number(angle % line_angles, place));
+    code_disparity(coder, models.beyond, by_mode(moved), 0, unit, candidates, block.disparity_beyond);
 }
 
 }  // namespace
@@ -150,10 +161,10 @@ int disparity_unit(const HogelOrder::Hogel& hogel) {
 }
 
 Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
-                          const std::optional<std::int16_t>& moved, const std::vector<Block>* beside) {
+                          const Block* moved, const std::vector<Block>* beside) {
     Candidates candidates;
     const bool left = block % grid.columns > 0, above = block >= grid.columns;
-    if (moved) candidates.add(*moved);
+    if (moved) candidates.add(moved->disparity);
     if (left) candidates.add(blocks[block - 1].disparity);
     if (above) candidates.add(blocks[block - grid.columns].disparity);
     if (left && above)  // as on a plane
@@ -163,16 +174,16 @@ Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::v
     if (left && blocks[block - 1].mode == parted) candidates.add(blocks[block - 1].disparity_beyond);
     if (above && blocks[block - grid.columns].mode == parted)
         candidates.add(blocks[block - grid.columns].disparity_beyond);
-    if (beside && (*beside)[block].mode == parted) candidates.add((*beside)[block].disparity_beyond);
+    const Block* teller = grid.tells_by_moved() ? moved : beside ? &(*beside)[block] : nullptr;
+    if (teller && teller->mode == parted) candidates.add(teller->disparity_beyond);
     if (candidates.count == 0) candidates.add(0);
     return candidates;
 }
 
-std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hogel& hogel,
-                                                           const std::vector<CodedHogel>& coded, const BlockGrid& grid,
-                                                           float aspect) {
+std::vector<const Block*> moved_blocks(const HogelOrder::Hogel& hogel, const std::vector<CodedHogel>& coded,
+                                       const BlockGrid& grid, float aspect) {
     constexpr std::int64_t side = static_cast<std::int64_t>(block_side) * shift_unit, half = side / 2;
-    std::vector<std::optional<std::int16_t>> moved(grid.count());
+    std::vector<const Block*> moved(grid.count(), nullptr);
     std::vector<std::int64_t> distance(grid.count(), std::numeric_limits<std::int64_t>::max());
     for (const HogelOrder::Reference& reference : hogel.tellers) {
         const std::int64_t apart = reference.ds * reference.ds + reference.dt * reference.dt;
@@ -188,10 +199,11 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
             const std::int64_t du = u % side - half, dv = v % side - half;
             const std::int64_t here = du * du + dv * dv + apart * shift_unit * shift_unit / 2;
             // The nearer surface hides the farther one; of one surface, what comes nearest to the middle.
-            std::optional<std::int16_t>& kept = moved[row * grid.columns + column];
+            const Block*& kept = moved[row * grid.columns + column];
             std::int64_t& kept_distance = distance[row * grid.columns + column];
-            if (!kept || disparity > *kept + one_surface || (disparity > *kept - one_surface && here < kept_distance)) {
-                kept = disparity;
+            if (!kept || disparity > kept->disparity + one_surface ||
+                (disparity > kept->disparity - one_surface && here < kept_distance)) {
+                kept = &blocks[block];
                 kept_distance = here;
             }
         }
@@ -201,8 +213,7 @@ std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hog
 
 template <class Coder>
 void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
-                const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
-                CodedHogel& coded) {
+                const std::vector<const Block*>& moved, const std::vector<Block>* beside, CodedHogel& coded) {
     const bool first = hogel.references.empty();
     const int unit = disparity_unit(hogel);
     std::size_t used = 0;  // levels
@@ -212,15 +223,16 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
         const Block* left = k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr;
         const Block* above = k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr;
         const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
-        code_mode(coder, models, context, first, grid.may_be_parted, block);
+        const Block* from = grid.tells_by_moved() ? moved[k] : nullptr;
+        code_mode(coder, models, by_mode(from), context, first, grid.may_be_parted(), block);
         const Candidates candidates = candidates_for(k, grid, coded.blocks, moved[k], beside);
         if (block.mode == 0 && !first) {
             block.disparity = candidates.disparity[0];
         } else {
             const std::size_t around = (left && left->surprising ? 1u : 0u) + (above && above->surprising ? 1u : 0u);
-            code_disparity(coder, models.main, around, unit, candidates, block.disparity);
+            code_disparity(coder, models.main, by_mode(from), around, unit, candidates, block.disparity);
         }
-        if (block.mode == parted) code_parts(coder, models.parts, unit, candidates, block);
+        if (block.mode == parted) code_parts(coder, models.parts, from, unit, candidates, block);
         block.surprising = block.disparity != candidates.disparity[0];
         const std::size_t kind = block.mode == 0 ? 2 : block.mode == 1 ? 0 : 1;
         std::uint8_t flags = 0;
@@ -228,7 +240,9 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
             const std::size_t chrominance = c > 0 ? 1 : 0;
             const std::size_t around =
                 (left && left->coded >> c & 1 ? 1u : 0u) + (above && above->coded >> c & 1 ? 1u : 0u);
-            auto& of_kind = block.mode == parted ? models.parts.coded[chrominance] : models.coded[chrominance][kind];
+            const std::size_t before = !from ? 0 : from->coded >> c & 1 ? 2 : 1;
+            auto& of_kind = block.mode == parted ? models.parts.coded[before][chrominance]
+                                                 : models.coded[before][chrominance][kind];
             if (!coder.bit(of_kind[block.surprising ? 1 : 0][around], block.coded >> c & 1)) continue;
             flags = static_cast<std::uint8_t>(flags | 1 << c);
             if (used == coded.levels.size()) coded.levels.emplace_back();
@@ -238,8 +252,8 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
     }
 }
 
-void guess_hogel(const BlockGrid& grid, const std::vector<std::optional<std::int16_t>>& moved,
-                 const std::vector<Block>* beside, CodedHogel& coded) {
+void guess_hogel(const BlockGrid& grid, const std::vector<const Block*>& moved, const std::vector<Block>* beside,
+                 CodedHogel& coded) {
     coded.blocks.resize(grid.count());
     for (std::size_t k = 0; k < grid.count(); ++k) {
         coded.blocks[k].mode = 1;
@@ -248,10 +262,10 @@ void guess_hogel(const BlockGrid& grid, const std::vector<std::optional<std::int
 }
 
 template void code_hogel(BlockCounter&, BlockCounts&, const BlockGrid&, const HogelOrder::Hogel&,
-                         const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*, CodedHogel&);
+                         const std::vector<const Block*>&, const std::vector<Block>*, CodedHogel&);
 template void code_hogel(BlockWriter&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
-                         const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*, CodedHogel&);
+                         const std::vector<const Block*>&, const std::vector<Block>*, CodedHogel&);
 template void code_hogel(BlockReader&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
-                         const std::vector<std::optional<std::int16_t>>&, const std::vector<Block>*, CodedHogel&);
+                         const std::vector<const Block*>&, const std::vector<Block>*, CodedHogel&);
 
 }  // namespace hogel

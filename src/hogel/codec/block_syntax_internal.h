@@ -8,6 +8,7 @@
 
 #include "hogel/codec/parts_internal.h"
 #include "hogel/codec/prediction_internal.h"
+#include "hogel/codec/tile_coder.h"
 #include "hogel/coding/arithmetic.h"
 
 namespace hogel {
@@ -38,14 +39,15 @@ struct CodedHogel {
 // The blocks of a hogel, and what its place in the order makes of them.
 struct BlockGrid {
     std::size_t columns, rows, channels;
-    bool may_be_parted;  // blocks: not before version 4 of the format
+    std::uint32_t version;  // of the format
     std::size_t count() const { return columns * rows; }
+    bool may_be_parted() const { return version >= 4; }   // blocks
+    bool tells_by_moved() const { return version >= 5; }  // what they are told, by what is moved here
 };
 
-// The disparities of the references, moved to where they are seen from this hogel: one for each block, where any is.
-std::vector<std::optional<std::int16_t>> moved_disparities(const HogelOrder::Hogel& hogel,
-                                                           const std::vector<CodedHogel>& coded, const BlockGrid& grid,
-                                                           float aspect);
+// The blocks of the tellers, moved to where they are seen from this hogel: one for each block, or null.
+std::vector<const Block*> moved_blocks(const HogelOrder::Hogel& hogel, const std::vector<CodedHogel>& coded,
+                                       const BlockGrid& grid, float aspect);
 
 // Disparities that a block may have, the likeliest first; none twice. From what is moved here, and from the blocks
 // before it.
@@ -65,7 +67,7 @@ struct Candidates {
     std::size_t spread() const;
 };
 Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
-                          const std::optional<std::int16_t>& moved, const std::vector<Block>* beside);
+                          const Block* moved, const std::vector<Block>* beside);
 
 // The finest difference of disparity that matters to a hogel: a sixteenth of a direction, moved from the nearest
 // reference to here.
@@ -92,41 +94,53 @@ struct ModelsOf {
         std::array<Model, 8> beyond_one, beyond_two;
         std::array<Model, most_number_bits + 1> rest;
     };
-    std::array<std::array<Model, across_modes>, 3> mode;
+    // What is told by the block that is moved here comes three times: for none, and for two sorts of such blocks.
+    template <class Models>
+    using ByMoved = std::array<Models, 3>;
+    ByMoved<std::array<std::array<Model, across_modes>, 3>> mode;
     std::array<Model, 3> within;
     struct ForDisparity {
-        std::array<std::array<std::array<Model, 2>, 3>, 4> disparity;  // by spread
-        std::array<std::array<Model, 4>, 4> candidate;                 // by spread
+        ByMoved<std::array<std::array<std::array<Model, 2>, 3>, 4>> disparity;  // by spread
+        std::array<std::array<Model, 4>, 4> candidate;                          // by spread
         Model sign;
         std::array<Model, most_number_bits + 1> difference;
     };
     struct ForParts {
-        std::array<Model, 3> parted;
+        ByMoved<std::array<Model, 3>> parted;
         std::array<std::array<Model, ReferenceWeights::sides - 1>, 2> side;
         std::array<Model, line_angles> angle;
         std::array<Model, line_places> place;
         ForDisparity beyond;
-        std::array<std::array<std::array<Model, 3>, 2>, 2> coded;  // as below
+        ByMoved<std::array<std::array<std::array<Model, 3>, 2>, 2>> coded;  // as below
+        // Of a line, by that of the parted block that is moved here: how far it is turned, its place.
+        std::array<Model, line_angles> turn;
+        std::array<std::array<Model, line_places>, line_places> place_by_moved;
     };
     ForDisparity main;
     // By luminance or chrominance, kind of mode, whether the disparity is surprising.
-    std::array<std::array<std::array<std::array<Model, 3>, 2>, 3>, 2> coded;
+    ByMoved<std::array<std::array<std::array<std::array<Model, 3>, 2>, 3>, 2>> coded;
     std::array<std::array<ForLevels, 2>, 2> levels;  // by luminance or chrominance, within or across
 
     ForParts parts;
 
-    // All of them in the order of the format, or all but those of parts, which come last.
+    // All of them that a version of the format has, in its order.
     template <class Use>
-    void for_each(Use&& use, bool with_parts = true) {
-        visit(use, mode, within);
+    void for_each(Use&& use, std::uint32_t version = latest_version) {
+        visit(use, mode[0], within);
         visit_disparity(use, main);
-        visit(use, coded);
+        visit(use, coded[0]);
         for (auto& of_channel : levels)
             for (ForLevels& l : of_channel) visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest);
-        if (!with_parts) return;
-        visit(use, parts.parted, parts.side, parts.angle, parts.place);
+        if (version < 4) return;
+        visit(use, parts.parted[0], parts.side, parts.angle, parts.place);
         visit_disparity(use, parts.beyond);
-        visit(use, parts.coded);
+        visit(use, parts.coded[0]);
+        if (version < 5) return;
+        for (std::size_t moved = 1; moved < mode.size(); ++moved) {
+            visit(use, mode[moved], main.disparity[moved], coded[moved]);
+            visit(use, parts.parted[moved], parts.beyond.disparity[moved], parts.coded[moved]);
+        }
+        visit(use, parts.turn, parts.place_by_moved);
     }
 
   private:
@@ -140,7 +154,7 @@ struct ModelsOf {
     }
     template <class Use>
     static void visit_disparity(Use& use, ForDisparity& models) {
-        visit(use, models.disparity, models.candidate, models.sign, models.difference);
+        visit(use, models.disparity[0], models.candidate, models.sign, models.difference);
     }
     template <class Use, class First, class... More>
     requires(sizeof...(More) > 0) static void visit(Use& use, First& first, More&... more) {
@@ -214,11 +228,10 @@ class BlockReader {
 // Codes all blocks of a hogel; a reader fills `coded`.
 template <class Coder>
 void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
-                const std::vector<std::optional<std::int16_t>>& moved, const std::vector<Block>* beside,
-                CodedHogel& coded);
+                const std::vector<const Block*>& moved, const std::vector<Block>* beside, CodedHogel& coded);
 
 // A hogel of which nothing is told: every block as its likeliest disparity shows it.
-void guess_hogel(const BlockGrid& grid, const std::vector<std::optional<std::int16_t>>& moved,
-                 const std::vector<Block>* beside, CodedHogel& coded);
+void guess_hogel(const BlockGrid& grid, const std::vector<const Block*>& moved, const std::vector<Block>* beside,
+                 CodedHogel& coded);
 
 }  // namespace hogel

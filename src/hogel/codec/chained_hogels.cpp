@@ -15,10 +15,10 @@ void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightField
     if (!hogel_tile_fits(grid, tile.range)) header.damaged("it is too large");
     const float step = header.take_float(), growth = header.take_float();
     if (!(step > 0 && std::isfinite(step) && growth >= 1 && growth <= 4)) header.damaged("its steps are no steps");
-    const TileSetup setup(
-        HogelOrder(tile.range.ns, tile.range.nt, HogelOrder::all_of_a_side, HogelOrder::all_of_a_side),
-        grid.directions_u, grid.directions_v, grid.channels, step, growth,
-        static_cast<float>(grid.step_u() / grid.step_v()), false);
+    const TileSetup setup(HogelOrder(tile.range.ns, tile.range.nt, HogelOrder::all_of_a_side, HogelOrder::all_of_a_side,
+                                     HogelOrder::Begin::corners),
+                          grid.directions_u, grid.directions_v, grid.channels, step, growth,
+                          static_cast<float>(grid.step_u() / grid.step_v()), 1);
     const auto& order = setup.order.hogels();
     std::vector<CodedHogel> coded(order.size());
     std::vector<Picture> pictures(order.size());
@@ -26,9 +26,9 @@ void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightField
     const auto models = std::make_unique<BlockModels>();
     for (std::size_t wave = 0; wave + 1 < setup.order.waves().size(); ++wave) {
         const std::size_t begin = setup.order.waves()[wave], end = setup.order.waves()[wave + 1];
-        std::vector<std::vector<std::optional<std::int16_t>>> moved(end - begin);
+        std::vector<std::vector<const Block*>> moved(end - begin);
         parallel_for(end - begin, [&](std::size_t n) {
-            moved[n] = moved_disparities(order[begin + n], coded, setup.grid, setup.aspect);
+            moved[n] = moved_blocks(order[begin + n], coded, setup.grid, setup.aspect);
         });
         for (std::size_t k = begin; k < end; ++k) {
             const auto& tellers = order[k].tellers;

@@ -21,10 +21,12 @@ namespace {
 
 constexpr std::size_t preferred_side = 32;  // where prediction gains little more
 constexpr std::size_t preferred_samples = std::size_t{1} << 27;
-constexpr float growth = 1.35f;  // of the step from one level of the order to the next
+// How the step grows from one level of the order to the next. What all hogels share is best told once and finely.
+constexpr float expected_growth = 1.35f;
+float growth_for(float shared) { return 1.27f + 0.63f * shared * shared * shared * shared; }
 // References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
 // direction the nearest ones serve best; otherwise it takes more to choose from.
-constexpr std::array<std::uint8_t, 2> references_a_side{1, 3};
+constexpr std::array<std::uint8_t, 3> references_a_side{1, 2, 3};
 constexpr std::size_t counted_hogels = 48;    // of a level, for the states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
@@ -47,8 +49,8 @@ class TileEncoder {
         : tile_(tile),
           counted_(counted),
           setup_(HogelOrder(tile.range.ns, tile.range.nt, references, tellers_a_side), grid.directions_u,
-                 grid.directions_v, grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()),
-                 true),
+                 grid.directions_v, grid.channels, step, expected_growth,
+                 static_cast<float>(grid.step_u() / grid.step_v()), latest_version),
           references_(references),
           order_(setup_.order.hogels()),
           pictures_(order_.size()),
@@ -57,9 +59,14 @@ class TileEncoder {
           errors_(order_.size()) {}
 
     TileCoder::Encoded run() {
-        parallel_for(std::min(estimated_.size(), order_.size()), [&](std::size_t k) {
-            if (order_[k].level == 0) estimated_[k] = estimate_disparities(setup_, tile_, order_[k]);
+        // Of the first hogels the first one has no references, and the others have none near by.
+        std::array<Estimate, 9> estimates;
+        parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
+            if (order_[k].level < 2) estimates[k] = estimate_disparities(setup_, tile_, order_[k]);
         });
+        for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = std::move(estimates[k].disparities);
+        const float growth = growth_for(estimates[0].shared);
+        setup_.set_steps(setup_.step.back(), growth);
         bytes_.put(setup_.step.back());
         bytes_.put(growth);
         bytes_.put(references_);
@@ -85,7 +92,7 @@ class TileEncoder {
     void decide(std::size_t k) {
         const HogelOrder::Hogel& hogel = order_[k];
         const Picture source = picture_of(tile_, setup_, hogel.s, hogel.t);
-        moved_[k] = moved_disparities(hogel, coded_, setup_.grid, setup_.aspect);
+        moved_[k] = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
         coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
                             k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
         errors_[k] = squared_error(pictures_[k], setup_, tile_, hogel.s, hogel.t, counted_);
@@ -137,11 +144,11 @@ class TileEncoder {
     std::uint8_t references_;
     const std::vector<HogelOrder::Hogel>& order_;
     std::vector<Picture> pictures_;                       // in the order
-    std::array<std::vector<std::int16_t>, 4> estimated_;  // disparities of the corners, which come first
+    std::array<std::vector<std::int16_t>, 9> estimated_;  // disparities of the first ones
     std::vector<CodedHogel> coded_;
-    std::vector<std::vector<std::optional<std::int16_t>>> moved_;
+    std::vector<std::vector<const Block*>> moved_;
     std::vector<double> errors_;
-    ModelStates states_{true};
+    ModelStates states_{latest_version};
     ByteWriter bytes_;
 };
 
@@ -198,7 +205,8 @@ class HogelCoder final : public TileCoder {
     std::size_t most_at_once() const override { return 2; }
 
     std::size_t layers(const HogelRange& tile) const override {
-        return version_ < 3 ? 1 : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt));
+        return version_ < 3 ? 1
+                            : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, begin_of_order(version_)));
     }
 
     Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {

@@ -22,8 +22,9 @@ TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& 
     if (!(step > 0 && std::isfinite(step) && growth >= 1 && growth <= 4)) header.damaged("its steps are no steps");
     const auto references = header.take<std::uint8_t>();
     if (references == 0) header.damaged("its hogels have no references");
-    return TileSetup(HogelOrder(range.ns, range.nt, references, tellers_a_side), grid.directions_u, grid.directions_v,
-                     grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()), version > 3);
+    return TileSetup(HogelOrder(range.ns, range.nt, references, tellers_a_side, begin_of_order(version)),
+                     grid.directions_u, grid.directions_v, grid.channels, step, growth,
+                     static_cast<float>(grid.step_u() / grid.step_v()), version);
 }
 
 }  // namespace
@@ -50,10 +51,10 @@ void HogelDecoder::take_levels(std::size_t levels) {
     reader.take(header_bytes);
     const auto& waves = setup_.order.waves();
     const auto& waves_of_levels = setup_.order.waves_of_levels();
-    ModelStates before(setup_.grid.may_be_parted);
+    ModelStates before(setup_.grid.version);
     for (std::size_t level = 0; level < levels; ++level) {
         BlockReader side(reader.take(reader.take<std::uint32_t>()));
-        ModelStates states(setup_.grid.may_be_parted);
+        ModelStates states(setup_.grid.version);
         states.code(side, before);
         models_.push_back(states.models());
         before = states;
@@ -100,7 +101,7 @@ const std::vector<Block>* HogelDecoder::beside(std::size_t hogel) const {
 // What a hogel is told; its tellers' must be known.
 void HogelDecoder::tell(std::size_t k) {
     const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
-    const auto moved = moved_disparities(hogel, coded_, setup_.grid, setup_.aspect);
+    const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
     if (k < codes_.size()) {
         BlockReader reader(codes_[k]);
         constexpr std::size_t bytes_of_levels = 4;  // of a block, about

@@ -59,4 +59,9 @@ constexpr std::size_t most_hogel_tile_samples = std::size_t{1} << 28;
 // How many references of a side tell their disparities: more make them worse.
 constexpr std::size_t tellers_a_side = 1;
 
+// What comes first in a tile, in a version of the format.
+constexpr HogelOrder::Begin begin_of_order(std::uint32_t version) {
+    return version < 5 ? HogelOrder::Begin::corners : HogelOrder::Begin::middle;
+}
+
 }  // namespace hogel

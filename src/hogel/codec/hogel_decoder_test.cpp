@@ -153,18 +153,18 @@ TEST(ModelStates, are_what_was_counted) {
     counts.main.sign = {0, 5000};
     counts.within[0] = {0, 0};
     counts.within[1] = {3, 2};  // too few to be worth telling
-    const ModelStates states(counts, ModelStates(true));
+    const ModelStates states(counts, ModelStates(latest_version));
     BlockModels models = states.models();
-    EXPECT_NEAR(models.mode[1][2].zero(), 0.75 * 65536, 0.02 * 65536);
+    EXPECT_NEAR(models.mode[0][1][2].zero(), 0.75 * 65536, 0.02 * 65536);
     EXPECT_LT(models.main.sign.zero(), 0.002 * 65536);
     EXPECT_EQ(models.within[0].zero(), 32768u);
     EXPECT_EQ(models.within[1].zero(), 32768u);
     BlockWriter writer;
-    ModelStates(states).code(writer, ModelStates(true));
+    ModelStates(states).code(writer, ModelStates(latest_version));
     const std::vector<std::uint8_t> bytes = writer.finish();
     BlockReader reader(bytes);
-    ModelStates back(true);
-    back.code(reader, ModelStates(true));
+    ModelStates back(latest_version);
+    back.code(reader, ModelStates(latest_version));
     std::vector<std::uint32_t> expected, found;
     models.for_each([&](BitModel& model) { expected.push_back(model.zero()); });
     BlockModels of_back = back.models();

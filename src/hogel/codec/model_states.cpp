@@ -37,9 +37,9 @@ double bits_for(const BitCount& count, int state) {
 
 }  // namespace
 
-ModelStates::ModelStates(bool with_parts) {
+ModelStates::ModelStates(std::uint32_t version) {
     BlockCounts counts;
-    counts.for_each([&](const BitCount&) { states_.push_back(0); }, with_parts);
+    counts.for_each([&](const BitCount&) { states_.push_back(0); }, version);
 }
 
 ModelStates::ModelStates(BlockCounts& counts, const ModelStates& before) {

@@ -12,8 +12,8 @@ namespace hogel {
 class ModelStates {
   public:
     // Nothing is known.
-    // @param with_parts   also of the models of parted blocks
-    explicit ModelStates(bool with_parts);
+    // @param version   of the format
+    explicit ModelStates(std::uint32_t version);
     // Those that suit what was counted; as before where another is not worth telling.
     ModelStates(BlockCounts& counts, const ModelStates& before);
 

@@ -37,7 +37,7 @@ TEST(Parts, main_part_holds_the_middle) {
 // A surface that moves by two directions from hogel to hogel covers one that does not move, from a column on.
 TEST(Parts, are_found_where_a_surface_ends) {
     constexpr int disparity = 2, edge = 13;
-    const HogelOrder order(3, 1, 3, 1);
+    const HogelOrder order(3, 1, 3, 1, HogelOrder::Begin::corners);
     const auto shown = [](int i, int u, int v) {
         const int on_near = u + disparity * i;
         return static_cast<float>(on_near >= edge ? 2 + std::sin(1.3 * on_near + v) : std::sin(0.9 * u - 2.0 * v));

@@ -27,17 +27,23 @@ const Cosines cosines;
 }  // namespace
 
 TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
-                     float finest_step, float step_growth, float v_per_u, bool may_be_parted)
+                     float finest_step, float step_growth, float v_per_u, std::uint32_t version)
     : order(std::move(tile_order)),
       grid{(directions_u + block_side - 1) / block_side, (directions_v + block_side - 1) / block_side, channels,
-           may_be_parted},
+           version},
       width(directions_u),
       height(directions_v),
       aspect(v_per_u),
-      step(static_cast<std::size_t>(order.levels()), finest_step),
+      step(static_cast<std::size_t>(order.levels())),
       memory(std::make_unique<PictureMemory>(grid.count() * block_samples * sizeof(float),
                                              order.hogels().size() * grid.channels)) {
-    for (std::size_t level = step.size() - 1; level-- > 0;) step[level] = step[level + 1] / step_growth;
+    set_steps(finest_step, step_growth);
+}
+
+void TileSetup::set_steps(float finest, float growth) {
+    step.back() = finest;
+    for (std::size_t level = step.size() - 1; level-- > 0;) step[level] = step[level + 1] / growth;
+    noise.clear();
     for (const HogelOrder::Hogel& hogel : order.hogels()) {
         const float ratio = step[static_cast<std::size_t>(hogel.level)] / step[0];
         noise.push_back(ratio * ratio);
@@ -122,11 +128,14 @@ bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel
 }
 
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
-                 float step) {
+                 float step, float beyond_level) {
     BlockSamples residual;
     if (levels) {
         BlockSamples coefficients;
-        for (std::size_t k = 0; k < block_samples; ++k) coefficients[k] = static_cast<float>((*levels)[k]) * step;
+        for (std::size_t k = 0; k < block_samples; ++k) {
+            const auto level = static_cast<float>((*levels)[k]);
+            coefficients[k] = (level + (level > 0 ? beyond_level : level < 0 ? -beyond_level : 0)) * step;
+        }
         inverse_transform_block(coefficients, residual);
     }
     for (std::size_t r = 0; r < block_side; ++r) {
@@ -162,7 +171,8 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
                 predict_within(picture[c], x, y, block.within, prediction);
             else if (!predict_parts(pictures, place, block, choices, c, x, y, prediction))
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
-            place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step);
+            place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step,
+                        setup.beyond_level(block.mode == 0));
         }
         blocks[k] = BlockState::made;
     }

@@ -11,7 +11,8 @@ using Picture = std::vector<Plane>;
 // What all hogels of a tile share.
 struct TileSetup {
     TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
-              float finest_step, float step_growth, float v_per_u, bool may_be_parted);
+              float finest_step, float step_growth, float v_per_u, std::uint32_t version);
+    void set_steps(float finest, float growth);
 
     HogelOrder order;
     BlockGrid grid;
@@ -19,6 +20,8 @@ struct TileSetup {
     float aspect;               // ΔU/ΔV
     std::vector<float> step;    // the quantiser's, of each level of the order
     std::vector<float> noise;   // (step / that of level 0)², of each hogel in the order
+    // What a level is taken for is its number and this part of a step: more often than not it stands for more.
+    float beyond_level(bool within) const { return grid.version < 5 ? 0 : within ? 0.0625f : 0.1875f; }
     // A picture must not outlive the setup, which keeps its memory.
     Picture blank() const;
     std::unique_ptr<PictureMemory> memory;
@@ -47,8 +50,9 @@ bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel
                    BlockSamples& prediction);
 
 // Adds levels times a step to a prediction, and puts it into its place.
+// @param beyond_level   as of TileSetup
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
-                 float step);
+                 float step, float beyond_level);
 
 // What has become of a block's samples.
 enum class BlockState : std::uint8_t { unknown, wanted, made };
