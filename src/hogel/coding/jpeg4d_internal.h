@@ -133,7 +133,9 @@ void quantise_block(const Blocks::Kind& kind, const float* block, std::span<cons
 constexpr int z_max = 31;
 struct Tuple {
     int zeros, bits;
-    std::size_t symbol() const { return static_cast<std::size_t>(bits * (z_max + 1) + zeros); }
+    std::size_t symbol() const {
+        return static_cast<std::size_t>(bits) * (z_max + 1) + static_cast<std::size_t>(zeros);
+    }
     bool operator==(const Tuple&) const = default;
 };
 
