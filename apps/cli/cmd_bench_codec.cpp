@@ -60,8 +60,11 @@ std::vector<CodingMethod> methods_of(const Options& options) {
         if (default_transform(coder).empty()) methods.push_back({std::string(coder), ""});
         for (const std::string_view transform : transform_names())
             if (!default_transform(coder).empty() && (coder == "jpeg4d") == (transform == "dct8") &&
-                wanted(options.transforms, transform))
+                wanted(options.transforms, transform)) {
                 methods.push_back({std::string(coder), std::string(transform)});
+                if (coder == "jpeg4d")
+                    methods.push_back({std::string(coder), std::string(transform), QuantisationTable::jpeg});
+            }
     }
     return methods;
 }

@@ -15,11 +15,13 @@ namespace {
 struct Options {
     std::string input, output;
     CompressionOptions compression;
-    std::string hemicube = "faces";
+    std::string hemicube = "faces", table;
     Counts tile;
     bool no_depth = false;
 };
 
+const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
+                                                      {"own", QuantisationTable::own}};
 const std::map<std::string, HemicubeLayout> layouts{{"faces", HemicubeLayout::faces},
                                                     {"unfolded", HemicubeLayout::unfolded}};
 
@@ -37,6 +39,12 @@ int compress_file(Options options, const Session& session) {
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
     if (compression.method.transform.empty())
         compression.method.transform = default_transform(compression.method.coder);
+    if (!options.table.empty()) {
+        if (compression.method.coder != "jpeg4d")
+            throw Error(ErrorCode::usage, fmt::format("coder {} has no quantisation table; --table goes with jpeg4d",
+                                                      compression.method.coder));
+        compression.method.table = tables.at(options.table);
+    }
     compression.metadata = describe_run(session);
     compression.layout = layouts.at(options.hemicube);
     compression.with_depth = faces.front()->has_depth() && !options.no_depth;
@@ -101,6 +109,11 @@ void add_compress(CLI::App& app, Session& session) {
             "--transform", method.transform,
             fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform_names(), ", ")))
         ->type_name("NAME");
+    command
+        ->add_option("--table", options->table,
+                     "Quantisation table of jpeg4d: JPEG's, or one optimised for the light field (default: own)")
+        ->type_name("jpeg|own")
+        ->check(CLI::IsMember(tables).description(""));
     command
         ->add_option("--hemicube", options->hemicube,
                      "How a hemicube is coded: its faces one by one, or unfolded into one array with smooth corners")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Decodes a compressed light field (.hgl) of the coders "hogel", "lossless" and "bounded" as docs/format.md says, slowly
-and plainly, and compares it with what `hogel decompress --float` made of it: every sample must be the same, to the last
-bit, and every depth, where there is depth. Corners of an unfolded hemicube are nobody's.
+"""Decodes a compressed light field (.hgl) of the coders "hogel", "lossless", "bounded" and "jpeg4d" as docs/format.md
+says, slowly and plainly, and compares it with what `hogel decompress --float` made of it: every sample must be the same,
+to the last bit; with "jpeg4d", whose sums are in no order, to rounding; and every depth, where there is depth. Corners
+of an unfolded hemicube are nobody's.
 
 usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5
 """
@@ -583,6 +584,104 @@ def exact(version, coder, data, shape, aspect, counts):
     return tile
 
 
+class Counts:
+    """The symbols of an alphabet by how often each was seen."""
+
+    def __init__(self, count):
+        self.seen = [1] * count
+
+    def learn(self, symbol):
+        self.seen[symbol] += 32
+        if sum(self.seen) > 2**16:
+            self.seen = [(n + 1) // 2 for n in self.seen]
+
+
+def symbol(decoder, counts):
+    unit = decoder.range // sum(counts.seen)
+    place, before, result = decoder.code // unit, 0, 0
+    while before + counts.seen[result] <= place:
+        before += counts.seen[result]
+        result += 1
+    decoder.narrow(unit * before, unit * counts.seen[result])
+    counts.learn(result)
+    return result
+
+
+JPEG = [[16, 11, 10, 16, 24, 40, 51, 61], [12, 12, 14, 19, 26, 58, 60, 55], [14, 13, 16, 24, 40, 57, 69, 56],
+        [14, 17, 22, 29, 51, 87, 80, 62], [18, 22, 37, 56, 68, 109, 103, 77], [24, 35, 55, 64, 81, 104, 113, 92],
+        [49, 64, 78, 87, 103, 121, 120, 101], [72, 92, 95, 98, 112, 100, 103, 99]]
+
+
+def in_zigzag(extents):
+    return sorted(np.ndindex(*extents), key=lambda f: (sum(f), [k if sum(f) % 2 else -k for k in f]))
+
+
+def own_table(decoder, shape):
+    """e of each frequency that blocks of this array can have."""
+    models, table, differs = Models(), {}, 0
+    for f in in_zigzag([(min(n, 8) - 1) * 8 // min(n, 8) + 1 for n in shape]):
+        lower = [table[f[:a] + (f[a] - 1,) + f[a + 1:]] for a in range(4) if f[a]]
+        table[f] = sum(lower) // len(lower) if lower else 0
+        differs = decoder.bit(models["differs", differs])
+        if differs:
+            sign, size = -1 if decoder.bit(models["sign"]) else 1, 1
+            while size < 24 and decoder.bit(models["more", size]):
+                size += 1
+            table[f] += sign * size
+        assert 0 <= table[f] <= 24
+    return table
+
+
+def cosines(n):
+    return np.array([[math.sqrt((1 if k == 0 else 2) / n) * math.cos(math.pi * k * (2 * j + 1) / (2 * n))
+                      for j in range(n)] for k in range(n)])
+
+
+def jpeg4d_channel(code, shape):
+    """One channel, [t][s][v][u]."""
+    scale, most = struct.unpack_from("<fB", code)
+    decoder, models, result = Decoder(code[5:]), Models(), np.zeros(shape)
+    table = own_table(decoder, shape) if most & 128 else None
+    tuples = Counts(32 * ((most & 127) + 1))
+    for block in np.ndindex(*[-(-n // 8) for n in shape]):
+        place = [slice(8 * b, min(8 * b + 8, n)) for b, n in zip(block, shape)]
+        extents = [p.stop - p.start for p in place]
+        order, values, at = in_zigzag(extents), np.zeros(extents), 0
+        while at < len(order):
+            found = symbol(decoder, tuples)
+            bits, zeros = found // 32, found % 32
+            if found == 0:
+                break
+            at += zeros
+            if bits == 0:
+                continue
+            negative, level = decoder.raw(1), 1
+            if bits > 1:
+                level = 2 | decoder.bit(models["second", bits])
+                level = level << (bits - 2) | decoder.raw(bits - 2)
+            f = tuple(k * 8 // n for k, n in zip(order[at], extents))
+            step = 2**(table[f] / 4) if table else JPEG[f[0]][f[1]] * JPEG[f[2]][f[3]]
+            values[order[at]] = scale * step * (-level if negative else level)
+            at += 1
+        for axis, n in enumerate(extents):
+            values = np.moveaxis(np.tensordot(cosines(n), values, axes=(0, axis)), 0, axis)
+        result[tuple(place)] = values
+    return result
+
+
+def jpeg4d(data, shape):
+    source, channels = Bytes(data), []
+    for _ in range(shape[0]):
+        length = source.take("I")
+        channels.append(jpeg4d_channel(data[source.at:source.at + length], shape[1:]))
+        source.at += length
+    assert source.at == len(data)
+    if len(channels) == 3:
+        a, b, c = (factor * p for factor, p in zip((3**-0.5, 2**-0.5, 6**-0.5), channels))
+        channels = [a + b + c, a - 2 * c, a - b + c]
+    return np.stack(channels)
+
+
 def check(data, file, beyond=None):
     """A stream against a light field; with `beyond` against its depths, which from there on are infinite."""
     source = Bytes(data)
@@ -595,7 +694,7 @@ def check(data, file, beyond=None):
     assert source.text() == "front"
     tile_s, tile_t = source.take("2Q")
     coder = source.text()
-    assert coder in ("hogel", "lossless", "bounded") and source.text() == ""
+    assert (coder, source.text()) in [("hogel", ""), ("lossless", ""), ("bounded", ""), ("jpeg4d", "dct8")]
     for _ in range(source.take("I")):
         source.text(), source.text()
     # Parts: for each its size, and the faces in it as name, columns and rows.
@@ -661,12 +760,17 @@ def check(data, file, beyond=None):
                 if coder == "hogel":
                     tile = Tile(version, code, across, down, (channels, v, u), aspect)
                     tile = joined(tile, (channels, down, across, v, u))
+                elif coder == "jpeg4d":
+                    tile = jpeg4d(code, (channels, down, across, v, u))
                 else:
                     tile = exact(version, coder, code, (channels, down, across, v, u), aspect, counts)
                 if beyond is not None:
                     tile = np.where(tile < beyond, tile, f32(np.inf))
                 for name, u0, u1, v0, v1 in faces:
                     truth = expected[name][:, t0:t0 + down, s0:s0 + across]
+                    if coder == "jpeg4d":
+                        assert np.abs(tile[..., v0:v1, u0:u1] - truth).max() <= 1e-5 * np.abs(truth).max(), "differs"
+                        continue
                     assert np.array_equal(tile[..., v0:v1, u0:u1].view("u4"), truth.view("u4")), "samples differ"
 
 

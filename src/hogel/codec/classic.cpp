@@ -171,16 +171,23 @@ class EzwCoder final : public ClassicCoder {
 };
 
 class Jpeg4dCoder final : public ClassicCoder {
-    using ClassicCoder::ClassicCoder;
+  public:
+    Jpeg4dCoder(std::string_view name, const DirectionCross& counted, QuantisationTable table)
+        : ClassicCoder(name, counted), table_(table) {}
+
+  private:
     std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
                                              double step) const override {
-        // The table's entry for constant blocks is 16 in two dimensions, 256 in four.
-        return jpeg4d_encode(pyramid, values, usable_step(values, step / 256));
+        // The entry of JPEG's table for constant blocks is 16 in two dimensions, 256 in four.
+        const double scale = table_ == QuantisationTable::jpeg ? step / 256 : step;
+        return jpeg4d_encode(pyramid, values, usable_step(values, scale), table_);
     }
     void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
         jpeg4d_decode(pyramid, code, values);
     }
+
+    QuantisationTable table_;
 };
 
 }  // namespace
@@ -195,7 +202,7 @@ std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const 
                                 : method.coder == "jpeg4d" ? "dct8"
                                                            : "a wavelet"));
     if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform, counted);
-    if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform, counted);
+    if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform, counted, method.table);
     const Content content = method.coder == "fringes" ? Content::amplitude : Content::radiance;
     return std::make_unique<ThreePassCoder>(method.transform, counted, content, version);
 }

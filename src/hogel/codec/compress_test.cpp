@@ -25,6 +25,7 @@ std::vector<CodingMethod> all_methods() {
             methods.push_back({"jpeg4d", "dct8"});
         else
             methods.push_back({name.size() % 2 == 0 ? "ezw" : "threepass", std::string(name)});
+    methods.push_back({"jpeg4d", "dct8", QuantisationTable::jpeg});
     methods.push_back({"fringes", "cdf97"});
     return methods;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hogel/codec/unfolded.h"
+#include "hogel/coding/jpeg4d.h"
 #include "hogel/lightfield/light_field.h"
 
 namespace hogel {
@@ -64,7 +65,8 @@ class TileCoder {
 /// How the samples of a tile become bytes.
 struct CodingMethod {
     std::string coder = "hogel";
-    std::string transform;  ///< empty for the coder hogel, which has one of its own
+    std::string transform;                             ///< empty for the coder hogel, which has one of its own
+    QuantisationTable table = QuantisationTable::own;  ///< for jpeg4d to encode with; each tile says which it has
     friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
 };
 

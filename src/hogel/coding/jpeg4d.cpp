@@ -10,6 +10,7 @@
 #include "hogel/coding/arithmetic.h"
 #include "hogel/coding/bytes_internal.h"
 #include "hogel/coding/jpeg4d_internal.h"
+#include "hogel/coding/jpeg4d_table_internal.h"
 #include "hogel/coding/quantise.h"
 #include "hogel/core/error.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int b_limit = 30;
 constexpr std::size_t header = 5;
+constexpr int own_table = 0x80;  // in the byte of b_max
 
 struct Models {
     explicit Models(int b_max) : tuples(static_cast<std::size_t>((z_max + 1) * (b_max + 1))) {}
@@ -26,25 +28,19 @@ struct Models {
     std::array<BitModel, b_limit + 1> second;
 };
 
-// Calls visit(block) for all blocks.
-template <class Visit>
-void for_each_block(const Blocks& blocks, Visit&& visit) {
-    Blocks::Block block;
-    for (std::size_t number = 0; number < blocks.count(); ++number) {
-        blocks.get(number, block);
-        visit(block);
-    }
-}
-
 double squared_error(const Blocks& blocks, std::span<const float> values, double scale) {
+    const Quantisation quantisation = jpegs_quantisation(scale, blocks.axes());
     double sum = 0;
-    for_each_block(blocks, [&](const Blocks::Block& block) {
-        for (std::size_t i = 0; i < block.offsets.size(); ++i) {
-            const double step = scale * block.table[i], value = values[block.offsets[i]];
+    for (std::size_t number = 0; number < blocks.count(); ++number) {
+        const Blocks::Block block = blocks[number];
+        const Blocks::Kind& kind = blocks.kind(block);
+        for (std::size_t entry = 0; entry < kind.offsets.size(); ++entry) {
+            const double step = quantisation.steps[kind.whole[entry]];
+            const double value = values[block.origin + kind.offsets[entry]];
             const double error = value - step * std::nearbyint(value / step);
             sum += error * error;
         }
-    });
+    }
     return sum;
 }
 
@@ -54,23 +50,43 @@ void check_size(const Pyramid& pyramid, std::size_t size) {
                     fmt::format("jpeg4d: {} values given, expected the {} of the pyramid", size, pyramid.size()));
 }
 
-void write_block(ArithmeticEncoder& encoder, Models& models, const BlockSymbols& symbols) {
-    auto level = symbols.levels.begin();
-    for (const Tuple& tuple : symbols.tuples) {
-        encoder.symbol(models.tuples, static_cast<std::size_t>(tuple.bits * (z_max + 1) + tuple.zeros));
-        if (tuple.bits == 0) continue;
-        const auto magnitude = static_cast<std::uint32_t>(std::abs(*level));
-        encoder.raw(*level < 0, 1);
-        ++level;
-        if (tuple.bits < 2) continue;
-        encoder.bit(models.second[static_cast<std::size_t>(tuple.bits)], magnitude >> (tuple.bits - 2) & 1);
-        encoder.raw(magnitude, tuple.bits - 2);
+// Of all values, before rounding.
+double largest_level(const Blocks& blocks, std::span<const float> values, const Quantisation& quantisation) {
+    double most = 0;
+    const auto least = least_values(blocks, quantisation);
+    for (std::size_t number = 0; number < blocks.count(); ++number) {
+        const Blocks::Block block = blocks[number];
+        const Blocks::Kind& kind = blocks.kind(block);
+        for_each_large(kind, &values[block.origin], least[block.kind], [&](std::size_t entry, float value) {
+            most = std::max(most, std::abs(value) / quantisation.steps[kind.whole[entry]]);
+        });
     }
+    return std::floor(most + (1 - quantisation.round_up));
 }
 
-// Fills in the levels of a block, which are zero. False when the tuples run past its end.
-bool read_block(ArithmeticDecoder& decoder, Models& models, std::span<std::int32_t> levels) {
-    for (std::size_t at = 0; at < levels.size() && !decoder.ended(); ++at) {
+void write_level(ArithmeticEncoder& encoder, Models& models, int bits, std::int32_t level) {
+    const auto magnitude = static_cast<std::uint32_t>(std::abs(level));
+    encoder.raw(level < 0, 1);
+    if (bits < 2) return;
+    encoder.bit(models.second[static_cast<std::size_t>(bits)], magnitude >> (bits - 2) & 1);
+    encoder.raw(magnitude, bits - 2);
+}
+
+std::int32_t read_level(ArithmeticDecoder& decoder, Models& models, int bits) {
+    const bool negative = decoder.raw(1) != 0;
+    std::uint32_t magnitude = 1;
+    if (bits >= 2) {
+        magnitude = 2 | static_cast<std::uint32_t>(decoder.bit(models.second[static_cast<std::size_t>(bits)]));
+        magnitude = magnitude << (bits - 2) | decoder.raw(bits - 2);
+    }
+    return negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+}
+
+// Calls take(place, level) for the levels of a block of `count` entries that are not zero. False when the tuples run
+// past its end.
+template <class Take>
+bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, Take&& take) {
+    for (std::size_t at = 0; at < count && !decoder.ended(); ++at) {
         const auto symbol = static_cast<int>(decoder.symbol(models.tuples));
         const int bits = symbol / (z_max + 1), zeros = symbol % (z_max + 1);
         if (bits == 0 && zeros == 0) return true;
@@ -79,50 +95,58 @@ bool read_block(ArithmeticDecoder& decoder, Models& models, std::span<std::int32
             continue;
         }
         at += static_cast<std::size_t>(zeros);
-        if (at >= levels.size()) return false;
-        const bool negative = decoder.raw(1) != 0;
-        std::uint32_t magnitude = 1;
-        if (bits >= 2) {
-            magnitude = 2 | static_cast<std::uint32_t>(decoder.bit(models.second[static_cast<std::size_t>(bits)]));
-            magnitude = magnitude << (bits - 2) | decoder.raw(bits - 2);
-        }
-        levels[at] = negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+        if (at >= count) return false;
+        take(at, read_level(decoder, models, bits));
     }
     return true;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> jpeg4d_encode(const Pyramid& pyramid, std::span<const float> values, double scale) {
+std::vector<std::uint8_t> jpeg4d_encode(const Pyramid& pyramid, std::span<const float> values, double scale,
+                                        QuantisationTable table) {
     check_size(pyramid, values.size());
     const float most = largest_magnitude(values), stored_scale = static_cast<float>(scale);
-    const Blocks blocks(pyramid);
-    const auto level_of = [&](const Blocks::Block& block, std::size_t i) {
-        return std::nearbyint(values[block.offsets[i]] / (static_cast<double>(stored_scale) * block.table[i]));
-    };
-    double largest = 0;
-    if (stored_scale > 0 && std::isfinite(stored_scale))
-        for_each_block(blocks, [&](const Blocks::Block& block) {
-            for (std::size_t i = 0; i < block.offsets.size(); ++i)
-                largest = std::max(largest, std::abs(level_of(block, i)));
-        });
-    if (!(stored_scale > 0) || !std::isfinite(stored_scale) || largest >= std::ldexp(1.0, b_limit))
+    const auto impossible = [&] {
         throw Error(
             ErrorCode::usage,
             fmt::format("jpeg4d: a scale of {} for magnitudes up to {}, expected levels of 1 to 30 bits", scale, most));
+    };
+    if (!(stored_scale > 0) || !std::isfinite(stored_scale)) impossible();
+    const Blocks blocks(pyramid);
+    bool own = table == QuantisationTable::own;
+    Exponents exponents;
+    Quantisation quantisation = jpegs_quantisation(stored_scale, blocks.axes());
+    if (own) {
+        exponents.assign(quantisation.steps.size(), 0);
+        quantisation = own_quantisation(stored_scale, exponents);
+    }
+    double largest = largest_level(blocks, values, quantisation);
+    if (largest >= std::ldexp(1.0, b_limit)) impossible();
+    if (own && largest > 0) {
+        exponents = choose_exponents(blocks, values, stored_scale);
+        quantisation = own_quantisation(stored_scale, exponents);
+        largest = largest_level(blocks, values, quantisation);
+    }
+    own = own && largest > 0;  // otherwise no table is needed
     const int b_max = std::bit_width(static_cast<std::uint32_t>(largest));
     std::vector<std::uint8_t> bytes;
     put_float(bytes, stored_scale);
-    bytes.push_back(static_cast<std::uint8_t>(b_max));
+    bytes.push_back(static_cast<std::uint8_t>(b_max | (own ? own_table : 0)));
     ArithmeticEncoder encoder;
+    if (own) write_exponents(encoder, blocks, exponents);
     Models models(b_max);
-    std::vector<std::int32_t> levels;
-    for_each_block(blocks, [&](const Blocks::Block& block) {
-        levels.clear();
-        for (std::size_t i = 0; i < block.offsets.size(); ++i)
-            levels.push_back(static_cast<std::int32_t>(level_of(block, i)));
-        write_block(encoder, models, block_symbols(levels));
-    });
+    SparseLevels levels;
+    const auto least = least_values(blocks, quantisation);
+    for (std::size_t number = 0; number < blocks.count(); ++number) {
+        const Blocks::Block block = blocks[number];
+        const Blocks::Kind& kind = blocks.kind(block);
+        quantise_block(kind, &values[block.origin], least[block.kind], quantisation, levels);
+        for_each_tuple(levels, kind.offsets.size(), [&](const Tuple& tuple, std::int32_t level) {
+            encoder.symbol(models.tuples, tuple.symbol());
+            if (tuple.bits > 0) write_level(encoder, models, tuple.bits, level);
+        });
+    }
     const std::vector<std::uint8_t> code = encoder.finish();
     bytes.insert(bytes.end(), code.begin(), code.end());
     return bytes;
@@ -136,17 +160,30 @@ void jpeg4d_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, 
     if (bytes.size() < header) damaged("it ends within its header");
     const double scale = get_float(bytes);
     if (!(scale > 0) || !std::isfinite(scale)) damaged("its scale is not a positive number");
-    if (bytes[4] > b_limit) damaged("it has levels of more than 30 bits");
+    const bool own = (bytes[4] & own_table) != 0;
+    const int b_max = bytes[4] & ~own_table;
+    if (b_max > b_limit) damaged("it has levels of more than 30 bits");
+    const Blocks blocks(pyramid);
     ArithmeticDecoder decoder(bytes.subspan(header));
-    Models models(bytes[4]);
-    std::vector<std::int32_t> levels;
-    for_each_block(Blocks(pyramid), [&](const Blocks::Block& block) {
-        levels.assign(block.offsets.size(), 0);
-        if (!read_block(decoder, models, levels)) damaged("a row of zeros runs past the end of a block");
+    Quantisation quantisation = jpegs_quantisation(scale, blocks.axes());
+    if (own) {
+        Exponents exponents;
+        if (!read_exponents(decoder, blocks, exponents)) damaged("its quantisation table is damaged");
+        quantisation = own_quantisation(scale, exponents);
+    }
+    Models models(b_max);
+    std::ranges::fill(values, 0.0f);
+    for (std::size_t number = 0; number < blocks.count(); ++number) {
+        const Blocks::Block block = blocks[number];
+        const Blocks::Kind& kind = blocks.kind(block);
+        const bool whole = read_block(decoder, models, kind.offsets.size(), [&](std::size_t place, std::int32_t level) {
+            const std::size_t entry = kind.entry[place];
+            const double step = quantisation.steps[kind.whole[entry]];
+            values[block.origin + kind.offsets[entry]] = static_cast<float>(step * level);
+        });
+        if (!whole) damaged("a row of zeros runs past the end of a block");
         if (decoder.ended()) damaged("it ends too early or is damaged");
-        for (std::size_t i = 0; i < levels.size(); ++i)
-            values[block.offsets[i]] = static_cast<float>(scale * block.table[i] * levels[i]);
-    });
+    }
     if (!decoder.all_read()) damaged("bytes are left over");
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <numeric>
 
 #include "hogel/coding/jpeg4d_internal.h"
@@ -42,6 +41,12 @@ std::vector<Frequency> zigzag(std::size_t axes) {
     return order;
 }
 
+std::size_t place_in_block(const Frequency& frequency) {
+    std::size_t place = 0;
+    for (const std::size_t along : frequency) place = place * dct_block + along;
+    return place;
+}
+
 double table_entry(const Frequency& frequency) {
     double entry = 1;
     for (std::size_t axis = 0; axis < frequency.size(); axis += 2)
@@ -50,24 +55,30 @@ double table_entry(const Frequency& frequency) {
     return entry;
 }
 
-BlockSymbols block_symbols(std::span<const std::int32_t> levels) {
-    BlockSymbols symbols;
-    std::size_t end = levels.size();
-    while (end > 0 && levels[end - 1] == 0) --end;
-    int zeros = 0;
-    for (std::int32_t level : levels.first(end)) {
-        if (level == 0) {
-            ++zeros;
-            continue;
-        }
-        for (; zeros > z_max; zeros -= z_max) symbols.tuples.push_back({z_max, 0});
-        symbols.tuples.push_back(
-            {zeros, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(std::abs(level))))});
-        symbols.levels.push_back(level);
-        zeros = 0;
+Quantisation jpegs_quantisation(double scale, std::size_t axes) {
+    const std::vector<Frequency> order = zigzag(axes);
+    Quantisation quantisation{std::vector<double>(order.size()), 0.5};
+    for (const Frequency& frequency : order)
+        quantisation.steps[place_in_block(frequency)] = scale * table_entry(frequency);
+    return quantisation;
+}
+
+std::vector<std::vector<float>> least_values(const Blocks& blocks, const Quantisation& quantisation) {
+    std::vector<std::vector<float>> least;
+    for (const Blocks::Kind& kind : blocks.kinds()) {
+        least.emplace_back();
+        for (const std::uint16_t whole : kind.whole) least.back().push_back(quantisation.least(whole));
     }
-    if (end < levels.size()) symbols.tuples.push_back({0, 0});
-    return symbols;
+    return least;
+}
+
+void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> least,
+                    const Quantisation& quantisation, SparseLevels& levels) {
+    levels.clear();
+    for_each_large(kind, block, least, [&](std::size_t entry, float value) {
+        const std::int32_t level = quantisation.level(value, kind.whole[entry]);
+        if (level != 0) levels.set(kind.place[entry], level);
+    });
 }
 
 Blocks::Blocks(const Pyramid& pyramid) : shape_(pyramid.shape()), strides_(pyramid.strides()) {
@@ -76,37 +87,72 @@ Blocks::Blocks(const Pyramid& pyramid) : shape_(pyramid.shape()), strides_(pyram
     if (axes_.size() > 4)
         throw Error(ErrorCode::usage, fmt::format("jpeg4d: {} transformed axes, expected at most 4", axes_.size()));
     grid_ = shape_;
-    for (std::size_t axis : axes_) grid_[axis] = (shape_[axis] + dct_block - 1) / dct_block;
+    bit_of_axis_.assign(shape_.size(), 0);
+    for (std::size_t a = 0; a < axes_.size(); ++a) {
+        grid_[axes_[a]] = (shape_[axes_[a]] + dct_block - 1) / dct_block;
+        bit_of_axis_[axes_[a]] = std::size_t{1} << a;
+    }
     for (std::size_t blocks : grid_) count_ *= blocks;
-    order_ = zigzag(axes_.size());
+    const std::vector<Frequency> order = zigzag(axes_.size());
+    for (std::size_t bits = 0; bits < std::size_t{1} << axes_.size(); ++bits) {
+        std::vector<std::size_t> extents;
+        bool exists = true;
+        for (const std::size_t axis : axes_) {
+            const bool shorter = (bits & bit_of_axis_[axis]) != 0;
+            extents.push_back(shorter ? shape_[axis] % dct_block : dct_block);
+            exists = exists && extents.back() > 0 && extents.back() <= shape_[axis];
+        }
+        kinds_.push_back(exists ? make_kind(extents, order) : Kind{});
+    }
 }
 
-void Blocks::get(std::size_t number, Block& block) const {
-    std::vector<std::size_t> extent(axes_.size());
-    std::size_t origin = 0;
-    for (std::size_t axis = shape_.size(); axis-- > 0; number /= grid_[axis]) {
-        const auto found = std::find(axes_.begin(), axes_.end(), axis);
-        const std::size_t first = number % grid_[axis] * (found == axes_.end() ? 1 : dct_block);
-        origin += first * strides_[axis];
-        if (found != axes_.end())
-            extent[static_cast<std::size_t>(found - axes_.begin())] = std::min(dct_block, shape_[axis] - first);
-    }
-    block.offsets.clear();
-    block.table.clear();
-    Frequency comparable(axes_.size());
-    for (const Frequency& frequency : order_) {
-        std::size_t offset = origin;
+Blocks::Kind Blocks::make_kind(const std::vector<std::size_t>& extents, const std::vector<Frequency>& order) const {
+    std::size_t entries = 1;
+    for (const std::size_t extent : extents) entries *= extent;
+    Kind kind;
+    kind.offsets.resize(entries);
+    for (std::vector<std::uint16_t>* list : {&kind.place, &kind.entry, &kind.whole}) list->resize(entries);
+    if (!axes_.empty() && strides_[axes_.back()] == 1) kind.run = extents.back();
+    std::uint16_t place = 0;
+    for (const Frequency& frequency : order) {
+        std::size_t entry = 0, offset = 0;
+        Frequency comparable;
         bool inside = true;
         for (std::size_t a = 0; a < axes_.size(); ++a) {
-            inside = inside && frequency[a] < extent[a];
+            inside = inside && frequency[a] < extents[a];
+            entry = entry * extents[a] + frequency[a];
             offset += frequency[a] * strides_[axes_[a]];
-            // Frequency k of n points oscillates as 8k/n of eight do.
-            comparable[a] = std::min(frequency[a] * dct_block / std::max<std::size_t>(extent[a], 1), dct_block - 1);
+            comparable.push_back(comparable_frequency(frequency[a], extents[a]));
         }
         if (!inside) continue;
-        block.offsets.push_back(offset);
-        block.table.push_back(table_entry(comparable));
+        kind.offsets[entry] = offset;
+        kind.whole[entry] = static_cast<std::uint16_t>(place_in_block(comparable));
+        kind.place[entry] = place;
+        kind.entry[place++] = static_cast<std::uint16_t>(entry);
     }
+    return kind;
+}
+
+Blocks::Block Blocks::operator[](std::size_t number) const {
+    Block block{0, 0};
+    for (std::size_t axis = shape_.size(); axis-- > 0; number /= grid_[axis]) {
+        const std::size_t side = bit_of_axis_[axis] > 0 ? dct_block : 1, first = number % grid_[axis] * side;
+        block.origin += first * strides_[axis];
+        if (first + side > shape_[axis]) block.kind += bit_of_axis_[axis];
+    }
+    return block;
+}
+
+std::vector<Frequency> Blocks::frequencies() const {
+    std::vector<Frequency> result = zigzag(axes_.size());
+    std::erase_if(result, [&](const Frequency& frequency) {
+        for (std::size_t a = 0; a < axes_.size(); ++a) {
+            const std::size_t n = std::min(shape_[axes_[a]], dct_block);
+            if (frequency[a] > comparable_frequency(n - 1, n)) return true;
+        }
+        return false;
+    });
+    return result;
 }
 
 }  // namespace hogel

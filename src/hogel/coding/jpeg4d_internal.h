@@ -1,9 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "hogel/transform/dct.h"
 #include "hogel/transform/pyramid.h"
 
 namespace hogel {
@@ -15,39 +21,136 @@ using Frequency = std::vector<std::size_t>;
 // by the sum of the frequencies, and in alternating directions within a sum. In 2D it is JPEG's.
 std::vector<Frequency> zigzag(std::size_t axes);
 
+// Where a frequency stands in a block of 8 along each axis, row-major.
+std::size_t place_in_block(const Frequency& frequency);
+
 // [K] fig. 4.13 (JPEG's example for luminance) for two axes; for four, the outer product of two copies, the first for
 // the first two axes. An odd last axis has the table's first row.
 double table_entry(const Frequency& frequency);
 
+// The blocks of an array. Those of the same extents are of one kind. Entries of a block are numbered row-major.
+class Blocks {
+  public:
+    struct Kind {
+        std::vector<std::size_t> offsets;  // of the entries, from that of the first one
+        std::size_t run = 1;               // so many entries at a time follow each other in memory
+        std::vector<std::uint16_t> place;  // of each entry in zigzag order
+        std::vector<std::uint16_t> entry;  // at each place
+        std::vector<std::uint16_t> whole;  // of each entry: the place_in_block() of the frequency that oscillates so
+    };
+    struct Block {
+        std::size_t origin;  // offset of its first entry
+        std::size_t kind;
+    };
+
+    explicit Blocks(const Pyramid& pyramid);
+    std::size_t count() const { return count_; }
+    Block operator[](std::size_t number) const;
+    // Some may be of no block, and are empty.
+    std::span<const Kind> kinds() const { return kinds_; }
+    const Kind& kind(const Block& block) const { return kinds_[block.kind]; }
+    // The frequencies of a whole block that blocks here can have, in zigzag order: all up to some along each axis.
+    std::vector<Frequency> frequencies() const;
+    std::size_t axes() const { return axes_.size(); }
+
+  private:
+    Kind make_kind(const std::vector<std::size_t>& extents, const std::vector<Frequency>& order) const;
+
+    std::vector<std::size_t> shape_, strides_, axes_, grid_;  // grid_: blocks along each axis
+    std::vector<std::size_t> bit_of_axis_;  // what an axis of the array adds to the kind of its shorter blocks, or 0
+    std::vector<Kind> kinds_;
+    std::size_t count_ = 1;
+};
+
+// Frequency k of n points oscillates as 8k/n of eight do.
+constexpr std::size_t comparable_frequency(std::size_t k, std::size_t n) { return k * dct_block / n; }
+
+// Steps of the frequencies of a whole block by place_in_block(), and from which fraction of a step on levels are
+// rounded up.
+struct Quantisation {
+    std::vector<double> steps;
+    double round_up;
+
+    std::int32_t level(float value, std::size_t whole) const {
+        const auto magnitude = static_cast<std::int32_t>(std::abs(value) / steps[whole] + (1 - round_up));
+        return value < 0 ? -magnitude : magnitude;
+    }
+    // Magnitudes below this have level 0 at this entry of a block.
+    float least(std::size_t whole) const {
+        constexpr double most = std::numeric_limits<float>::max();
+        return static_cast<float>(std::min(round_up * (1 - 1e-6) * steps[whole], most));
+    }
+};
+
+Quantisation jpegs_quantisation(double scale, std::size_t axes);
+
+// Of the values of a block those not below `least`, entry by entry: visit(entry, value).
+template <class Visit>
+void for_each_large(const Blocks::Kind& kind, const float* block, std::span<const float> least, Visit&& visit) {
+    for (std::size_t first = 0; first < kind.offsets.size(); first += kind.run) {
+        const float* in = block + kind.offsets[first];
+        const float* bound = &least[first];
+        bool any = false;
+        if (kind.run == dct_block) {
+            for (std::size_t i = 0; i < dct_block; ++i) any |= std::abs(in[i]) >= bound[i];
+            if (!any) continue;
+        }
+        for (std::size_t i = 0; i < kind.run; ++i)
+            if (std::abs(in[i]) >= bound[i]) visit(first + i, in[i]);
+    }
+}
+
+// What Quantisation::least() says of each entry, for each kind of block.
+std::vector<std::vector<float>> least_values(const Blocks& blocks, const Quantisation& quantisation);
+
+// The levels of a block that are not zero, by their place in zigzag order.
+class SparseLevels {
+  public:
+    void clear() { used_ = {}; }
+    void set(std::size_t place, std::int32_t level) {
+        used_[place / 64] |= std::uint64_t{1} << place % 64;
+        levels_[place] = level;
+    }
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        for (std::size_t word = 0; word < used_.size(); ++word)
+            for (std::uint64_t left = used_[word]; left != 0; left &= left - 1) {
+                const std::size_t place = word * 64 + static_cast<std::size_t>(std::countr_zero(left));
+                visit(place, levels_[place]);
+            }
+    }
+
+  private:
+    static constexpr std::size_t most = dct_block * dct_block * dct_block * dct_block;
+    std::array<std::uint64_t, most / 64> used_{};
+    std::array<std::int32_t, most> levels_;
+};
+
+// Fills in the levels of a block.
+void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> least,
+                    const Quantisation& quantisation, SparseLevels& levels);
+
 constexpr int z_max = 31;
 struct Tuple {
     int zeros, bits;
+    std::size_t symbol() const {
+        return static_cast<std::size_t>(bits) * (z_max + 1) + static_cast<std::size_t>(zeros);
+    }
     bool operator==(const Tuple&) const = default;
 };
 
-// The tuples of a block whose levels stand in zigzag order, and for each with bits > 0 the level that follows it.
-struct BlockSymbols {
-    std::vector<Tuple> tuples;
-    std::vector<std::int32_t> levels;
-};
-BlockSymbols block_symbols(std::span<const std::int32_t> levels);
-
-// The blocks of an array: for each the offsets of its entries in zigzag order and the table's entries for them.
-class Blocks {
-  public:
-    explicit Blocks(const Pyramid& pyramid);
-    std::size_t count() const { return count_; }
-    struct Block {
-        std::vector<std::size_t> offsets;
-        std::vector<double> table;
-    };
-    // Fills in a block, reusing its memory.
-    void get(std::size_t number, Block& block) const;
-
-  private:
-    std::vector<std::size_t> shape_, strides_, axes_, grid_;  // grid_: blocks along each axis
-    std::vector<Frequency> order_;
-    std::size_t count_ = 1;
-};
+// The tuples of a block of `count` entries: visit(tuple, level), the level 0 for tuples without bits.
+template <class Visit>
+void for_each_tuple(const SparseLevels& levels, std::size_t count, Visit&& visit) {
+    std::size_t next = 0;
+    levels.for_each([&](std::size_t place, std::int32_t level) {
+        std::size_t zeros = place - next;
+        for (; zeros > z_max; zeros -= z_max) visit(Tuple{z_max, 0}, 0);
+        const int bits = std::bit_width(static_cast<std::uint32_t>(std::abs(level)));
+        visit(Tuple{static_cast<int>(zeros), bits}, level);
+        next = place + 1;
+    });
+    if (next < count) visit(Tuple{0, 0}, 0);
+}
 
 }  // namespace hogel

@@ -50,20 +50,34 @@ TEST(Jpeg4d, table_is_the_outer_product) {
     EXPECT_EQ(table_entry({5, 6, 3}), 113 * 16);
 }
 
+// The tuples of levels in zigzag order, and the levels that follow them.
+std::pair<std::vector<Tuple>, std::vector<std::int32_t>> tuples_of(const std::vector<std::int32_t>& levels) {
+    SparseLevels sparse;
+    sparse.clear();
+    for (std::size_t place = 0; place < levels.size(); ++place)
+        if (levels[place] != 0) sparse.set(place, levels[place]);
+    std::pair<std::vector<Tuple>, std::vector<std::int32_t>> result;
+    for_each_tuple(sparse, levels.size(), [&](const Tuple& tuple, std::int32_t level) {
+        result.first.push_back(tuple);
+        if (tuple.bits > 0) result.second.push_back(level);
+    });
+    return result;
+}
+
 TEST(Jpeg4d, tuples_count_zeros_and_bits) {
     std::vector<std::int32_t> levels(64);
     levels[0] = 5;
     levels[1] = -1;
     levels[4] = -8;
     levels[40] = 1;
-    const BlockSymbols symbols = block_symbols(levels);
-    EXPECT_EQ(symbols.tuples, (std::vector<Tuple>{{0, 3}, {0, 1}, {2, 4}, {31, 0}, {4, 1}, {0, 0}}));
-    EXPECT_EQ(symbols.levels, (std::vector<std::int32_t>{5, -1, -8, 1}));
+    const auto [tuples, told] = tuples_of(levels);
+    EXPECT_EQ(tuples, (std::vector<Tuple>{{0, 3}, {0, 1}, {2, 4}, {31, 0}, {4, 1}, {0, 0}}));
+    EXPECT_EQ(told, (std::vector<std::int32_t>{5, -1, -8, 1}));
     levels.assign(40, 0);
-    EXPECT_EQ(block_symbols(levels).tuples, (std::vector<Tuple>{{0, 0}}));
+    EXPECT_EQ(tuples_of(levels).first, (std::vector<Tuple>{{0, 0}}));
     levels[31] = 1;
     levels[39] = 2;
-    EXPECT_EQ(block_symbols(levels).tuples, (std::vector<Tuple>{{31, 1}, {7, 2}}));  // full to the end: no end of block
+    EXPECT_EQ(tuples_of(levels).first, (std::vector<Tuple>{{31, 1}, {7, 2}}));  // full to the end: no end of block
 }
 
 std::vector<float> picture(const Pyramid& pyramid) {
@@ -91,24 +105,34 @@ std::vector<Pyramid> pyramids() {
             Pyramid(Extents{5, 6}, {})};
 }
 
+// Each entry of each block, plainly: visit(offset, frequency that it is quantised as).
+template <class Visit>
+void for_each_entry(const Pyramid& pyramid, Visit&& visit) {
+    std::vector<std::size_t> axes;
+    for (const AxisGroup& group : pyramid.groups()) axes.insert(axes.end(), group.axes.begin(), group.axes.end());
+    std::sort(axes.begin(), axes.end());
+    const std::vector<std::size_t> strides = pyramid.strides();
+    for (std::size_t offset = 0; offset < pyramid.size(); ++offset) {
+        Frequency frequency;
+        for (const std::size_t axis : axes) {
+            const std::size_t extent = pyramid.shape()[axis], at = offset / strides[axis] % extent;
+            frequency.push_back(at % 8 * 8 / std::min<std::size_t>(8, extent - at / 8 * 8));
+        }
+        visit(offset, frequency);
+    }
+}
+
 TEST(Jpeg4d, decodes_to_the_nearest_multiple_of_the_table) {
     for (const Pyramid& pyramid : pyramids())
         for (double scale : {1e-6, 1e-3, 0.02, 10.0}) {
             const std::vector<float> values = picture(pyramid);
             std::vector<float> decoded(values.size(), 7.0f);
-            jpeg4d_decode(pyramid, jpeg4d_encode(pyramid, values, scale), decoded);
-            const Blocks blocks(pyramid);
-            Blocks::Block block;
-            std::size_t entries = 0;
-            for (std::size_t number = 0; number < blocks.count(); ++number) {
-                blocks.get(number, block);
-                entries += block.offsets.size();
-                for (std::size_t i = 0; i < block.offsets.size(); ++i) {
-                    const double half_step = scale * block.table[i] / 2;
-                    EXPECT_NEAR(decoded[block.offsets[i]], values[block.offsets[i]], 1.001 * half_step + 1e-6);
-                }
-            }
-            EXPECT_EQ(entries, values.size());
+            jpeg4d_decode(pyramid, jpeg4d_encode(pyramid, values, scale, QuantisationTable::jpeg), decoded);
+            for_each_entry(pyramid, [&](std::size_t offset, const Frequency& frequency) {
+                const double step = static_cast<float>(scale) * table_entry(frequency);
+                const double nearest = step * std::nearbyint(values[offset] / step);
+                ASSERT_NEAR(decoded[offset], nearest, 1e-6 * std::abs(nearest)) << offset;
+            });
         }
 }
 
@@ -117,7 +141,10 @@ TEST(Jpeg4d, meets_the_sqnr_asked_for) {
     const std::vector<float> values = picture(pyramid);
     std::vector<float> decoded(values.size());
     for (double asked : {5.0, 20.0, 40.0, 80.0}) {
-        jpeg4d_decode(pyramid, jpeg4d_encode(pyramid, values, jpeg4d_scale_for_sqnr(pyramid, values, asked)), decoded);
+        jpeg4d_decode(
+            pyramid,
+            jpeg4d_encode(pyramid, values, jpeg4d_scale_for_sqnr(pyramid, values, asked), QuantisationTable::jpeg),
+            decoded);
         double error = 0;
         for (std::size_t i = 0; i < values.size(); ++i)
             error += (static_cast<double>(values[i]) - decoded[i]) * (static_cast<double>(values[i]) - decoded[i]);
@@ -129,21 +156,24 @@ TEST(Jpeg4d, meets_the_sqnr_asked_for) {
 
 TEST(Jpeg4d, every_truncation_is_found_out_and_hostile_bytes_do_no_harm) {
     const Pyramid pyramid = Pyramid::interleaved({9, 16, 10});
-    const Bytes good = jpeg4d_encode(pyramid, picture(pyramid), 1e-3);
-    std::vector<float> decoded(pyramid.size());
-    for (std::size_t length = 0; length < good.size(); ++length)
-        EXPECT_THROW(jpeg4d_decode(pyramid, std::span(good).first(length), decoded), Error) << length;
-    std::mt19937 random(3);
-    for (int trial = 0; trial < 2000; ++trial) {
-        Bytes bytes = good;
-        if (trial % 2 == 0)
-            bytes[random() % bytes.size()] ^= static_cast<std::uint8_t>(1u << random() % 8);
-        else
-            for (std::size_t i = 5; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(random());
-        try {
-            jpeg4d_decode(pyramid, bytes, decoded);
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+    for (const QuantisationTable table : {QuantisationTable::jpeg, QuantisationTable::own}) {
+        const Bytes good = jpeg4d_encode(pyramid, picture(pyramid), 0.05, table);
+        ASSERT_EQ(good[4] >= 0x80, table == QuantisationTable::own);
+        std::vector<float> decoded(pyramid.size());
+        for (std::size_t length = 0; length < good.size(); ++length)
+            EXPECT_THROW(jpeg4d_decode(pyramid, std::span(good).first(length), decoded), Error) << length;
+        std::mt19937 random(3);
+        for (int trial = 0; trial < 2000; ++trial) {
+            Bytes bytes = good;
+            if (trial % 2 == 0)
+                bytes[random() % bytes.size()] ^= static_cast<std::uint8_t>(1u << random() % 8);
+            else
+                for (std::size_t i = 5; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(random());
+            try {
+                jpeg4d_decode(pyramid, bytes, decoded);
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ErrorCode::bad_input);
+            }
         }
     }
 }

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "hogel/coding/jpeg4d_table_internal.h"
+
+namespace hogel {
+namespace {
+
+constexpr double round_up = 0.6;
+constexpr double bits_worth = 0.12;           // squared scales a bit: what is best for fine steps is ln 2 / 6
+constexpr int candidates = 13;                // 8 times the scale is nearly always too much
+constexpr std::size_t most_looked_at = 4096;  // blocks
+constexpr std::size_t most_bits = 31;
+
+// What tells an exponent from the ones before it: the mean of those one lower along an axis, rounded down.
+class Prediction {
+  public:
+    explicit Prediction(const Exponents& exponents) : exponents_(exponents) {}
+    int operator()(const Frequency& frequency) const {
+        int sum = 0, count = 0;
+        std::size_t step = 1;
+        for (std::size_t axis = frequency.size(); axis-- > 0; step *= dct_block)
+            if (frequency[axis] > 0) {
+                sum += exponents_[place_in_block(frequency) - step];
+                ++count;
+            }
+        return count > 0 ? sum / count : 0;
+    }
+
+  private:
+    const Exponents& exponents_;
+};
+
+// How a difference from the prediction is told: is it any (by whether the one before was), its sign, and its size in
+// unary.
+struct Models {
+    std::array<BitModel, 2> differs;
+    BitModel sign;
+    std::array<BitModel, largest_exponent + 1> more;
+};
+
+// About what that takes.
+double bits_to_tell(int difference) { return difference == 0 ? 0.2 : 4 + std::abs(difference); }
+
+std::size_t bits_of(std::uint32_t magnitude) { return static_cast<std::size_t>(std::bit_width(magnitude)); }
+
+// Every so manieth block, for what needs not all of them.
+std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + most_looked_at - 1) / most_looked_at; }
+
+// What a level takes, by the number of its bits: the mean of the tuples of such levels, and of what stands for the
+// zeros before them, by how often each is there when all frequencies have the same step; and its own bits.
+class Costs {
+  public:
+    Costs(const Blocks& blocks, std::span<const float> values, const Quantisation& even) {
+        const auto least = least_values(blocks, even);
+        std::vector<double> seen(Tuple{z_max, most_bits}.symbol() + 1);
+        double all = 0;
+        SparseLevels levels;
+        for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
+            const Blocks::Block block = blocks[number];
+            quantise_block(blocks.kind(block), &values[block.origin], least[block.kind], even, levels);
+            for_each_tuple(levels, blocks.kind(block).offsets.size(), [&](const Tuple& tuple, std::int32_t) {
+                ++seen[tuple.symbol()];
+                ++all;
+            });
+        }
+        const double zeros = seen[Tuple{z_max, 0}.symbol()];
+        double levels_seen = 0;
+        for (int bits = 1; bits <= static_cast<int>(most_bits); ++bits) {
+            double count = 0, sum = 0;
+            for (int before = 0; before <= z_max; ++before) {
+                const double n = seen[Tuple{before, bits}.symbol()];
+                count += n;
+                if (n > 0) sum += n * std::log2(all / n);
+            }
+            levels_seen += count;
+            of_bits_[static_cast<std::size_t>(bits)] = bits + (count > 0 ? sum / count : std::log2(all + 1));
+        }
+        const double for_zeros = zeros > 0 && levels_seen > 0 ? zeros * std::log2(all / zeros) / levels_seen : 0;
+        for (double& cost : of_bits_) cost += for_zeros;
+    }
+    double operator()(std::uint32_t magnitude) const { return of_bits_[bits_of(magnitude)]; }
+
+  private:
+    std::array<double, most_bits + 1> of_bits_{};
+};
+
+// Of each frequency of a whole block, and each candidate, distortion + λ · bits of its levels.
+using Prices = std::vector<std::array<double, candidates>>;
+
+Prices prices(const Blocks& blocks, std::span<const float> values, double scale, const Costs& costs) {
+    std::array<double, candidates> steps;
+    for (std::size_t e = 0; e < candidates; ++e) steps[e] = scale * std::exp2(static_cast<double>(e) / 4);
+    const Quantisation finest = own_quantisation(scale, Exponents(zigzag(blocks.axes()).size(), 0));
+    const auto least = least_values(blocks, finest);
+    const double price = bits_worth * scale * scale, part = 1 / static_cast<double>(stride_of(blocks));
+    Prices result(finest.steps.size(), std::array<double, candidates>{});
+    // What is zero with all candidates has the same distortion with all of them, which is left out.
+    for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
+        const Blocks::Block block = blocks[number];
+        const Blocks::Kind& kind = blocks.kind(block);
+        for_each_large(kind, &values[block.origin], least[block.kind], [&](std::size_t entry, float value) {
+            const double magnitude = std::abs(value);
+            auto& sums = result[kind.whole[entry]];
+            for (std::size_t e = 0; e < candidates; ++e) {
+                const auto level = static_cast<std::uint32_t>(magnitude / steps[e] + (1 - round_up));
+                const double error = magnitude - level * steps[e];
+                sums[e] += (error * error + (level > 0 ? price * costs(level) : 0)) / part;
+            }
+        });
+    }
+    return result;
+}
+
+}  // namespace
+
+Quantisation own_quantisation(double scale, const Exponents& exponents) {
+    Quantisation quantisation{{}, round_up};
+    for (const std::uint8_t e : exponents) quantisation.steps.push_back(scale * std::exp2(e / 4.0));
+    return quantisation;
+}
+
+Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, double scale) {
+    Exponents exponents(zigzag(blocks.axes()).size(), 0);
+    const Costs costs(blocks, values, own_quantisation(scale, exponents));
+    const Prices of = prices(blocks, values, scale, costs);
+    const Prediction predict(exponents);
+    for (const Frequency& frequency : blocks.frequencies()) {
+        const int expected = predict(frequency);
+        const std::size_t place = place_in_block(frequency);
+        double least = std::numeric_limits<double>::infinity();
+        for (int e = 0; e < candidates; ++e) {
+            const double price =
+                of[place][static_cast<std::size_t>(e)] + bits_worth * scale * scale * bits_to_tell(e - expected);
+            if (price >= least) continue;
+            least = price;
+            exponents[place] = static_cast<std::uint8_t>(e);
+        }
+    }
+    return exponents;
+}
+
+void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exponents& exponents) {
+    Models models;
+    const Prediction predict(exponents);
+    bool differed = false;
+    for (const Frequency& frequency : blocks.frequencies()) {
+        const int difference = exponents[place_in_block(frequency)] - predict(frequency);
+        encoder.bit(models.differs[differed], difference != 0);
+        differed = difference != 0;
+        if (!differed) continue;
+        encoder.bit(models.sign, difference < 0);
+        for (int size = 1; size <= std::abs(difference) && size < largest_exponent; ++size)
+            encoder.bit(models.more[static_cast<std::size_t>(size)], size < std::abs(difference));
+    }
+}
+
+bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents& exponents) {
+    exponents.assign(zigzag(blocks.axes()).size(), 0);
+    Models models;
+    const Prediction predict(exponents);
+    bool differed = false;
+    for (const Frequency& frequency : blocks.frequencies()) {
+        int exponent = predict(frequency);
+        differed = decoder.bit(models.differs[differed]);
+        if (differed) {
+            const bool below = decoder.bit(models.sign);
+            int size = 1;
+            while (size < largest_exponent && decoder.bit(models.more[static_cast<std::size_t>(size)])) ++size;
+            exponent += below ? -size : size;
+        }
+        if (decoder.ended() || exponent < 0 || exponent > largest_exponent) return false;
+        exponents[place_in_block(frequency)] = static_cast<std::uint8_t>(exponent);
+    }
+    return true;
+}
+
+}  // namespace hogel
