@@ -548,6 +548,40 @@ def exact(version, coder, data, shape, aspect, counts):
     return tile
 
 
+def mapping_of(source, end):
+    """The parts that a header ends with: the curve's points and values, and the factor of chrominance."""
+    points = values = None
+    chrominance = f32(1)
+    while source.at < end:
+        name, size = source.text(), source.take("I")
+        if name == "tone":
+            first, *values = source.take(f"I{size // 4 - 1}f")
+            values = np.array(values, f32)
+            points = ((first + np.arange(len(values), dtype="u4")) << np.uint32(20)).astype("u4").view(f32)
+        else:
+            assert name == "chrominance" and size == 4
+            chrominance = f32(source.take("f"))
+    return points, values, chrominance
+
+
+def unmapped(tile, points, values, chrominance):
+    """Radiances [c]... as they were before they were mapped."""
+    if values is None and chrominance == 1:
+        return tile
+    mean = (tile[0] + tile[1] + tile[2]) / f32(3) if len(tile) == 3 else tile[0]
+    if chrominance != 1:
+        tile = mean + (tile - mean) * chrominance
+    if values is None:
+        return tile
+    y = np.abs(mean)
+    piece = np.clip(np.searchsorted(values, y, side="right") - 1, 0, len(values) - 2)
+    slope = (points[1:] - points[:-1]) / (values[1:] - values[:-1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factor = (points[piece] + (y - values[piece]) * slope[piece]) / y
+    factor = np.where(y > values[0], factor, points[0] / values[0])
+    return tile * np.where(y < values[-1], factor, points[-1] / values[-1])
+
+
 def main():
     data = open(sys.argv[1], "rb").read()
     source = Bytes(data)
@@ -584,6 +618,7 @@ def main():
             parts = [(u2, v2, tan_u * u2 / n_u, tan_v * v2 / n_v, places)]
     if version > 2:
         layers = source.take("I")
+    mapping = mapping_of(source, 16 + length)
     assert source.at == 16 + length
     assert source.take("I") == zlib.crc32(data[:16 + length])
     tiles = len(parts) * -(-rows // tile_t) * -(-columns // tile_s)
@@ -623,7 +658,8 @@ def main():
                     tile = exact(version, coder, code, (channels, down, across, v, u), aspect, counts)
                 for name, u0, u1, v0, v1 in faces:
                     truth = expected[name][:, t0:t0 + down, s0:s0 + across]
-                    assert np.array_equal(tile[..., v0:v1, u0:u1].view("u4"), truth.view("u4")), "samples differ"
+                    face = unmapped(tile[..., v0:v1, u0:u1], *mapping)
+                    assert np.array_equal(face.view("u4"), truth.view("u4")), "samples differ"
     print("the same")
 
 

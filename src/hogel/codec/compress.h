@@ -25,6 +25,10 @@ struct CompressionOptions {
     std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
     Metadata metadata;
     HemicubeLayout layout = HemicubeLayout::faces;  ///< of several faces
+    /// Decades of luminance that the light field is mapped to before it is coded, by the adjustment of its histogram
+    /// (docs/codec.md); one that spans no more is left as it is.
+    std::optional<double> tone_decades;
+    double chrominance = 1;  ///< how many times as coarse as luminance; three channels, unless it is 1
 };
 
 struct CompressionResult {
@@ -40,9 +44,10 @@ struct CompressionResult {
 ///   or the rate is met to within 2% (a file is never larger than asked for; exact where the coder is embedded).
 /// Within an error, or lossless, what is coded beside the prediction makes it so, and the step is the one among some
 /// that gives the smallest tiles; with the coder hogel alone. Where that cannot be (a light field of few samples), the
-/// file is the smallest that has the SQNR, or the best that has the rate. Depth is not stored. The file appears when it
-/// is complete. Throws Error(usage) for a target or method that makes no sense, Error(bad_input) for radiance that is
-/// not finite (within an error, or lossless: it may be), Error(cannot_write).
+/// file is the smallest that has the SQNR, or the best that has the rate. With a tone curve or coarser chrominance,
+/// SQNR and step are those of the mapped light field that is coded. Depth is not stored. The file appears when it is
+/// complete. Throws Error(usage) for a target or method that makes no sense, Error(bad_input) for radiance that is not
+/// finite (within an error, or lossless: it may be), Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});
 

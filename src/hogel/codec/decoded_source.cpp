@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <algorithm>
-
 #include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/recent_results.h"
@@ -25,6 +23,11 @@ class DecodedStream {
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
                                     path.string(), info().method.coder));
+        if (info().mapping.changes())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is coded along a tone curve, or with coarser chrominance; expected radiances "
+                                    "as they are",
+                                    path.string()));
         if (!info().sides.empty())
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is a hemicube; expected the directions of a single face", path.string()));
@@ -162,6 +165,7 @@ class DecodedFace final : public LightFieldSource {
     void read(LightFieldTile& tile) const override {
         validate(tile, grid_);
         stream_->read(part_, place_, tile);
+        stream_->info().mapping.undo(tile.radiance.view());
     }
 
   private:

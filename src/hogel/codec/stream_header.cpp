@@ -50,6 +50,59 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     }
 }
 
+// What a header ends with, each part by its name and length, so that a reader refuses what it does not know.
+constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance";
+
+void put_mapping(ByteWriter& fields, const RadianceMapping& mapping) {
+    const auto put_part = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
+        fields.put(name);
+        fields.put(static_cast<std::uint32_t>(bytes.size()));
+        fields.put(std::span(bytes));
+    };
+    if (mapping.tone) {
+        ByteWriter part;
+        part.put(mapping.tone->first());
+        for (const float value : mapping.tone->values()) part.put(value);
+        put_part(tone_name, part.bytes);
+    }
+    if (mapping.chrominance != 1) {
+        ByteWriter part;
+        part.put(mapping.chrominance);
+        put_part(chrominance_name, part.bytes);
+    }
+}
+
+ToneCurve take_tone(ByteReader& part) {
+    const auto first = part.take<std::uint32_t>();
+    std::vector<float> values;
+    while (part.left() > 0) values.push_back(part.take_float());
+    try {
+        return {first, std::move(values)};
+    } catch (const Error& error) {
+        part.damaged(std::string("its header has ") + error.what());
+    }
+}
+
+float take_chrominance(ByteReader& part) {
+    const float chrominance = part.take_float();
+    if (!(chrominance > 1 && chrominance <= RadianceMapping::most_chrominance) || part.left() > 0)
+        part.damaged("its header has an impossible factor of chrominance");
+    return chrominance;
+}
+
+void take_mapping(ByteReader& reader, RadianceMapping& mapping) {
+    while (reader.left() > 0) {
+        const std::string name = reader.take_text();
+        ByteReader part = reader.take_part(reader.take<std::uint32_t>());
+        if (name == tone_name && !mapping.changes())
+            mapping.tone = take_tone(part);
+        else if (name == chrominance_name && mapping.chrominance == 1)
+            mapping.chrominance = take_chrominance(part);
+        else
+            reader.damaged("its header has a part that is not known, or twice");
+    }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> header_of(const StreamInfo& info) {
@@ -71,6 +124,7 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     }
     put_sides(fields, info);
     fields.put(static_cast<std::uint32_t>(info.layer_ends.size()));
+    put_mapping(fields, info.mapping);
     ByteWriter header;
     header.put(std::span(stream_magic));
     header.put(latest_version);
@@ -102,6 +156,7 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
     const auto layers = version > 2 ? reader.take<std::uint32_t>() : 1;
     if (layers == 0 || layers > most_layers) reader.damaged("its header has an impossible number of layers");
     info.layer_ends.resize(layers);
+    if (version > 3) take_mapping(reader, info.mapping);
     return info;
 }
 
