@@ -15,13 +15,15 @@ namespace {
 struct Options {
     std::string input, output;
     CompressionOptions compression;
-    std::string hemicube = "faces", table;
+    std::string hemicube = "faces", table, tone = "none";
+    double tone_decades = defaults.tone_decades;
     Counts tile;
     bool no_depth = false;
 };
 
 const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
                                                       {"own", QuantisationTable::own}};
+const std::vector<std::string> tones{"none", "histogram"};
 const std::map<std::string, HemicubeLayout> layouts{{"faces", HemicubeLayout::faces},
                                                     {"unfolded", HemicubeLayout::unfolded}};
 
@@ -47,6 +49,7 @@ int compress_file(Options options, const Session& session) {
     }
     compression.metadata = describe_run(session);
     compression.layout = layouts.at(options.hemicube);
+    if (options.tone == "histogram") compression.tone_decades = options.tone_decades;
     compression.with_depth = faces.front()->has_depth() && !options.no_depth;
     if (compression.depth_error > 0 && !compression.with_depth)
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
@@ -125,6 +128,27 @@ void add_compress(CLI::App& app, Session& session) {
                "The depth of every ray within this of what it was (default: a 1,000th of the range)")
         ->default_str("")
         ->excludes(no_depth);
+    CLI::Option* tone =
+        command
+            ->add_option("--tone", options->tone,
+                         "Code the light field along a curve of its luminance, made of its histogram, which is undone\n"
+                         "when it is read: for high ranges, to keep what the eye sees. --sqnr, --step and --ppb then\n"
+                         "speak of the light field along the curve")
+            ->type_name("none|histogram")
+            ->check(CLI::IsMember(tones).description(""))
+            ->capture_default_str();
+    command
+        ->add_option("--tone-decades", options->tone_decades,
+                     "Decades of luminance that the curve leaves (0.1 to 20); what spans no more has none")
+        ->type_name("N")
+        ->needs(tone)
+        ->capture_default_str();
+    command
+        ->add_option("--chrominance", options->compression.chrominance,
+                     "Code the two channels of chrominance so many times as coarsely as luminance (1 to 1024); --sqnr\n"
+                     "and --step then speak of colours whose chrominance is divided by it")
+        ->type_name("F")
+        ->capture_default_str();
     add_counts(command, "--tile", options->tile, "Hogels across and down that are coded together; 0: as suits")
         ->default_str("");
 }

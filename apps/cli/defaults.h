@@ -22,6 +22,7 @@ struct Defaults {
     double field_of_view = 16_deg;  ///< full angle, 2θ
     double front = 0.3;             ///< how much of a fitted mesh stands in front of the plane
     double sqnr = 40;               ///< decibels of a compressed light field
+    double tone_decades = 1;        ///< of luminance, along a tone curve
 
     // baking
     std::size_t bake_rays = 256, bake_bounces = 5;

@@ -330,8 +330,10 @@ std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& 
                                                                  const RenderOptions& render,
                                                                  HologramOptions& hologram) {
     if (methods.at(hologram.method) == Method::basis && input_kind(name) == InputKind::light_field && is_stream(name)) {
-        const CodingMethod stored = read_stream_info(name).method;
-        if (stored.coder == "fringes" && (hologram.basis.empty() || hologram.basis == stored.transform)) {
+        const StreamInfo info = read_stream_info(name);
+        const CodingMethod& stored = info.method;
+        if (stored.coder == "fringes" && !info.mapping.changes() &&
+            (hologram.basis.empty() || hologram.basis == stored.transform)) {
             hologram.basis = stored.transform;
             hologram.coefficients = true;
             std::vector<std::unique_ptr<LightFieldSource>> coefficients;

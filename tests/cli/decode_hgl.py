@@ -682,6 +682,45 @@ def jpeg4d(data, shape):
     return np.stack(channels)
 
 
+def parts_of(source, end):
+    """The parts that a header ends with: the curve's points and values, and the factor of chrominance; then the bytes
+    of depth, and from where on it is infinite."""
+    points = values = None
+    chrominance, depth = f32(1), (0, None)
+    while source.at < end:
+        name, size = source.text(), source.take("I")
+        if name == "tone":
+            first, *values = source.take(f"I{size // 4 - 1}f")
+            values = np.array(values, f32)
+            points = ((first + np.arange(len(values), dtype="u4")) << np.uint32(20)).astype("u4").view(f32)
+        elif name == "depth":
+            depth_bytes, _, beyond = source.take("Qdd")
+            assert size == 24
+            depth = depth_bytes, beyond
+        else:
+            assert name == "chrominance" and size == 4
+            chrominance = f32(source.take("f"))
+    return (points, values, chrominance), depth
+
+
+def unmapped(tile, points, values, chrominance):
+    """Radiances [c]... as they were before they were mapped."""
+    if values is None and chrominance == 1:
+        return tile
+    mean = (tile[0] + tile[1] + tile[2]) / f32(3) if len(tile) == 3 else tile[0]
+    if chrominance != 1:
+        tile = mean + (tile - mean) * chrominance
+    if values is None:
+        return tile
+    y = np.abs(mean)
+    piece = np.clip(np.searchsorted(values, y, side="right") - 1, 0, len(values) - 2)
+    slope = (points[1:] - points[:-1]) / (values[1:] - values[:-1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factor = (points[piece] + (y - values[piece]) * slope[piece]) / y
+    factor = np.where(y > values[0], factor, points[0] / values[0])
+    return tile * np.where(y < values[-1], factor, points[-1] / values[-1])
+
+
 def check(data, file, beyond=None):
     """A stream against a light field; with `beyond` against its depths, which from there on are infinite."""
     source = Bytes(data)
@@ -718,11 +757,10 @@ def check(data, file, beyond=None):
             parts = [(u2, v2, tan_u * u2 / n_u, tan_v * v2 / n_v, places)]
     if version > 2:
         layers = source.take("I")
-    if version > 4:
-        depth_bytes, _, depth_beyond = source.take("Qdd")
-        if depth_bytes:
-            check(data[-depth_bytes:], file, depth_beyond)
-            data = data[:-depth_bytes]
+    mapping, (depth_bytes, depth_beyond) = parts_of(source, 16 + length)
+    if depth_bytes:
+        check(data[-depth_bytes:], file, depth_beyond)
+        data = data[:-depth_bytes]
     assert source.at == 16 + length
     assert source.take("I") == zlib.crc32(data[:16 + length])
     tiles = len(parts) * -(-rows // tile_t) * -(-columns // tile_s)
@@ -768,10 +806,11 @@ def check(data, file, beyond=None):
                     tile = np.where(tile < beyond, tile, f32(np.inf))
                 for name, u0, u1, v0, v1 in faces:
                     truth = expected[name][:, t0:t0 + down, s0:s0 + across]
+                    face = unmapped(tile[..., v0:v1, u0:u1], *mapping)
                     if coder == "jpeg4d":
-                        assert np.abs(tile[..., v0:v1, u0:u1] - truth).max() <= 1e-5 * np.abs(truth).max(), "differs"
+                        assert np.abs(face - truth).max() <= 1e-5 * np.abs(truth).max(), "differs"
                         continue
-                    assert np.array_equal(tile[..., v0:v1, u0:u1].view("u4"), truth.view("u4")), "samples differ"
+                    assert np.array_equal(face.view("u4"), truth.view("u4")), "samples differ"
 
 
 check(open(sys.argv[1], "rb").read(), h5py.File(sys.argv[2], "r"))

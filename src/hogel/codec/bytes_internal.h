@@ -55,6 +55,7 @@ class ByteReader {
         bytes_ = bytes_.subspan(count);
         return part;
     }
+    ByteReader take_part(std::size_t count) { return {take(count), what_}; }
     std::size_t left() const { return bytes_.size(); }
     [[noreturn]] void damaged(const std::string& why) const { throw Error(ErrorCode::bad_input, what_ + ": " + why); }
 

@@ -12,6 +12,7 @@
 #include "hogel/codec/step_search_internal.h"
 #include "hogel/codec/stream_header_internal.h"
 #include "hogel/codec/stream_internal.h"
+#include "hogel/codec/tone_adjustment_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
 
@@ -265,6 +266,41 @@ StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces,
     return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
 }
 
+RadianceMapping mapping_for(std::span<const LightFieldSource* const> faces, const CompressionOptions& options,
+                            const Progress& progress) {
+    const CompressionTarget& target = options.target;
+    RadianceMapping mapping;
+    if (!options.tone_decades && options.chrominance == 1) return mapping;
+    if (target.lossless || target.max_error)
+        throw Error(ErrorCode::usage,
+                    "a tone curve or coarser chrominance neither keep to an error nor are lossless; expected an SQNR, "
+                    "a rate or a step");
+    if (!(options.chrominance >= 1 && options.chrominance <= RadianceMapping::most_chrominance))
+        throw Error(ErrorCode::usage, fmt::format("chrominance {} times as coarse was asked for, expected 1 to {}",
+                                                  options.chrominance, RadianceMapping::most_chrominance));
+    if (options.chrominance != 1 && faces.front()->grid().channels != 3)
+        throw Error(ErrorCode::usage, "coarser chrominance was asked for of a light field of one channel, expected 3");
+    mapping.chrominance = static_cast<float>(options.chrominance);
+    if (!options.tone_decades) return mapping;
+    if (!(*options.tone_decades >= 0.1 && *options.tone_decades <= 20))
+        throw Error(ErrorCode::usage,
+                    fmt::format("a tone curve to {} decades was asked for, expected 0.1 to 20", *options.tone_decades));
+    mapping.tone = adjusted_curve(luminance_histogram(faces, progress), *options.tone_decades);
+    return mapping;
+}
+
+// The light fields as they are coded.
+struct MappedFaces {
+    std::vector<std::unique_ptr<LightFieldSource>> mapped;
+    std::vector<const LightFieldSource*> faces;
+
+    MappedFaces(std::span<const LightFieldSource* const> sources, const RadianceMapping& mapping)
+        : faces(sources.begin(), sources.end()) {
+        if (!mapping.changes()) return;
+        for (const LightFieldSource*& face : faces) face = mapped.emplace_back(map_radiances(*face, mapping)).get();
+    }
+};
+
 }  // namespace
 
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
@@ -273,16 +309,19 @@ CompressionResult compress(const LightFieldSource& source, const std::filesystem
     return compress({&only, 1}, path, options, progress);
 }
 
-CompressionResult compress(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+CompressionResult compress(std::span<const LightFieldSource* const> sources, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
     check(options.target);
-    const LightFieldGrid& grid = faces.front()->grid();
+    const LightFieldGrid& grid = sources.front()->grid();
     const bool exact = options.target.lossless || options.target.max_error;
     if (exact && options.method != CodingMethod{})
         throw Error(ErrorCode::usage, fmt::format("coder {} cannot keep to an error, nor be lossless; expected hogel",
                                                   options.method.coder));
     require_tangents(grid, ErrorCode::usage, "a compressed light field");
-    StreamInfo info{grid, {}, options.method, options.metadata, {}, options.layout};
+    const RadianceMapping mapping = mapping_for(sources, options, progress);
+    const MappedFaces mapped(sources, mapping);
+    const std::span<const LightFieldSource* const> faces = mapped.faces;
+    StreamInfo info{grid, {}, options.method, options.metadata, {}, options.layout, mapping};
     if (exact) info.method.coder = options.target.lossless ? "lossless" : "bounded";
     double pixels = 0;
     for (const LightFieldSource* face : faces) {
@@ -300,7 +339,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
     info.layer_ends.resize(parts.front().coder->layers(info.tile));
     std::optional<OutputFile> depth;
-    if (options.with_depth) info.depth = compress_depth(faces, depth.emplace(path).temporary(), options);
+    if (options.with_depth) info.depth = compress_depth(sources, depth.emplace(path).temporary(), options);
     StreamWriter writer(path, info, depth ? depth->temporary() : std::filesystem::path());
     Compression compression(parts, info, writer, progress);
     const CompressionTarget& target = options.target;

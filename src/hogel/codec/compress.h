@@ -27,6 +27,10 @@ struct CompressionOptions {
     HemicubeLayout layout = HemicubeLayout::faces;  ///< of several faces
     bool with_depth = false;                        ///< whether the sources' depth is stored, too
     double depth_error = 0;                         ///< of each at most, metres; 0: a 1,000th of the depths' range
+    /// Decades of luminance that the light field is mapped to before it is coded, by the adjustment of its histogram
+    /// (docs/codec.md); one that spans no more is left as it is.
+    std::optional<double> tone_decades;
+    double chrominance = 1;  ///< how many times as coarse as luminance; three channels, unless it is 1
 };
 
 struct CompressionResult {
@@ -45,8 +49,9 @@ struct CompressionResult {
 ///   samples, is filled up with what says nothing, or cut off where the coder is embedded.
 /// Within an error, or lossless, what is coded beside the prediction makes it so, and the step is the one among some
 /// that gives the smallest tiles; with the coder hogel alone. Where that cannot be (a light field of few samples), the
-/// file is the smallest that has the SQNR. Depth is coded first, and counts as a part of the file. The file appears
-/// when it is complete. Throws Error(usage) for a target or method that makes no sense, and a rate that no step has,
+/// file is the smallest that has the SQNR. With a tone curve or coarser chrominance, SQNR and step are those of the
+/// mapped light field that is coded. Depth is coded first, and counts as a part of the file. The file appears when it
+/// is complete. Throws Error(usage) for a target or method that makes no sense, and a rate that no step has,
 /// Error(bad_input) for radiance that is not finite (within an error, or lossless: it may be), Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});

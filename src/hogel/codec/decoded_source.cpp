@@ -25,6 +25,11 @@ class DecodedStream {
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
                                     path.string(), info().method.coder));
+        if (info().mapping.changes())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is coded along a tone curve, or with coarser chrominance; expected radiances "
+                                    "as they are",
+                                    path.string()));
         if (!info().sides.empty())
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is a hemicube; expected the directions of a single face", path.string()));
@@ -165,6 +170,7 @@ class DecodedFace final : public LightFieldSource {
     void read(LightFieldTile& tile) const override {
         validate(tile, grid_);
         stream_->read(part_, place_, tile);
+        stream_->info().mapping.undo(tile.radiance.view());
         if (depth_ && tile.depth.size() > 0) read_depth(*depth_, stream_->info().depth.beyond, tile);
     }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "hogel/codec/radiance_mapping.h"
 #include "hogel/codec/tile_coder.h"
 #include "hogel/codec/unfolded.h"
 #include "hogel/image/image.h"
@@ -19,6 +20,7 @@ struct StreamInfo {
     Metadata metadata;
     std::vector<LightFieldGrid> sides = {};  ///< further faces of a hemicube, whose front is `grid`
     HemicubeLayout layout = HemicubeLayout::faces;
+    RadianceMapping mapping = {};            ///< of what is coded
     std::uint32_t version = latest_version;  ///< of the format
     std::uint64_t filler = 0;                ///< bytes that say nothing, so that the file is as long as was asked for
     /// How often the file gets finer: where each layer of all tiles ends in it, the last one at its end. Older versions
@@ -64,7 +66,7 @@ std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::file
 /// The same before the transform of the directions is undone, for holograms made of basis fringes: in place of
 /// radiances the coefficients of √L, an array [n_V][n_U] for each hogel and channel, of the transform that the header
 /// names (Pyramid::separate, its two axes one group). Throws Error(bad_input) for a stream whose coder is not
-/// `fringes`, and for a hemicube, too.
+/// `fringes`, whose radiances were mapped, and for a hemicube, too.
 std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path);
 
 }  // namespace hogel

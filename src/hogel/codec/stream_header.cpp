@@ -53,6 +53,77 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     }
 }
 
+// What a header ends with, each part by its name and length, so that a reader refuses what it does not know.
+constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance", depth_name = "depth";
+
+void put_parts(ByteWriter& fields, const StreamInfo& info) {
+    const auto put_part = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
+        fields.put(name);
+        fields.put(static_cast<std::uint32_t>(bytes.size()));
+        fields.put(std::span(bytes));
+    };
+    if (const auto& tone = info.mapping.tone) {
+        ByteWriter part;
+        part.put(tone->first());
+        for (const float value : tone->values()) part.put(value);
+        put_part(tone_name, part.bytes);
+    }
+    if (info.mapping.chrominance != 1) {
+        ByteWriter part;
+        part.put(info.mapping.chrominance);
+        put_part(chrominance_name, part.bytes);
+    }
+    if (info.depth.bytes > 0) {
+        ByteWriter part;
+        part.put(info.depth.bytes);
+        for (const double number : {info.depth.error, info.depth.beyond}) part.put(number);
+        put_part(depth_name, part.bytes);
+    }
+}
+
+ToneCurve take_tone(ByteReader& part) {
+    const auto first = part.take<std::uint32_t>();
+    std::vector<float> values;
+    while (part.left() > 0) values.push_back(part.take_float());
+    try {
+        return {first, std::move(values)};
+    } catch (const Error& error) {
+        part.damaged(std::string("its header has ") + error.what());
+    }
+}
+
+float take_chrominance(ByteReader& part) {
+    const float chrominance = part.take_float();
+    if (!(chrominance > 1 && chrominance <= RadianceMapping::most_chrominance) || part.left() > 0)
+        part.damaged("its header has an impossible factor of chrominance");
+    return chrominance;
+}
+
+StreamInfo::Depth take_depth(ByteReader& part) {
+    StreamInfo::Depth depth;
+    depth.bytes = part.take<std::uint64_t>();
+    for (double* number : {&depth.error, &depth.beyond}) *number = part.take_double();
+    if (depth.bytes == 0 || !std::isfinite(depth.error) || !std::isfinite(depth.beyond) || part.left() > 0)
+        part.damaged("its header speaks of impossible depths");
+    return depth;
+}
+
+void take_parts(ByteReader& reader, StreamInfo& info) {
+    RadianceMapping& mapping = info.mapping;
+    while (reader.left() > 0) {
+        const std::string name = reader.take_text();
+        ByteReader part = reader.take_part(reader.take<std::uint32_t>());
+        if (name == tone_name && !mapping.changes())
+            mapping.tone = take_tone(part);
+        else if (name == chrominance_name && mapping.chrominance == 1)
+            mapping.chrominance = take_chrominance(part);
+        else if (name == depth_name && info.depth.bytes == 0)
+            info.depth = take_depth(part);
+        else
+            reader.damaged("its header has a part that is not known, or twice");
+    }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> header_of(const StreamInfo& info) {
@@ -76,8 +147,7 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     }
     put_sides(fields, info);
     fields.put(static_cast<std::uint32_t>(info.layer_ends.size()));
-    fields.put(info.depth.bytes);
-    for (const double number : {info.depth.error, info.depth.beyond}) fields.put(number);
+    put_parts(fields, info);
     ByteWriter header;
     header.put(std::span(stream_magic));
     header.put(latest_version);
@@ -113,11 +183,7 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
     const auto layers = version > 2 ? reader.take<std::uint32_t>() : 1;
     if (layers == 0 || layers > most_layers) reader.damaged("its header has an impossible number of layers");
     info.layer_ends.resize(layers);
-    if (version > 4) {
-        info.depth.bytes = reader.take<std::uint64_t>();
-        for (double* number : {&info.depth.error, &info.depth.beyond}) *number = reader.take_double();
-        if (!std::isfinite(info.depth.beyond)) reader.damaged("its header has depths that are no numbers");
-    }
+    if (version > 3) take_parts(reader, info);
     return info;
 }
 

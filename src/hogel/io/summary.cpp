@@ -97,6 +97,12 @@ void describe(const StreamInfo& info, FileSummary& summary) {
     }
     summary.text.insert(summary.text.end(), {{"format", "hogel compressed light field"}, {"coder", info.method.coder}});
     if (!info.method.transform.empty()) summary.text.emplace_back("transform", info.method.transform);
+    if (info.mapping.tone)
+        summary.text.emplace_back("tone_curve",
+                                  fmt::format("{:.2f} decades of luminance in {:.2f}", info.mapping.tone->decades(),
+                                              info.mapping.tone->mapped_decades()));
+    if (info.mapping.chrominance != 1)
+        summary.text.emplace_back("chrominance", fmt::format("{:.9g} times as coarse", info.mapping.chrominance));
     if (info.layer_ends.size() > 1) {
         summary.text.emplace_back("layers", fmt::format("{} of {}", info.layers_there, info.layer_ends.size()));
         summary.text.emplace_back("layers_end_at", fmt::format("{}", fmt::join(info.layer_ends, " ")));

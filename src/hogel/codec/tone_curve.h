@@ -1,0 +1,88 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hogel {
+
+/// A strictly increasing function y(L) of luminance and its inverse: straight from point to point, eight points an
+/// octave, which are the numbers of binary32 whose lowest 20 bits are 0; in proportion to L below the first point and
+/// beyond the last; odd. In binary32, by basic operations alone, so that it is the same everywhere.
+class ToneCurve {
+  public:
+    static constexpr int low_bits = 20;  // of a point, which are 0
+    static constexpr std::size_t most_points = 512;
+
+    /// @param first    the highest bits of the first point
+    /// @param values   y at each point from the first on
+    /// Throws Error(bad_input) unless there are 2 to most_points points, all normal numbers, and values that increase,
+    /// each within 2^±64 of its point.
+    ToneCurve(std::uint32_t first, std::vector<float> values);
+
+    /// The luminance of point i.
+    float point(std::size_t i) const { return point_at(first_ + static_cast<std::uint32_t>(i)); }
+    std::uint32_t first() const { return first_; }
+    const std::vector<float>& values() const { return values_; }
+    /// Decades from the first point to the last, of luminance and of what it becomes.
+    double decades() const;
+    double mapped_decades() const;
+
+    /// y(L)/L, and its limit at 0.
+    float factor(float luminance) const {
+        const float l = std::abs(luminance);
+        if (!(l > lowest_)) return below_;
+        if (!(l < highest_)) return beyond_;
+        const std::size_t i = (std::bit_cast<std::uint32_t>(l) >> low_bits) - first_;
+        const Piece& piece = pieces_[i];
+        return (piece.value + (l - piece.point) * piece.slope) / l;
+    }
+    /// L(y)/y, and its limit at 0.
+    float inverse_factor(float mapped) const {
+        const float y = std::abs(mapped);
+        if (!(y > values_.front())) return inverse_below_;
+        if (!(y < values_.back())) return inverse_beyond_;
+        std::size_t i = begin_[(std::bit_cast<std::uint32_t>(y) >> bucket_bits) - first_bucket_];
+        while (!(y < values_[i + 1])) ++i;
+        const Piece& piece = pieces_[i];
+        return (piece.point + (y - piece.value) * piece.inverse_slope) / y;
+    }
+
+    friend bool operator==(const ToneCurve& a, const ToneCurve& b) {
+        return a.first_ == b.first_ && a.values_ == b.values_;
+    }
+
+  private:
+    struct Piece {
+        float point, value, slope, inverse_slope;
+    };
+    static constexpr int bucket_bits = 16;
+
+    static float point_at(std::uint32_t high) { return std::bit_cast<float>(high << low_bits); }
+
+    std::uint32_t first_;
+    std::vector<float> values_;
+    float lowest_, highest_, below_, beyond_, inverse_below_, inverse_beyond_;
+    std::vector<Piece> pieces_;
+    std::uint32_t first_bucket_;
+    std::vector<std::uint16_t> begin_;  // for the highest bits of y, the first piece to look at
+};
+
+/// How many luminances a light field has between a point of a ToneCurve and the next; those that are not normal numbers
+/// count nowhere. |L| counts.
+class LuminanceHistogram {
+  public:
+    LuminanceHistogram() : counts_(std::size_t{1} << (31 - ToneCurve::low_bits)) {}
+    void add(float luminance) {
+        ++counts_[(std::bit_cast<std::uint32_t>(luminance) & 0x7FFFFFFF) >> ToneCurve::low_bits];
+    }
+    void add(const LuminanceHistogram& other);
+    std::span<const std::uint64_t> counts() const { return counts_; }
+
+  private:
+    std::vector<std::uint64_t> counts_;
+};
+
+}  // namespace hogel
