@@ -130,10 +130,11 @@ void add_compress(CLI::App& app, Session& session) {
         ->excludes(no_depth);
     CLI::Option* tone =
         command
-            ->add_option("--tone", options->tone,
-                         "Code the light field along a curve of its luminance, made of its histogram, which is undone\n"
-                         "when it is read: for high ranges, to keep what the eye sees. --sqnr, --step and --ppb then\n"
-                         "speak of the light field along the curve")
+            ->add_option(
+                "--tone", options->tone,
+                "Code the light field along a curve of its luminance, made of its histogram, which is undone\n"
+                "when it is read: for high ranges, to keep what the eye sees. --sqnr and --step then speak of\n"
+                "the light field along the curve")
             ->type_name("none|histogram")
             ->check(CLI::IsMember(tones).description(""))
             ->capture_default_str();
