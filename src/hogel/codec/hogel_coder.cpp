@@ -23,7 +23,11 @@ constexpr std::size_t preferred_side = 32;  // where prediction gains little mor
 constexpr std::size_t preferred_samples = std::size_t{1} << 27;
 // How the step grows from one level of the order to the next. What all hogels share is best told once and finely.
 constexpr float expected_growth = 1.35f;
-float growth_for(float shared) { return 1.27f + 0.63f * shared * shared * shared * shared; }
+// In a single row of hogels a level has twice as many as those before it, not four times: less is inherited.
+float growth_for(float shared, bool single_row) {
+    const float growth = 1.27f + 0.63f * shared * shared * shared * shared;
+    return single_row ? std::cbrt(growth) : growth;
+}
 // References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
 // direction the nearest ones serve best; otherwise it takes more to choose from.
 constexpr std::array<std::uint8_t, 3> references_a_side{1, 2, 3};
@@ -65,7 +69,7 @@ class TileEncoder {
             if (order_[k].level < 2) estimates[k] = estimate_disparities(setup_, tile_, order_[k]);
         });
         for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = std::move(estimates[k].disparities);
-        const float growth = growth_for(estimates[0].shared);
+        const float growth = growth_for(estimates[0].shared, tile_.range.ns == 1 || tile_.range.nt == 1);
         setup_.set_steps(setup_.step.back(), growth);
         bytes_.put(setup_.step.back());
         bytes_.put(growth);
