@@ -246,26 +246,6 @@ std::unique_ptr<TileCoder> coder_for(const StreamInfo& info, const LightFieldGri
     return make_tile_coder(info.method, part, counted(info));
 }
 
-// Writes the stream of the depths alone.
-StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
-                                 const CompressionOptions& options) {
-    for (const LightFieldSource* face : faces)
-        if (!face->has_depth())
-            throw Error(ErrorCode::usage, "compression: depth was asked for, and the light field has none");
-    if (!(options.depth_error >= 0 && std::isfinite(options.depth_error)))
-        throw Error(ErrorCode::usage, fmt::format("an error of depth of {} m was asked for, expected a positive one",
-                                                  options.depth_error));
-    const DepthCoding coding = depth_coding(faces, options.depth_error);
-    std::vector<std::unique_ptr<LightFieldSource>> sources;
-    std::vector<const LightFieldSource*> depths;
-    for (const LightFieldSource* face : faces)
-        depths.push_back(sources.emplace_back(depth_as_radiance(*face, coding)).get());
-    CompressionOptions exact;
-    exact.target.max_error = coding.error;
-    exact.tile = options.tile;
-    return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
-}
-
 RadianceMapping mapping_for(std::span<const LightFieldSource* const> faces, const CompressionOptions& options,
                             const Progress& progress) {
     const CompressionTarget& target = options.target;

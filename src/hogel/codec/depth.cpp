@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hogel/codec/compress.h"
 #include "hogel/codec/depth_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
@@ -98,6 +99,25 @@ void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& ti
     coded.read(values);
     std::ranges::transform(values.radiance.elements(), tile.depth.elements().begin(),
                            [&](float value) { return value < beyond ? value : infinity; });
+}
+
+StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+                                 const CompressionOptions& options) {
+    for (const LightFieldSource* face : faces)
+        if (!face->has_depth())
+            throw Error(ErrorCode::usage, "compression: depth was asked for, and the light field has none");
+    if (!(options.depth_error >= 0 && std::isfinite(options.depth_error)))
+        throw Error(ErrorCode::usage, fmt::format("an error of depth of {} m was asked for, expected a positive one",
+                                                  options.depth_error));
+    const DepthCoding coding = depth_coding(faces, options.depth_error);
+    std::vector<std::unique_ptr<LightFieldSource>> sources;
+    std::vector<const LightFieldSource*> depths;
+    for (const LightFieldSource* face : faces)
+        depths.push_back(sources.emplace_back(depth_as_radiance(*face, coding)).get());
+    CompressionOptions exact;
+    exact.target.max_error = coding.error;
+    exact.tile = options.tile;
+    return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
 }
 
 }  // namespace hogel

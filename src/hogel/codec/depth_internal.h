@@ -1,11 +1,15 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
 
+#include "hogel/codec/stream.h"
 #include "hogel/lightfield/light_field.h"
 
 namespace hogel {
+
+struct CompressionOptions;
 
 // How the depths of a light field stand in the stream behind its own: as a light field of one channel, each to within
 // an error, in metres. Nothing at all, at infinity, stands there as a depth behind all others.
@@ -23,6 +27,10 @@ DepthCoding depth_coding(std::span<const LightFieldSource* const> faces, double 
 
 // The depths of a light field as radiance of one channel.
 std::unique_ptr<LightFieldSource> depth_as_radiance(const LightFieldSource& source, const DepthCoding& coding);
+
+// Writes the stream of the depths alone. Throws Error(usage) where there are none, or for an impossible error.
+StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+                                 const CompressionOptions& options);
 
 // Reads the depth of a tile from such a light field.
 void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile);
