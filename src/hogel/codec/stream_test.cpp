@@ -286,13 +286,13 @@ TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
         return true;
     };
     EXPECT_TRUE(decodes(good, 0));
-    for (std::size_t length = depth_begins; length < good.size(); ++length) {
+    for (std::size_t length = depth_begins; length < good.size(); length += 7) {
         const std::vector<std::uint8_t> cut(good.begin(), good.begin() + std::ptrdiff_t(length));
         ASSERT_FALSE(decodes(cut, 0)) << length;
         ASSERT_TRUE(decodes(cut, layers)) << length;
         ASSERT_FALSE(open_stream(folder / "bad.hgl", {.layers = layers})->has_depth());
     }
-    for (std::size_t at = 0; at < good.size(); ++at) {
+    for (std::size_t at = 0; at < good.size(); at += 3) {
         std::vector<std::uint8_t> bad = good;
         bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
         ASSERT_FALSE(decodes(bad, 0)) << at;
