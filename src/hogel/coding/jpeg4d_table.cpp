@@ -46,7 +46,7 @@ double bits_to_tell(int difference) { return difference == 0 ? 0.2 : 4 + std::ab
 
 std::size_t bits_of(std::uint32_t magnitude) { return static_cast<std::size_t>(std::bit_width(magnitude)); }
 
-// Every so manieth block, for what needs not all of them.
+// One block of so many is looked at where not all are needed.
 std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + most_looked_at - 1) / most_looked_at; }
 
 // What a level takes, by the number of its bits: the mean of the tuples of such levels, and of what stands for the
