@@ -51,7 +51,7 @@ RateCurve measure_method(const LightField& field, const CodingMethod& method, co
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.path() / "a.hgl";
     RateCurve curve{method.transform.empty() ? method.coder : method.coder + " " + method.transform, {}};
-    if (method.table == QuantisationTable::jpeg) curve.name += ", JPEG's table";
+    if (method.table == QuantisationTable::jpeg) curve.name = method.coder + ", table jpeg";
     CompressionOptions options;
     options.method = method;
     // An error of step/√12 where there is detail of the step's size; less where there is none.
