@@ -11,13 +11,6 @@
 namespace hogel {
 namespace {
 
-LightField decoded(const std::filesystem::path& path) {
-    const auto source = open_stream(path);
-    LightField field(source->grid());
-    copy(*source, field);
-    return field;
-}
-
 std::vector<CodingMethod> all_methods() {
     std::vector<CodingMethod> methods{{"hogel", ""}};
     for (const std::string_view name : transform_names())
@@ -35,16 +28,6 @@ CompressionOptions with_sqnr(const CodingMethod& method, double sqnr) {
     options.method = method;
     options.target.sqnr = sqnr;
     return options;
-}
-
-ErrorCode code_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-        return error.code();
-    }
-    return ErrorCode{0};
 }
 
 // Undoing the transform of the directions is all that is left to do.

@@ -6,6 +6,7 @@
 
 #include "hogel/codec/compress.h"
 #include "hogel/codec/depth_internal.h"
+#include "hogel/codec/stream_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
 
@@ -74,16 +75,9 @@ DepthCoding::DepthCoding(double nearest, double farthest, double error_wanted) {
 DepthCoding depth_coding(std::span<const LightFieldSource* const> faces, double error_wanted) {
     Range all;
     for (const LightFieldSource* face : faces) {
-        const LightFieldGrid& grid = face->grid();
-        const HogelRange size = face->preferred_tile();
-        const std::size_t across = (grid.hogels_s - 1) / size.ns + 1, down = (grid.hogels_t - 1) / size.nt + 1;
+        const Tiling tiling(face->grid(), face->preferred_tile());
         parallel_ordered<Range>(
-            across * down, default_in_flight(),
-            [&](std::size_t i) {
-                const std::size_t s0 = i % across * size.ns, t0 = i / across * size.nt;
-                return depths_of(
-                    *face, {s0, t0, std::min(size.ns, grid.hogels_s - s0), std::min(size.nt, grid.hogels_t - t0)});
-            },
+            tiling.count(), default_in_flight(), [&](std::size_t i) { return depths_of(*face, tiling[i]); },
             [&](std::size_t, Range& depths) { all.include(depths); });
     }
     return all.nearest <= all.farthest ? DepthCoding(all.nearest, all.farthest, error_wanted)

@@ -37,23 +37,6 @@ CompressionOptions mapped(const CodingMethod& method, std::optional<double> deca
     return options;
 }
 
-LightField decoded(const std::filesystem::path& path) {
-    const auto source = open_stream(path);
-    LightField field(source->grid());
-    copy(*source, field);
-    return field;
-}
-
-ErrorCode code_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-        return error.code();
-    }
-    return ErrorCode{0};
-}
-
 TEST(RadianceMapping, is_undone) {
     for (const std::size_t channels : {1, 3})
         for (const float chrominance : {1.0f, 4.0f}) {

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "hogel/codec/stream.h"
+#include "hogel/core/error.h"
 #include "hogel/core/random.h"
 #include "hogel/lightfield/light_field.h"
 
@@ -73,6 +78,24 @@ inline double sqnr_of(const LightField& truth, const LightField& other) {
         error += e * e;
     }
     return 10 * std::log10(signal / error);
+}
+
+inline LightField decoded(const std::filesystem::path& path) {
+    const auto source = open_stream(path);
+    LightField field(source->grid());
+    copy(*source, field);
+    return field;
+}
+
+// What a call throws, in one line; 0 if nothing.
+inline ErrorCode code_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        return error.code();
+    }
+    return ErrorCode{0};
 }
 
 }  // namespace hogel
