@@ -82,7 +82,7 @@ Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile
         Picture picture;
     };
     std::array<std::vector<Neighbour>, 2> neighbours;  // along s, along t
-    for (const int apart : {-4, -2, -1, 1, 2, 4}) {
+    for (const int apart : {-4, 4, -2, 2, -1, 1}) {  // what tells most first
         const std::size_t s = hogel.s + static_cast<std::size_t>(apart), t = hogel.t + static_cast<std::size_t>(apart);
         if (s < tile.range.ns) neighbours[0].push_back({{0, apart, 0}, picture_of(tile, setup, s, hogel.t)});
         if (t < tile.range.nt) neighbours[1].push_back({{0, 0, apart}, picture_of(tile, setup, hogel.s, t)});
@@ -98,37 +98,44 @@ Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile
         const std::size_t column = k % setup.grid.columns, row = k / setup.grid.columns;
         const int x = static_cast<int>(column * block_side), y = static_cast<int>(row * block_side);
         const BlockSamples block = block_of(here, column * block_side, row * block_side);
-        // Of the neighbours along each axis the better half counts: what one side hides the other may show.
-        const auto cost = [&](int disparity, bool whole_directions) {
+        // Of the neighbours along each axis the better half counts: what one side hides the other may show. What cannot
+        // become less than `most` need not be known.
+        const auto cost = [&](int disparity, bool whole_directions, float most) {
             float sum = 0;
             for (const auto& axis : neighbours) {
-                std::array<float, 6> errors;
-                errors.fill(std::numeric_limits<float>::infinity());
+                std::array<float, 6> smallest;  // errors, in order
+                const std::size_t better = (axis.size() + 1) / 2;
                 for (std::size_t n = 0; n < axis.size(); ++n) {
                     const Plane& plane = axis[n].picture[0];
                     const Shift shift = shift_of(disparity, axis[n].place, setup.aspect);
+                    float error;
                     if (whole_directions) {
                         const PlaneWindow window(plane, x + ((shift.u + 32) >> 6), y + ((shift.v + 32) >> 6),
                                                  block_side, block_side);
-                        errors[n] = squared_difference(window.rows(), window.stride(), block);
+                        error = squared_difference(window.rows(), window.stride(), block);
                     } else {
                         BlockSamples other;
                         fetch_moved(plane, x, y, shift, other);
-                        errors[n] = squared_difference(other, block);
+                        error = squared_difference(other, block);
                     }
+                    std::size_t at = n;
+                    for (; at > 0 && error < smallest[at - 1]; --at) smallest[at] = smallest[at - 1];
+                    smallest[at] = error;
+                    // With so many left, as many of the smallest may still come.
+                    const std::size_t left = axis.size() - 1 - n;
+                    float at_least = sum;
+                    for (std::size_t i = 0; i + left < better; ++i) at_least += smallest[i];
+                    if (!(at_least < most)) return at_least;
                 }
-                for (std::size_t n = 0; n < (axis.size() + 1) / 2; ++n) {
-                    const auto smallest = std::ranges::min_element(errors);
-                    sum += *smallest;
-                    *smallest = std::numeric_limits<float>::infinity();
-                }
+                for (std::size_t i = 0; i < better; ++i) sum += smallest[i];
             }
             return sum;
         };
+        constexpr float unknown = std::numeric_limits<float>::infinity();
         int best = 0;
-        float least = std::numeric_limits<float>::infinity();
+        float least = unknown;
         const auto try_one = [&](int disparity, bool whole) {
-            const float here_cost = cost(disparity, whole);
+            const float here_cost = cost(disparity, whole, least);
             if (here_cost < least) {
                 least = here_cost;
                 best = disparity;
@@ -143,12 +150,12 @@ Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile
             const int going_on = best;
             const float of_going_on = least;
             best = 0;
-            least = cost(0, true);
+            least = cost(0, true, unknown);
             for (int disparity = shift_unit / 4; disparity <= 4 * shift_unit; disparity += shift_unit / 4)
                 for (const int sign : {-1, 1}) try_one(sign * disparity, true);
             for (int disparity = 5 * shift_unit; disparity <= 16 * shift_unit; disparity += shift_unit)
                 for (const int sign : {-1, 1}) try_one(sign * disparity, true);
-            least = cost(best, false);
+            least = cost(best, false, unknown);
             if (of_going_on < least) {
                 least = of_going_on;
                 best = going_on;
