@@ -74,8 +74,12 @@ void quantise(const BlockSamples& truth, float error, float step, bool from_with
 
 }  // namespace
 
-Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile, const HogelOrder::Hogel& hogel) {
-    const Picture picture = picture_of(tile, setup, hogel.s, hogel.t);
+Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel) {
+    const auto picture_at = [&](std::size_t s, std::size_t t) {
+        const bool in_tile = setup.grid.channels == 1 && setup.whole_blocks();
+        return in_tile ? as_in_tile(tile, setup, s, t) : picture_of(tile, setup, s, t);
+    };
+    const Picture picture = picture_at(hogel.s, hogel.t);
     const Plane& here = picture[0];
     struct Neighbour {
         HogelOrder::Reference place;
@@ -84,8 +88,8 @@ Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile
     std::array<std::vector<Neighbour>, 2> neighbours;  // along s, along t
     for (const int apart : {-4, 4, -2, 2, -1, 1}) {  // what tells most first
         const std::size_t s = hogel.s + static_cast<std::size_t>(apart), t = hogel.t + static_cast<std::size_t>(apart);
-        if (s < tile.range.ns) neighbours[0].push_back({{0, apart, 0}, picture_of(tile, setup, s, hogel.t)});
-        if (t < tile.range.nt) neighbours[1].push_back({{0, 0, apart}, picture_of(tile, setup, hogel.s, t)});
+        if (s < tile.range.ns) neighbours[0].push_back({{0, apart, 0}, picture_at(s, hogel.t)});
+        if (t < tile.range.nt) neighbours[1].push_back({{0, 0, apart}, picture_at(hogel.s, t)});
     }
     std::size_t counted = 0;
     for (const auto& axis : neighbours) counted += (axis.size() + 1) / 2;
@@ -176,7 +180,7 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
-    Picture picture = setup.blank();
+    Picture& picture = pictures[hogel];
     ReferenceWeights weights(place, setup.noise, setup.aspect);
     SeenBlocks seen(place, pictures);
     PartSearch parts(seen, weights);
@@ -260,7 +264,6 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
                         setup.beyond_level(block.mode == 0));
         }
     }
-    pictures[hogel] = std::move(picture);
     return coded;
 }
 

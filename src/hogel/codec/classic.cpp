@@ -40,7 +40,7 @@ class ClassicCoder : public TileCoder {
         return tile;
     }
 
-    Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes) const override {
+    Encoded encode(LightFieldTile& tile, double step, std::size_t most_bytes) const override {
         LightFieldTile work = tile;
         if (content_ == Content::amplitude)
             for (float& value : work.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "hogel/codec/analysis_internal.h"
 #include "hogel/codec/bytes_internal.h"
@@ -30,25 +33,31 @@ float growth_for(float shared, bool single_row) {
 }
 // References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
 // direction the nearest ones serve best; otherwise it takes more to choose from.
-constexpr std::array<std::uint8_t, 3> references_a_side{1, 2, 3};
+constexpr std::array<std::uint8_t, 3> references_a_side{3, 1, 2};
 constexpr std::size_t counted_hogels = 48;    // of a level, for the states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
-double squared_error(const Picture& picture, const TileSetup& setup, const LightFieldTile& tile, std::size_t s,
-                     std::size_t t, const DirectionCross& counted) {
+// @param truth   with its colours
+double squared_error(const Picture& picture, const TileSetup& setup, const Picture& truth,
+                     const DirectionCross& counted) {
     double sum = 0;
     for_each_row(picture, setup, [&](std::size_t c, std::size_t v, std::span<const float> row) {
-        const float* truth = &tile.radiance(c, t, s, v, 0);
+        const float* wanted = &truth[c].samples[v * truth[c].width];
         const auto [begin, end] = counted.columns(v, row.size());
-        sum += squared_difference_of_rows(truth + begin, row.data() + begin, end - begin);
+        sum += squared_difference_of_rows(wanted + begin, row.data() + begin, end - begin);
     });
     return sum;
 }
 
+// Of the first hogels the first one has no references, and the others have none near by.
+constexpr std::size_t first_hogels = 9;
+using Estimates = std::array<Estimate, first_hogels>;
+
 // Codes a tile level by level: decides on all hogels of a level, and then writes their codes, each by itself.
 class TileEncoder {
   public:
-    TileEncoder(const LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
+    // @param tile   is used up
+    TileEncoder(LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
                 std::uint8_t references)
         : tile_(tile),
           counted_(counted),
@@ -62,13 +71,18 @@ class TileEncoder {
           moved_(order_.size()),
           errors_(order_.size()) {}
 
-    TileCoder::Encoded run() {
-        // Of the first hogels the first one has no references, and the others have none near by.
-        std::array<Estimate, 9> estimates;
+    Estimates estimate() const {
+        Estimates estimates;
         parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
             if (order_[k].level < 2) estimates[k] = estimate_disparities(setup_, tile_, order_[k]);
         });
-        for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = std::move(estimates[k].disparities);
+        return estimates;
+    }
+
+    // Asks after each wave whether to go on, with what error and bytes come to so far. Returns nothing where not.
+    using GoOn = std::function<bool(double error, std::size_t bytes)>;
+    std::optional<TileCoder::Encoded> run(const Estimates& estimates, const GoOn& go_on = {}) {
+        for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = estimates[k].disparities;
         const float growth = growth_for(estimates[0].shared, tile_.range.ns == 1 || tile_.range.nt == 1);
         setup_.set_steps(setup_.step.back(), growth);
         bytes_.put(setup_.step.back());
@@ -78,17 +92,21 @@ class TileEncoder {
         const auto& waves_of_levels = setup_.order.waves_of_levels();
         TileCoder::Encoded result;
         for (std::size_t level = 0; level + 1 < waves_of_levels.size(); ++level) {
-            for (std::size_t wave = waves_of_levels[level]; wave < waves_of_levels[level + 1]; ++wave)
+            for (std::size_t wave = waves_of_levels[level]; wave < waves_of_levels[level + 1]; ++wave) {
                 parallel_for(waves[wave + 1] - waves[wave], [&](std::size_t n) { decide(waves[wave] + n); });
+                if (go_on && !go_on(error(), bytes_.bytes.size())) return std::nullopt;
+            }
             write(waves[waves_of_levels[level]], waves[waves_of_levels[level + 1]]);
             result.layers.push_back(bytes_.bytes.size());
         }
         result.bytes = std::move(bytes_.bytes);
-        result.squared_error = std::accumulate(errors_.begin(), errors_.end(), 0.0);
+        result.squared_error = error();
         return result;
     }
 
   private:
+    double error() const { return std::accumulate(errors_.begin(), errors_.end(), 0.0); }
+
     const std::vector<Block>* beside(const HogelOrder::Hogel& hogel) const {
         return hogel.tellers.empty() ? nullptr : &coded_[hogel.tellers.front().hogel].blocks;
     }
@@ -96,11 +114,15 @@ class TileEncoder {
     void decide(std::size_t k) {
         const HogelOrder::Hogel& hogel = order_[k];
         const Picture source = picture_of(tile_, setup_, hogel.s, hogel.t);
+        Picture truth;
+        if (source.size() > 1) truth = copy_of(tile_, setup_, hogel.s, hogel.t);
+        // Nobody looks at this part of the tile any more: what is decoded may lie there.
+        pictures_[k] = setup_.whole_blocks() ? as_in_tile(tile_, setup_, hogel.s, hogel.t) : setup_.blank();
         moved_[k] = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
         coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
                             k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
-        errors_[k] = squared_error(pictures_[k], setup_, tile_, hogel.s, hogel.t, counted_);
-        if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = {};  // nothing comes after it
+        errors_[k] = squared_error(pictures_[k], setup_, source.size() > 1 ? truth : source, counted_);
+        if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = Picture();  // nothing comes after it
     }
 
     template <class Coder>
@@ -142,13 +164,13 @@ class TileEncoder {
         states_ = states;
     }
 
-    const LightFieldTile& tile_;
+    LightFieldTile& tile_;
     const DirectionCross& counted_;
     TileSetup setup_;
     std::uint8_t references_;
     const std::vector<HogelOrder::Hogel>& order_;
     std::vector<Picture> pictures_;                       // in the order
-    std::array<std::vector<std::int16_t>, 9> estimated_;  // disparities of the first ones
+    std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first ones
     std::vector<CodedHogel> coded_;
     std::vector<std::vector<const Block*>> moved_;
     std::vector<double> errors_;
@@ -177,17 +199,35 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
 // the step, so that a search for a step sees a function without jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
     const double near = std::exp2(std::round(2 * std::log2(step)) / 2);
-    constexpr std::size_t windows = 2, ways = references_a_side.size();
-    std::array<double, windows * ways> costs{};
-    parallel_for(costs.size(), [&](std::size_t n) {
-        const Window window = window_of(tile, grid, 1 + n / ways * 2);
-        const auto coded =
-            TileEncoder(window.tile, window.grid, {}, static_cast<float>(near), references_a_side[n % ways]).run();
-        costs[n] = coded.squared_error + bit_worth * near * near * 8 * static_cast<double>(coded.bytes.size());
-    });
-    std::array<double, ways> cost{};
-    for (std::size_t n = 0; n < costs.size(); ++n) cost[n % ways] += costs[n];
-    return references_a_side[static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin())];
+    constexpr std::size_t windows = 2;
+    constexpr double rounding = 1e-9;
+    std::array<Estimates, windows> estimates;
+    std::uint8_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint8_t references : references_a_side) {
+        std::array<std::atomic<double>, windows> costs{};
+        std::atomic<bool> worse = false;  // than another number, already by a part of the tile
+        parallel_for(windows, [&](std::size_t n) {
+            Window window = window_of(tile, grid, 1 + 2 * n);
+            const DirectionCross all;
+            TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(near), references);
+            if (references == references_a_side.front()) estimates[n] = encoder.estimate();
+            const auto cost = [&](double error, std::size_t bytes) {
+                return error + bit_worth * near * near * 8 * static_cast<double>(bytes);
+            };
+            const auto coded = encoder.run(estimates[n], [&](double error, std::size_t bytes) {
+                costs[n] = cost(error, bytes);
+                if (costs[0] + costs[1] > least * (1 + rounding)) worse = true;
+                return !worse;
+            });
+            if (coded) costs[n] = cost(coded->squared_error, coded->bytes.size());
+        });
+        const double both = costs[0] + costs[1];
+        if (worse || (best > 0 && (both > least || (both == least && references > best)))) continue;
+        least = both;
+        best = references;
+    }
+    return best;
 }
 
 class HogelCoder final : public TileCoder {
@@ -213,13 +253,14 @@ class HogelCoder final : public TileCoder {
                             : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, begin_of_order(version_)));
     }
 
-    Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
+    Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
         if (!hogel_tile_fits(grid_, tile.range))
             throw Error(ErrorCode::usage, fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
                                                       "{} and {} samples in whole blocks",
                                                       tile.range.ns, tile.range.nt, most_hogel_tile_side,
                                                       most_hogel_tile_side, most_hogel_tile_samples));
-        return TileEncoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step)).run();
+        TileEncoder encoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step));
+        return *encoder.run(encoder.estimate());
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
