@@ -187,11 +187,13 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     BlockSearch search(setup, place, source[0], seen, weights, {estimated, moved, beside});
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
+    coded.candidates.reserve(setup.grid.count());
     BlockSamples prediction;
     CodedChannel channel, other;
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
-        const Candidates candidates = candidates_for(k, setup.grid, coded.blocks, moved[k], beside);
+        const Candidates& candidates =
+            coded.candidates.emplace_back(candidates_for(k, setup.grid, coded.blocks, moved[k], beside));
         const BlockSamples wanted = block_of(source[0], x, y);
         const BlockSearch::Found& best = search.run(k, wanted, candidates);
         Block& block = coded.blocks[k];

@@ -19,7 +19,7 @@ struct Estimate {
 Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel);
 
 // Decides on all blocks of a hogel and makes its picture, of which there is the memory, as a decoder will have it.
-// `estimated` may be empty.
+// `estimated` may be empty. Candidates are returned too.
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
                    const std::vector<const Block*>& moved, const std::vector<Block>* beside,
                    const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures);

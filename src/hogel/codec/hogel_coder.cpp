@@ -68,7 +68,7 @@ class TileEncoder {
           order_(setup_.order.hogels()),
           pictures_(order_.size()),
           coded_(order_.size()),
-          moved_(order_.size()),
+          records_(order_.size()),
           errors_(order_.size()) {}
 
     Estimates estimate() const {
@@ -118,40 +118,31 @@ class TileEncoder {
         if (source.size() > 1) truth = copy_of(tile_, setup_, hogel.s, hogel.t);
         // Nobody looks at this part of the tile any more: what is decoded may lie there.
         pictures_[k] = setup_.whole_blocks() ? as_in_tile(tile_, setup_, hogel.s, hogel.t) : setup_.blank();
-        moved_[k] = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
-        coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
+        const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
+        coded_[k] = analyse(setup_, k, source, moved, beside(hogel),
                             k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
+        BlockRecorder recorder;
+        BlockModelNumbers numbers = numbers_;
+        code_hogel(recorder, numbers, setup_.grid, hogel, moved, beside(hogel), coded_[k]);
+        records_[k] = recorder.finish();
+        coded_[k].levels = {};
+        coded_[k].candidates = {};
         errors_[k] = squared_error(pictures_[k], setup_, source.size() > 1 ? truth : source, counted_);
         if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = Picture();  // nothing comes after it
-    }
-
-    template <class Coder>
-    void code(Coder& coder, typename Coder::Models& models, std::size_t k) {
-        code_hogel(coder, models, setup_.grid, order_[k], moved_[k], beside(order_[k]), coded_[k]);
     }
 
     // The hogels of a level, from begin to end.
     void write(std::size_t begin, std::size_t end) {
         // As many hogels as tell the models' states well enough.
         const std::size_t apart = 1 + (end - begin) / counted_hogels;
-        std::vector<BlockCounts> counts(std::min<std::size_t>(end - begin, 16));
-        parallel_for(counts.size(), [&](std::size_t part) {
-            for (std::size_t k = begin + part * apart; k < end; k += apart * counts.size()) {
-                BlockCounter counter;
-                code(counter, counts[part], k);
-            }
-        });
-        for (std::size_t part = 1; part < counts.size(); ++part) counts[0].add(counts[part]);
-        const ModelStates states(counts[0], states_);
-        const BlockModels models = states.models();
+        std::vector<BitCount> counts(states_.count());
+        for (std::size_t k = begin; k < end; k += apart) count_bits(records_[k], counts);
+        const ModelStates states(counts, states_);
+        const std::vector<BitModel> models = states.models_in_order();
         std::vector<std::vector<std::uint8_t>> codes(end - begin);
         parallel_for(codes.size(), [&](std::size_t n) {
-            BlockWriter writer;
-            BlockModels own = models;
-            code(writer, own, begin + n);
-            codes[n] = writer.finish();
-            coded_[begin + n].levels = {};
-            moved_[begin + n] = {};
+            codes[n] = write_bits(records_[begin + n], models);
+            records_[begin + n] = {};
         });
         BlockWriter side;
         ModelStates(states).code(side, states_);
@@ -172,7 +163,8 @@ class TileEncoder {
     std::vector<Picture> pictures_;                       // in the order
     std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first ones
     std::vector<CodedHogel> coded_;
-    std::vector<std::vector<const Block*>> moved_;
+    const BlockModelNumbers numbers_;
+    std::vector<BlockRecorder::Record> records_;  // what hogels are told, until it is written
     std::vector<double> errors_;
     ModelStates states_{latest_version};
     ByteWriter bytes_;

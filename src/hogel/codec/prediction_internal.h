@@ -81,6 +81,7 @@ struct Shift {
 constexpr int most_disparity = 1 << 14;
 inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
     if (reference.dt == 0) return {-disparity * reference.ds, 0};
+    if (aspect == 1) return {-disparity * reference.ds, -disparity * reference.dt};
     const double v = std::floor(static_cast<double>(-disparity * reference.dt) * static_cast<double>(aspect) + 0.5);
     return {-disparity * reference.ds, static_cast<int>(std::clamp(v, -1e9, 1e9))};
 }
