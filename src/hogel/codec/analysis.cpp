@@ -86,7 +86,7 @@ Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, cons
         Picture picture;
     };
     std::array<std::vector<Neighbour>, 2> neighbours;  // along s, along t
-    for (const int apart : {-4, 4, -2, 2, -1, 1}) {  // what tells most first
+    for (const int apart : {-4, 4, -2, 2, -1, 1}) {    // what tells most first
         const std::size_t s = hogel.s + static_cast<std::size_t>(apart), t = hogel.t + static_cast<std::size_t>(apart);
         if (s < tile.range.ns) neighbours[0].push_back({{0, apart, 0}, picture_at(s, hogel.t)});
         if (t < tile.range.nt) neighbours[1].push_back({{0, 0, apart}, picture_at(hogel.s, t)});
@@ -137,9 +137,9 @@ Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, cons
         };
         constexpr float unknown = std::numeric_limits<float>::infinity();
         int best = 0;
-        float least = unknown;
+        float least = unknown, not_more = unknown;  // of which something less or equal will be found
         const auto try_one = [&](int disparity, bool whole) {
-            const float here_cost = cost(disparity, whole, least);
+            const float here_cost = cost(disparity, whole, std::min(least, not_more));
             if (here_cost < least) {
                 least = here_cost;
                 best = disparity;
@@ -153,12 +153,16 @@ Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, cons
             // Quarters of a direction near by, whole ones farther off; then finer around the best.
             const int going_on = best;
             const float of_going_on = least;
+            const int quarters = shift_unit / 4, unit = std::abs(best) <= 4 * shift_unit ? quarters : shift_unit;
+            const int nearest = (best + unit / 2) / unit * unit;
+            if (std::abs(nearest) <= 16 * shift_unit) not_more = std::nextafter(cost(nearest, true, unknown), unknown);
             best = 0;
-            least = cost(0, true, unknown);
+            least = cost(0, true, not_more);
             for (int disparity = shift_unit / 4; disparity <= 4 * shift_unit; disparity += shift_unit / 4)
                 for (const int sign : {-1, 1}) try_one(sign * disparity, true);
             for (int disparity = 5 * shift_unit; disparity <= 16 * shift_unit; disparity += shift_unit)
                 for (const int sign : {-1, 1}) try_one(sign * disparity, true);
+            not_more = unknown;
             least = cost(best, false, unknown);
             if (of_going_on < least) {
                 least = of_going_on;

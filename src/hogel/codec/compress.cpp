@@ -117,7 +117,8 @@ class Compression {
     CodingOutcome look(std::span<const std::size_t> tiles) {
         CodingOutcome sum;
         parallel_ordered<CodingOutcome>(
-            tiles.size(), in_flight(), [&](std::size_t i) {
+            tiles.size(), in_flight(),
+            [&](std::size_t i) {
                 auto [tile, outcome] = read(tiles[i]);
                 spare_.give_back(std::move(tile));
                 return outcome;

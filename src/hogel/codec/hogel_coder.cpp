@@ -33,7 +33,7 @@ float growth_for(float shared, bool single_row) {
 }
 // References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
 // direction the nearest ones serve best; otherwise it takes more to choose from.
-constexpr std::array<std::uint8_t, 3> references_a_side{3, 1, 2};
+constexpr std::uint8_t most_references = 3;
 constexpr std::size_t counted_hogels = 48;    // of a level, for the states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
@@ -160,7 +160,7 @@ class TileEncoder {
     TileSetup setup_;
     std::uint8_t references_;
     const std::vector<HogelOrder::Hogel>& order_;
-    std::vector<Picture> pictures_;                       // in the order
+    std::vector<Picture> pictures_;                                  // in the order
     std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first ones
     std::vector<CodedHogel> coded_;
     const BlockModelNumbers numbers_;
@@ -187,37 +187,57 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
     return window;
 }
 
-// The number of references that does best on two windows of directions. It does not change with every small change of
-// the step, so that a search for a step sees a function without jumps.
-std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
-    const double near = std::exp2(std::round(2 * std::log2(step)) / 2);
-    constexpr std::size_t windows = 2;
-    constexpr double rounding = 1e-9;
-    std::array<Estimates, windows> estimates;
-    std::uint8_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::uint8_t references : references_a_side) {
+// Tries numbers of references on two windows of directions of a tile.
+class ReferencesTrial {
+  public:
+    ReferencesTrial(const LightFieldTile& tile, const LightFieldGrid& grid, double step)
+        : tile_(tile), grid_(grid), step_(step) {}
+
+    // Squared error, and what bits are worth; only that it is more where it is more than `most`.
+    double cost(std::uint8_t references, double most = std::numeric_limits<double>::infinity()) {
         std::array<std::atomic<double>, windows> costs{};
-        std::atomic<bool> worse = false;  // than another number, already by a part of the tile
+        std::atomic<bool> too_much = false;
         parallel_for(windows, [&](std::size_t n) {
-            Window window = window_of(tile, grid, 1 + 2 * n);
+            Window window = window_of(tile_, grid_, 1 + 2 * n);
             const DirectionCross all;
-            TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(near), references);
-            if (references == references_a_side.front()) estimates[n] = encoder.estimate();
+            TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(step_), references);
+            if (!estimates_[n]) estimates_[n] = encoder.estimate();
             const auto cost = [&](double error, std::size_t bytes) {
-                return error + bit_worth * near * near * 8 * static_cast<double>(bytes);
+                return error + bit_worth * step_ * step_ * 8 * static_cast<double>(bytes);
             };
-            const auto coded = encoder.run(estimates[n], [&](double error, std::size_t bytes) {
+            const auto coded = encoder.run(*estimates_[n], [&](double error, std::size_t bytes) {
                 costs[n] = cost(error, bytes);
-                if (costs[0] + costs[1] > least * (1 + rounding)) worse = true;
-                return !worse;
+                if (costs[0] + costs[1] > most) too_much = true;
+                return !too_much;
             });
             if (coded) costs[n] = cost(coded->squared_error, coded->bytes.size());
         });
-        const double both = costs[0] + costs[1];
-        if (worse || (best > 0 && (both > least || (both == least && references > best)))) continue;
-        least = both;
-        best = references;
+        return too_much ? std::numeric_limits<double>::infinity() : costs[0] + costs[1];
+    }
+
+  private:
+    static constexpr std::size_t windows = 2;
+    const LightFieldTile& tile_;
+    const LightFieldGrid& grid_;
+    double step_;
+    std::array<std::optional<Estimates>, windows> estimates_;
+};
+
+// The number of references that does best on windows. It does not change with every small change of the step, so that
+// a search for a step sees a function without jumps.
+std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
+    ReferencesTrial trial(tile, grid, std::exp2(std::round(2 * std::log2(step)) / 2));
+    // What costs so much more, or a bit more than that, is farther from the best than what lies between.
+    constexpr double far = 1.1, rounding = 1e-9;
+    const double many = trial.cost(most_references), one = trial.cost(1, far * many);
+    std::uint8_t best = many < one ? most_references : 1;
+    double least = std::min(many, one);
+    if (std::max(many, one) > far * least) return best;
+    for (std::uint8_t between = 2; between < most_references; ++between) {
+        const double cost = trial.cost(between, least * (1 + rounding));
+        if (!(cost < least)) continue;
+        least = cost;
+        best = between;
     }
     return best;
 }

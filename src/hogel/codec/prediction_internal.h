@@ -14,8 +14,8 @@
 
 namespace hogel {
 
-// Samples of one hogel and channel, [v][u], filled up to whole blocks: its own, which mean nothing at first, or somebody
-// else's.
+// Samples of one hogel and channel, [v][u], filled up to whole blocks: its own, which mean nothing at first, or
+// somebody else's.
 class Plane {
   public:
     std::size_t width, height;
