@@ -74,18 +74,22 @@ void quantise(const BlockSamples& truth, float error, float step, bool from_with
 
 }  // namespace
 
-Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile, const HogelOrder::Hogel& hogel) {
-    const Picture picture = picture_of(tile, setup, hogel.s, hogel.t);
+Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel) {
+    const auto picture_at = [&](std::size_t s, std::size_t t) {
+        const bool in_tile = setup.grid.channels == 1 && setup.whole_blocks();
+        return in_tile ? as_in_tile(tile, setup, s, t) : picture_of(tile, setup, s, t);
+    };
+    const Picture picture = picture_at(hogel.s, hogel.t);
     const Plane& here = picture[0];
     struct Neighbour {
         HogelOrder::Reference place;
         Picture picture;
     };
     std::array<std::vector<Neighbour>, 2> neighbours;  // along s, along t
-    for (const int apart : {-4, -2, -1, 1, 2, 4}) {
+    for (const int apart : {-4, 4, -2, 2, -1, 1}) {    // what tells most first
         const std::size_t s = hogel.s + static_cast<std::size_t>(apart), t = hogel.t + static_cast<std::size_t>(apart);
-        if (s < tile.range.ns) neighbours[0].push_back({{0, apart, 0}, picture_of(tile, setup, s, hogel.t)});
-        if (t < tile.range.nt) neighbours[1].push_back({{0, 0, apart}, picture_of(tile, setup, hogel.s, t)});
+        if (s < tile.range.ns) neighbours[0].push_back({{0, apart, 0}, picture_at(s, hogel.t)});
+        if (t < tile.range.nt) neighbours[1].push_back({{0, 0, apart}, picture_at(hogel.s, t)});
     }
     std::size_t counted = 0;
     for (const auto& axis : neighbours) counted += (axis.size() + 1) / 2;
@@ -98,37 +102,44 @@ Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile
         const std::size_t column = k % setup.grid.columns, row = k / setup.grid.columns;
         const int x = static_cast<int>(column * block_side), y = static_cast<int>(row * block_side);
         const BlockSamples block = block_of(here, column * block_side, row * block_side);
-        // Of the neighbours along each axis the better half counts: what one side hides the other may show.
-        const auto cost = [&](int disparity, bool whole_directions) {
+        // Of the neighbours along each axis the better half counts: what one side hides the other may show. What cannot
+        // become less than `most` need not be known.
+        const auto cost = [&](int disparity, bool whole_directions, float most) {
             float sum = 0;
             for (const auto& axis : neighbours) {
-                std::array<float, 6> errors;
-                errors.fill(std::numeric_limits<float>::infinity());
+                std::array<float, 6> smallest;  // errors, in order
+                const std::size_t better = (axis.size() + 1) / 2;
                 for (std::size_t n = 0; n < axis.size(); ++n) {
                     const Plane& plane = axis[n].picture[0];
                     const Shift shift = shift_of(disparity, axis[n].place, setup.aspect);
+                    float error;
                     if (whole_directions) {
                         const PlaneWindow window(plane, x + ((shift.u + 32) >> 6), y + ((shift.v + 32) >> 6),
                                                  block_side, block_side);
-                        errors[n] = squared_difference(window.rows(), window.stride(), block);
+                        error = squared_difference(window.rows(), window.stride(), block);
                     } else {
                         BlockSamples other;
                         fetch_moved(plane, x, y, shift, other);
-                        errors[n] = squared_difference(other, block);
+                        error = squared_difference(other, block);
                     }
+                    std::size_t at = n;
+                    for (; at > 0 && error < smallest[at - 1]; --at) smallest[at] = smallest[at - 1];
+                    smallest[at] = error;
+                    // With so many left, as many of the smallest may still come.
+                    const std::size_t left = axis.size() - 1 - n;
+                    float at_least = sum;
+                    for (std::size_t i = 0; i + left < better; ++i) at_least += smallest[i];
+                    if (!(at_least < most)) return at_least;
                 }
-                for (std::size_t n = 0; n < (axis.size() + 1) / 2; ++n) {
-                    const auto smallest = std::ranges::min_element(errors);
-                    sum += *smallest;
-                    *smallest = std::numeric_limits<float>::infinity();
-                }
+                for (std::size_t i = 0; i < better; ++i) sum += smallest[i];
             }
             return sum;
         };
+        constexpr float unknown = std::numeric_limits<float>::infinity();
         int best = 0;
-        float least = std::numeric_limits<float>::infinity();
+        float least = unknown, not_more = unknown;  // of which something less or equal will be found
         const auto try_one = [&](int disparity, bool whole) {
-            const float here_cost = cost(disparity, whole);
+            const float here_cost = cost(disparity, whole, std::min(least, not_more));
             if (here_cost < least) {
                 least = here_cost;
                 best = disparity;
@@ -142,13 +153,17 @@ Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile
             // Quarters of a direction near by, whole ones farther off; then finer around the best.
             const int going_on = best;
             const float of_going_on = least;
+            const int quarters = shift_unit / 4, unit = std::abs(best) <= 4 * shift_unit ? quarters : shift_unit;
+            const int nearest = (best + unit / 2) / unit * unit;
+            if (std::abs(nearest) <= 16 * shift_unit) not_more = std::nextafter(cost(nearest, true, unknown), unknown);
             best = 0;
-            least = cost(0, true);
+            least = cost(0, true, not_more);
             for (int disparity = shift_unit / 4; disparity <= 4 * shift_unit; disparity += shift_unit / 4)
                 for (const int sign : {-1, 1}) try_one(sign * disparity, true);
             for (int disparity = 5 * shift_unit; disparity <= 16 * shift_unit; disparity += shift_unit)
                 for (const int sign : {-1, 1}) try_one(sign * disparity, true);
-            least = cost(best, false);
+            not_more = unknown;
+            least = cost(best, false, unknown);
             if (of_going_on < least) {
                 least = of_going_on;
                 best = going_on;
@@ -169,18 +184,20 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
     const float step = setup.step[static_cast<std::size_t>(place.level)], worth = bit_worth * step * step;
     const bool first = place.references.empty();
-    Picture picture = setup.blank();
+    Picture& picture = pictures[hogel];
     ReferenceWeights weights(place, setup.noise, setup.aspect);
     SeenBlocks seen(place, pictures);
     PartSearch parts(seen, weights);
     BlockSearch search(setup, place, source[0], seen, weights, {estimated, moved, beside});
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
+    coded.candidates.reserve(setup.grid.count());
     BlockSamples prediction;
     CodedChannel channel, other;
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
-        const Candidates candidates = candidates_for(k, setup.grid, coded.blocks, moved[k], beside);
+        const Candidates& candidates =
+            coded.candidates.emplace_back(candidates_for(k, setup.grid, coded.blocks, moved[k], beside));
         const BlockSamples wanted = block_of(source[0], x, y);
         const BlockSearch::Found& best = search.run(k, wanted, candidates);
         Block& block = coded.blocks[k];
@@ -253,7 +270,6 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
                         setup.beyond_level(block.mode == 0));
         }
     }
-    pictures[hogel] = std::move(picture);
     return coded;
 }
 

@@ -15,9 +15,11 @@ struct Estimate {
     std::vector<std::int16_t> disparities;
     float shared = 0;  // how much of the hogel its neighbours show as it does, to within the finest step: 0 to 1
 };
-Estimate estimate_disparities(const TileSetup& setup, const LightFieldTile& tile, const HogelOrder::Hogel& hogel);
+// @param tile   stays as it is
+Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel);
 
-// Decides on all blocks of a hogel and makes its picture as a decoder will have it. `estimated` may be empty.
+// Decides on all blocks of a hogel and makes its picture, of which there is the memory, as a decoder will have it.
+// `estimated` may be empty. Candidates are returned too.
 CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
                    const std::vector<const Block*>& moved, const std::vector<Block>* beside,
                    const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures);

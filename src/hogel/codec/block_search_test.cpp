@@ -29,7 +29,7 @@ struct Views {
     }
     // Of the block in the middle, from one candidate.
     BlockSearch::Found search(int candidate, bool look = false, const BlockSearch::Known& known = {}) {
-        const Plane source = pictures.back()[0];
+        const Plane& source = pictures.back()[0];
         SeenBlocks seen(hogel, pictures);
         ReferenceWeights weights(hogel, setup.noise, setup.aspect);
         BlockSearch blocks(setup, hogel, source, seen, weights, known);

@@ -225,7 +225,8 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
         const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
         const Block* from = grid.tells_by_moved() ? moved[k] : nullptr;
         code_mode(coder, models, by_mode(from), context, first, grid.may_be_parted(), block);
-        const Candidates candidates = candidates_for(k, grid, coded.blocks, moved[k], beside);
+        const Candidates candidates =
+            coded.candidates.empty() ? candidates_for(k, grid, coded.blocks, moved[k], beside) : coded.candidates[k];
         if (block.mode == 0 && !first) {
             block.disparity = candidates.disparity[0];
         } else {
@@ -261,9 +262,22 @@ void guess_hogel(const BlockGrid& grid, const std::vector<const Block*>& moved, 
     }
 }
 
-template void code_hogel(BlockCounter&, BlockCounts&, const BlockGrid&, const HogelOrder::Hogel&,
-                         const std::vector<const Block*>&, const std::vector<Block>*, CodedHogel&);
-template void code_hogel(BlockWriter&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
+void count_bits(const BlockRecorder::Record& record, std::span<BitCount> counts) {
+    for (const std::uint16_t bit : record)
+        if (bit < BlockRecorder::even_bit) ++counts[bit / 2][bit % 2];
+}
+
+std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<BitModel> models) {
+    ArithmeticEncoder encoder;
+    for (const std::uint16_t bit : record)
+        if (bit < BlockRecorder::even_bit)
+            encoder.bit(models[bit / 2], bit % 2 != 0);
+        else
+            encoder.raw(bit % 2, 1);
+    return encoder.finish();
+}
+
+template void code_hogel(BlockRecorder&, BlockModelNumbers&, const BlockGrid&, const HogelOrder::Hogel&,
                          const std::vector<const Block*>&, const std::vector<Block>*, CodedHogel&);
 template void code_hogel(BlockReader&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
                          const std::vector<const Block*>&, const std::vector<Block>*, CodedHogel&);

@@ -31,9 +31,11 @@ struct Block {
 constexpr int within_modes = 4, across_modes = 1 + static_cast<int>(ReferenceWeights::sides);
 constexpr std::uint8_t parted = across_modes;
 
+struct Candidates;
 struct CodedHogel {
-    std::vector<Block> blocks;   // row by row
-    std::vector<Levels> levels;  // of the coded channels of all blocks, in order
+    std::vector<Block> blocks;           // row by row
+    std::vector<Levels> levels;          // of the coded channels of all blocks, in order
+    std::vector<Candidates> candidates;  // of the blocks, where they are known already
 };
 
 // The blocks of a hogel, and what its place in the order makes of them.
@@ -166,32 +168,41 @@ struct ModelsOf {
 // Adaptive ones.
 using BlockModels = ModelsOf<BitModel>;
 
-// How often a bit was 0, and 1.
-using BitCount = std::array<std::uint32_t, 2>;
-struct BlockCounts : ModelsOf<BitCount> {
-    void add(BlockCounts& more) {
-        std::vector<BitCount*> sums;
-        for_each([&](BitCount& sum) { sums.push_back(&sum); });
-        auto next = sums.begin();
-        more.for_each([&](const BitCount& count) {
-            for (std::size_t bit = 0; bit < 2; ++bit) (**next)[bit] += count[bit];
-            ++next;
-        });
+// The number of each, in the order of for_each().
+struct BlockModelNumbers : ModelsOf<std::uint16_t> {
+    BlockModelNumbers() {
+        std::uint16_t next = 0;
+        for_each([&](std::uint16_t& number) { number = next++; });
     }
 };
 
-// Writes what blocks are told, or reads it, or counts: the one description of all three. A writer's functions return
-// what they are given.
-class BlockCounter {
+// Writes what blocks are told, or reads it, or records it, to be written when all of a level is known: the one
+// description of all three. What writes returns what it is given.
+class BlockRecorder {
   public:
-    using Models = BlockCounts;
+    using Models = BlockModelNumbers;
     static constexpr bool reads = false;
-    bool bit(BitCount& count, bool value) {
-        ++count[value ? 1 : 0];
+    bool bit(std::uint16_t model, bool value) {
+        record_.push_back(static_cast<std::uint16_t>(2 * model + value));
         return value;
     }
-    bool even(bool value) { return value; }
+    bool even(bool value) {
+        record_.push_back(static_cast<std::uint16_t>(even_bit + value));
+        return value;
+    }
+
+    // Of each bit its model's number and what it is.
+    using Record = std::vector<std::uint16_t>;
+    Record finish() { return std::move(record_); }
+    static constexpr std::uint16_t even_bit = 0xFFFE;
+
+  private:
+    Record record_;
 };
+// How often a bit of each model was 0, and 1.
+using BitCount = std::array<std::uint32_t, 2>;
+void count_bits(const BlockRecorder::Record& record, std::span<BitCount> counts);
+std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<BitModel> models);
 
 class BlockWriter {
   public:

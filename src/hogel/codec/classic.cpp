@@ -40,7 +40,7 @@ class ClassicCoder : public TileCoder {
         return tile;
     }
 
-    Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes) const override {
+    Encoded encode(LightFieldTile& tile, double step, std::size_t most_bytes) const override {
         LightFieldTile work = tile;
         if (content_ == Content::amplitude)
             for (float& value : work.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
@@ -59,14 +59,16 @@ class ClassicCoder : public TileCoder {
             writer.put(static_cast<std::uint32_t>(code.size()));
             writer.put(std::span(code));
         }
-        decode(writer.bytes, work);
+        restore(pyramid, work,
+                [&](std::size_t c, std::span<float> values) { round_channel(pyramid, codes[c], values); });
+        square_amplitudes(work);
         return {std::move(writer.bytes), squared_error(tile, work, counted_)};
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        decode(bytes, pyramid_of(tile), tile);
-        if (content_ == Content::amplitude)
-            for (float& value : tile.radiance.elements()) value *= value;
+        const Pyramid pyramid = pyramid_of(tile);
+        decode(bytes, pyramid, tile);
+        square_amplitudes(tile);
     }
 
     bool directional() const override { return content_ == Content::amplitude; }
@@ -83,6 +85,11 @@ class ClassicCoder : public TileCoder {
                                                      double step) const = 0;
     virtual void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
                                 std::span<float> values) const = 0;
+    // Puts what decode_channel() makes of the code of these values in their place.
+    virtual void round_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                               std::span<float> values) const {
+        decode_channel(pyramid, code, values);
+    }
 
   private:
     Pyramid pyramid_of(const LightFieldTile& tile) const {
@@ -98,11 +105,21 @@ class ClassicCoder : public TileCoder {
         for (std::size_t c = 0; c < tile.radiance.extent(0); ++c)
             codes.push_back(reader.take(reader.take<std::uint32_t>()));
         if (reader.left() > 0) reader.damaged("bytes are left over");
-        parallel_for(codes.size(), [&](std::size_t c) {
-            decode_channel(pyramid, codes[c], tile.radiance[c].elements());
-            transform_.inverse(back, tile.radiance[c].elements());
+        restore(back, tile, [&](std::size_t c, std::span<float> values) { decode_channel(pyramid, codes[c], values); });
+    }
+    // What becomes of coefficients, which make(channel, values) leaves.
+    template <class Make>
+    void restore(const Pyramid& back, LightFieldTile& tile, Make&& make) const {
+        parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
+            const std::span<float> values = tile.radiance[c].elements();
+            make(c, values);
+            transform_.inverse(back, values);
         });
         join_colours(tile.radiance);
+    }
+    void square_amplitudes(LightFieldTile& tile) const {
+        if (content_ == Content::amplitude)
+            for (float& value : tile.radiance.elements()) value *= value;
     }
     // Cuts embedded codes so that with their lengths they take `most` bytes, each by the same part.
     static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t most) {
@@ -142,6 +159,9 @@ class ThreePassCoder final : public ClassicCoder {
     void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
         three_pass_decode(pyramid, code, values, code_);
+    }
+    void round_channel(const Pyramid&, std::span<const std::uint8_t> code, std::span<float> values) const override {
+        three_pass_round(code, values);
     }
 
     ThreePassCode code_;

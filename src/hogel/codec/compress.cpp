@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 #include "hogel/codec/block_kernels_internal.h"
@@ -43,6 +44,31 @@ std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::s
     }
     return result;
 }
+
+// Tiles that have been coded, whose memory serves the next ones: to be given new memory takes longer than to write it.
+class SpareTiles {
+  public:
+    LightFieldTile take(const LightFieldGrid& grid, const HogelRange& range) {
+        const std::lock_guard lock(mutex_);
+        const auto found = std::ranges::find_if(tiles_, [&](const LightFieldTile& tile) {
+            const Shape<5> shape{grid.channels, range.nt, range.ns, grid.directions_v, grid.directions_u};
+            return tile.radiance.shape() == shape;
+        });
+        if (found == tiles_.end()) return LightFieldTile(grid, range, false);
+        LightFieldTile tile = std::move(*found);
+        tiles_.erase(found);
+        tile.range = range;
+        return tile;
+    }
+    void give_back(LightFieldTile tile) {
+        const std::lock_guard lock(mutex_);
+        tiles_.push_back(std::move(tile));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<LightFieldTile> tiles_;
+};
 
 class Compression {
   public:
@@ -91,7 +117,12 @@ class Compression {
     CodingOutcome look(std::span<const std::size_t> tiles) {
         CodingOutcome sum;
         parallel_ordered<CodingOutcome>(
-            tiles.size(), in_flight(), [&](std::size_t i) { return read(tiles[i]).second; },
+            tiles.size(), in_flight(),
+            [&](std::size_t i) {
+                auto [tile, outcome] = read(tiles[i]);
+                spare_.give_back(std::move(tile));
+                return outcome;
+            },
             [&](std::size_t, CodingOutcome& outcome) { sum.add(outcome); });
         return sum;
     }
@@ -103,7 +134,7 @@ class Compression {
             *begin += (*count - kept) / 2;
             *count = kept;
         }
-        const auto [tile, outcome] = read(parts_.front(), range);
+        auto [tile, outcome] = read(parts_.front(), range);
         const auto bytes = static_cast<double>(parts_.front().coder->encode(tile, step).bytes.size());
         return {bytes, std::sqrt(outcome.signal / outcome.samples)};
     }
@@ -126,7 +157,7 @@ class Compression {
         return read(parts_[index / tiling_.count()], tiling_[index % tiling_.count()]);
     }
     std::pair<LightFieldTile, CodingOutcome> read(const Part& part, const HogelRange& range) const {
-        LightFieldTile tile(part.source->grid(), range, false);
+        LightFieldTile tile = spare_.take(part.source->grid(), range);
         part.source->read(tile);
         CodingOutcome outcome;
         const bool any_value = part.coder->takes_any_value();
@@ -156,6 +187,7 @@ class Compression {
     Coded code_tile(std::size_t index, double step, std::size_t most_bytes) const {
         auto [tile, outcome] = read(index);
         TileCoder::Encoded encoded = parts_[index / tiling_.count()].coder->encode(tile, step, most_bytes);
+        spare_.give_back(std::move(tile));
         outcome.error = encoded.squared_error;
         outcome.bytes = static_cast<double>(encoded.bytes.size());
         return {std::move(encoded.bytes), std::move(encoded.layers), outcome};
@@ -166,6 +198,7 @@ class Compression {
     DirectionCross counted_;
     StreamWriter& writer_;
     const Progress& progress_;
+    mutable SpareTiles spare_;
     std::vector<std::size_t> sizes_;
 };
 

@@ -253,7 +253,7 @@ class ExactCoder final : public TileCoder {
         return version_ < 3 ? 1 : predictor_->layers(tile) + 1;
     }
 
-    Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
+    Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
         ByteWriter writer;
         auto [decoded, layers] = encode_prediction(tile, step, writer);
         const Rule rule = Rule::for_tile(tile, max_error_);

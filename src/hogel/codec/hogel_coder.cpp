@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "hogel/codec/analysis_internal.h"
 #include "hogel/codec/bytes_internal.h"
@@ -30,25 +33,31 @@ float growth_for(float shared, bool single_row) {
 }
 // References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
 // direction the nearest ones serve best; otherwise it takes more to choose from.
-constexpr std::array<std::uint8_t, 3> references_a_side{1, 2, 3};
+constexpr std::uint8_t most_references = 3;
 constexpr std::size_t counted_hogels = 48;    // of a level, for the states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
-double squared_error(const Picture& picture, const TileSetup& setup, const LightFieldTile& tile, std::size_t s,
-                     std::size_t t, const DirectionCross& counted) {
+// @param truth   with its colours
+double squared_error(const Picture& picture, const TileSetup& setup, const Picture& truth,
+                     const DirectionCross& counted) {
     double sum = 0;
     for_each_row(picture, setup, [&](std::size_t c, std::size_t v, std::span<const float> row) {
-        const float* truth = &tile.radiance(c, t, s, v, 0);
+        const float* wanted = &truth[c].samples[v * truth[c].width];
         const auto [begin, end] = counted.columns(v, row.size());
-        sum += squared_difference_of_rows(truth + begin, row.data() + begin, end - begin);
+        sum += squared_difference_of_rows(wanted + begin, row.data() + begin, end - begin);
     });
     return sum;
 }
 
+// Of the first hogels the first one has no references, and the others have none near by.
+constexpr std::size_t first_hogels = 9;
+using Estimates = std::array<Estimate, first_hogels>;
+
 // Codes a tile level by level: decides on all hogels of a level, and then writes their codes, each by itself.
 class TileEncoder {
   public:
-    TileEncoder(const LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
+    // @param tile   is used up
+    TileEncoder(LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
                 std::uint8_t references)
         : tile_(tile),
           counted_(counted),
@@ -59,16 +68,21 @@ class TileEncoder {
           order_(setup_.order.hogels()),
           pictures_(order_.size()),
           coded_(order_.size()),
-          moved_(order_.size()),
+          records_(order_.size()),
           errors_(order_.size()) {}
 
-    TileCoder::Encoded run() {
-        // Of the first hogels the first one has no references, and the others have none near by.
-        std::array<Estimate, 9> estimates;
+    Estimates estimate() const {
+        Estimates estimates;
         parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
             if (order_[k].level < 2) estimates[k] = estimate_disparities(setup_, tile_, order_[k]);
         });
-        for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = std::move(estimates[k].disparities);
+        return estimates;
+    }
+
+    // Asks after each wave whether to go on, with what error and bytes come to so far. Returns nothing where not.
+    using GoOn = std::function<bool(double error, std::size_t bytes)>;
+    std::optional<TileCoder::Encoded> run(const Estimates& estimates, const GoOn& go_on = {}) {
+        for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = estimates[k].disparities;
         const float growth = growth_for(estimates[0].shared, tile_.range.ns == 1 || tile_.range.nt == 1);
         setup_.set_steps(setup_.step.back(), growth);
         bytes_.put(setup_.step.back());
@@ -78,17 +92,21 @@ class TileEncoder {
         const auto& waves_of_levels = setup_.order.waves_of_levels();
         TileCoder::Encoded result;
         for (std::size_t level = 0; level + 1 < waves_of_levels.size(); ++level) {
-            for (std::size_t wave = waves_of_levels[level]; wave < waves_of_levels[level + 1]; ++wave)
+            for (std::size_t wave = waves_of_levels[level]; wave < waves_of_levels[level + 1]; ++wave) {
                 parallel_for(waves[wave + 1] - waves[wave], [&](std::size_t n) { decide(waves[wave] + n); });
+                if (go_on && !go_on(error(), bytes_.bytes.size())) return std::nullopt;
+            }
             write(waves[waves_of_levels[level]], waves[waves_of_levels[level + 1]]);
             result.layers.push_back(bytes_.bytes.size());
         }
         result.bytes = std::move(bytes_.bytes);
-        result.squared_error = std::accumulate(errors_.begin(), errors_.end(), 0.0);
+        result.squared_error = error();
         return result;
     }
 
   private:
+    double error() const { return std::accumulate(errors_.begin(), errors_.end(), 0.0); }
+
     const std::vector<Block>* beside(const HogelOrder::Hogel& hogel) const {
         return hogel.tellers.empty() ? nullptr : &coded_[hogel.tellers.front().hogel].blocks;
     }
@@ -96,40 +114,35 @@ class TileEncoder {
     void decide(std::size_t k) {
         const HogelOrder::Hogel& hogel = order_[k];
         const Picture source = picture_of(tile_, setup_, hogel.s, hogel.t);
-        moved_[k] = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
-        coded_[k] = analyse(setup_, k, source, moved_[k], beside(hogel),
+        Picture truth;
+        if (source.size() > 1) truth = copy_of(tile_, setup_, hogel.s, hogel.t);
+        // Nobody looks at this part of the tile any more: what is decoded may lie there.
+        pictures_[k] = setup_.whole_blocks() ? as_in_tile(tile_, setup_, hogel.s, hogel.t) : setup_.blank();
+        const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
+        coded_[k] = analyse(setup_, k, source, moved, beside(hogel),
                             k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
-        errors_[k] = squared_error(pictures_[k], setup_, tile_, hogel.s, hogel.t, counted_);
-        if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = {};  // nothing comes after it
-    }
-
-    template <class Coder>
-    void code(Coder& coder, typename Coder::Models& models, std::size_t k) {
-        code_hogel(coder, models, setup_.grid, order_[k], moved_[k], beside(order_[k]), coded_[k]);
+        BlockRecorder recorder;
+        BlockModelNumbers numbers = numbers_;
+        code_hogel(recorder, numbers, setup_.grid, hogel, moved, beside(hogel), coded_[k]);
+        records_[k] = recorder.finish();
+        coded_[k].levels = {};
+        coded_[k].candidates = {};
+        errors_[k] = squared_error(pictures_[k], setup_, source.size() > 1 ? truth : source, counted_);
+        if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = Picture();  // nothing comes after it
     }
 
     // The hogels of a level, from begin to end.
     void write(std::size_t begin, std::size_t end) {
         // As many hogels as tell the models' states well enough.
         const std::size_t apart = 1 + (end - begin) / counted_hogels;
-        std::vector<BlockCounts> counts(std::min<std::size_t>(end - begin, 16));
-        parallel_for(counts.size(), [&](std::size_t part) {
-            for (std::size_t k = begin + part * apart; k < end; k += apart * counts.size()) {
-                BlockCounter counter;
-                code(counter, counts[part], k);
-            }
-        });
-        for (std::size_t part = 1; part < counts.size(); ++part) counts[0].add(counts[part]);
-        const ModelStates states(counts[0], states_);
-        const BlockModels models = states.models();
+        std::vector<BitCount> counts(states_.count());
+        for (std::size_t k = begin; k < end; k += apart) count_bits(records_[k], counts);
+        const ModelStates states(counts, states_);
+        const std::vector<BitModel> models = states.models_in_order();
         std::vector<std::vector<std::uint8_t>> codes(end - begin);
         parallel_for(codes.size(), [&](std::size_t n) {
-            BlockWriter writer;
-            BlockModels own = models;
-            code(writer, own, begin + n);
-            codes[n] = writer.finish();
-            coded_[begin + n].levels = {};
-            moved_[begin + n] = {};
+            codes[n] = write_bits(records_[begin + n], models);
+            records_[begin + n] = {};
         });
         BlockWriter side;
         ModelStates(states).code(side, states_);
@@ -142,15 +155,16 @@ class TileEncoder {
         states_ = states;
     }
 
-    const LightFieldTile& tile_;
+    LightFieldTile& tile_;
     const DirectionCross& counted_;
     TileSetup setup_;
     std::uint8_t references_;
     const std::vector<HogelOrder::Hogel>& order_;
-    std::vector<Picture> pictures_;                       // in the order
-    std::array<std::vector<std::int16_t>, 9> estimated_;  // disparities of the first ones
+    std::vector<Picture> pictures_;                                  // in the order
+    std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first ones
     std::vector<CodedHogel> coded_;
-    std::vector<std::vector<const Block*>> moved_;
+    const BlockModelNumbers numbers_;
+    std::vector<BlockRecorder::Record> records_;  // what hogels are told, until it is written
     std::vector<double> errors_;
     ModelStates states_{latest_version};
     ByteWriter bytes_;
@@ -173,21 +187,59 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
     return window;
 }
 
-// The number of references that does best on two windows of directions. It does not change with every small change of
-// the step, so that a search for a step sees a function without jumps.
+// Tries numbers of references on two windows of directions of a tile.
+class ReferencesTrial {
+  public:
+    ReferencesTrial(const LightFieldTile& tile, const LightFieldGrid& grid, double step)
+        : tile_(tile), grid_(grid), step_(step) {}
+
+    // Squared error, and what bits are worth; only that it is more where it is more than `most`.
+    double cost(std::uint8_t references, double most = std::numeric_limits<double>::infinity()) {
+        std::array<std::atomic<double>, windows> costs{};
+        std::atomic<bool> too_much = false;
+        parallel_for(windows, [&](std::size_t n) {
+            Window window = window_of(tile_, grid_, 1 + 2 * n);
+            const DirectionCross all;
+            TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(step_), references);
+            if (!estimates_[n]) estimates_[n] = encoder.estimate();
+            const auto cost = [&](double error, std::size_t bytes) {
+                return error + bit_worth * step_ * step_ * 8 * static_cast<double>(bytes);
+            };
+            const auto coded = encoder.run(*estimates_[n], [&](double error, std::size_t bytes) {
+                costs[n] = cost(error, bytes);
+                if (costs[0] + costs[1] > most) too_much = true;
+                return !too_much;
+            });
+            if (coded) costs[n] = cost(coded->squared_error, coded->bytes.size());
+        });
+        return too_much ? std::numeric_limits<double>::infinity() : costs[0] + costs[1];
+    }
+
+  private:
+    static constexpr std::size_t windows = 2;
+    const LightFieldTile& tile_;
+    const LightFieldGrid& grid_;
+    double step_;
+    std::array<std::optional<Estimates>, windows> estimates_;
+};
+
+// The number of references that does best on windows. It does not change with every small change of the step, so that
+// a search for a step sees a function without jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
-    const double near = std::exp2(std::round(2 * std::log2(step)) / 2);
-    constexpr std::size_t windows = 2, ways = references_a_side.size();
-    std::array<double, windows * ways> costs{};
-    parallel_for(costs.size(), [&](std::size_t n) {
-        const Window window = window_of(tile, grid, 1 + n / ways * 2);
-        const auto coded =
-            TileEncoder(window.tile, window.grid, {}, static_cast<float>(near), references_a_side[n % ways]).run();
-        costs[n] = coded.squared_error + bit_worth * near * near * 8 * static_cast<double>(coded.bytes.size());
-    });
-    std::array<double, ways> cost{};
-    for (std::size_t n = 0; n < costs.size(); ++n) cost[n % ways] += costs[n];
-    return references_a_side[static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin())];
+    ReferencesTrial trial(tile, grid, std::exp2(std::round(2 * std::log2(step)) / 2));
+    // What costs so much more, or a bit more than that, is farther from the best than what lies between.
+    constexpr double far = 1.1, rounding = 1e-9;
+    const double many = trial.cost(most_references), one = trial.cost(1, far * many);
+    std::uint8_t best = many < one ? most_references : 1;
+    double least = std::min(many, one);
+    if (std::max(many, one) > far * least) return best;
+    for (std::uint8_t between = 2; between < most_references; ++between) {
+        const double cost = trial.cost(between, least * (1 + rounding));
+        if (!(cost < least)) continue;
+        least = cost;
+        best = between;
+    }
+    return best;
 }
 
 class HogelCoder final : public TileCoder {
@@ -213,13 +265,14 @@ class HogelCoder final : public TileCoder {
                             : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, begin_of_order(version_)));
     }
 
-    Encoded encode(const LightFieldTile& tile, double step, std::size_t) const override {
+    Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
         if (!hogel_tile_fits(grid_, tile.range))
             throw Error(ErrorCode::usage, fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
                                                       "{} and {} samples in whole blocks",
                                                       tile.range.ns, tile.range.nt, most_hogel_tile_side,
                                                       most_hogel_tile_side, most_hogel_tile_samples));
-        return TileEncoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step)).run();
+        TileEncoder encoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step));
+        return *encoder.run(encoder.estimate());
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {

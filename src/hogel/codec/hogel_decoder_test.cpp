@@ -148,11 +148,11 @@ TEST(HogelDecoder, damage_does_no_harm_to_a_part) {
 
 // What models begin with is near to what was counted, and comes back.
 TEST(ModelStates, are_what_was_counted) {
-    BlockCounts counts;
-    counts.for_each([](BitCount& count) { count = {300, 100}; });
-    counts.main.sign = {0, 5000};
-    counts.within[0] = {0, 0};
-    counts.within[1] = {3, 2};  // too few to be worth telling
+    const BlockModelNumbers numbers;
+    std::vector<BitCount> counts(ModelStates(latest_version).count(), {300, 100});
+    counts[numbers.main.sign] = {0, 5000};
+    counts[numbers.within[0]] = {0, 0};
+    counts[numbers.within[1]] = {3, 2};  // too few to be worth telling
     const ModelStates states(counts, ModelStates(latest_version));
     BlockModels models = states.models();
     EXPECT_NEAR(models.mode[0][1][2].zero(), 0.75 * 65536, 0.02 * 65536);

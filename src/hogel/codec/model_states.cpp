@@ -38,27 +38,32 @@ double bits_for(const BitCount& count, int state) {
 }  // namespace
 
 ModelStates::ModelStates(std::uint32_t version) {
-    BlockCounts counts;
-    counts.for_each([&](const BitCount&) { states_.push_back(0); }, version);
+    BlockModelNumbers().for_each([&](std::uint16_t) { states_.push_back(0); }, version);
 }
 
-ModelStates::ModelStates(BlockCounts& counts, const ModelStates& before) {
-    std::size_t at = 0;
-    counts.for_each([&](const BitCount& count) {
-        const int old = before.states_[at++];
+ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& before) {
+    for (const BitCount& count : counts) {
+        const int old = before.states_[states_.size()];
         // The nearest state to the ratio that was counted is as good as the best one.
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
         const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -most_state, most_state);
         const bool worth_it = bits_for(count, found) + bits_of_change < bits_for(count, old);
         states_.push_back(worth_it ? found : old);
-    });
+    }
+}
+
+std::vector<BitModel> ModelStates::models_in_order() const {
+    std::vector<BitModel> models;
+    for (const int state : states_) models.emplace_back(probabilities.zero[place_of(state)]);
+    return models;
 }
 
 BlockModels ModelStates::models() const {
+    const std::vector<BitModel> in_order = models_in_order();
     BlockModels models;
     std::size_t at = 0;
     models.for_each([&](BitModel& model) {
-        if (at < states_.size()) model = BitModel(probabilities.zero[place_of(states_[at++])]);
+        if (at < in_order.size()) model = in_order[at++];
     });
     return models;
 }

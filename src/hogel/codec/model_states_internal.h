@@ -14,10 +14,12 @@ class ModelStates {
     // Nothing is known.
     // @param version   of the format
     explicit ModelStates(std::uint32_t version);
-    // Those that suit what was counted; as before where another is not worth telling.
-    ModelStates(BlockCounts& counts, const ModelStates& before);
+    // Those that suit what was counted of each; as before where another is not worth telling.
+    ModelStates(std::span<const BitCount> counts, const ModelStates& before);
 
+    std::size_t count() const { return states_.size(); }
     BlockModels models() const;
+    std::vector<BitModel> models_in_order() const;
 
     // Writes them as what is new since `before`, or reads them.
     template <class Coder>

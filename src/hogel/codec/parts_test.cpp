@@ -42,7 +42,8 @@ TEST(Parts, are_found_where_a_surface_ends) {
         const int on_near = u + disparity * i;
         return static_cast<float>(on_near >= edge ? 2 + std::sin(1.3 * on_near + v) : std::sin(0.9 * u - 2.0 * v));
     };
-    std::vector<Picture> pictures(3, Picture(1, Plane(32, 8)));
+    std::vector<Picture> pictures(3);
+    for (Picture& picture : pictures) picture.emplace_back(32, 8);
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t n = 0; n < 256; ++n)
             pictures[k][0].samples[n] = shown(int(order.hogels()[k].s) - 1, int(n % 32), int(n / 32));

@@ -14,6 +14,10 @@ namespace hogel {
 // A hogel's channels, filled up to whole blocks by their last samples, apart in luminance and chrominance. `s` and `t`
 // count within the tile.
 Picture picture_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
+// The same with its colours.
+Picture copy_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
+// The same where it lies, of whole blocks; it must not outlive the tile.
+Picture as_in_tile(LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
 
 // The way back, row by row: use(channel, v, samples).
 template <class Use>

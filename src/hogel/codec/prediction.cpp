@@ -54,18 +54,23 @@ ReferenceWeights::Side side_of(const HogelOrder::Reference& reference) {
 
 void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows) {
     const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
-    std::array<std::ptrdiff_t, window_side> column;
-    for (std::size_t c = 0; c < columns; ++c)
-        column[c] = std::clamp<std::ptrdiff_t>(x + static_cast<std::ptrdiff_t>(c), 0, width - 1);
-    const bool across_an_edge = x < 0 || x + static_cast<std::ptrdiff_t>(columns) > width;
+    // Of each row so many samples are the first one, then so many lie within.
+    const auto count = static_cast<std::ptrdiff_t>(columns);
+    const std::ptrdiff_t first = std::clamp<std::ptrdiff_t>(-x, 0, count);
+    const std::ptrdiff_t within = std::clamp<std::ptrdiff_t>(width - x, 0, count);
     float* to = copy_.data();
+    const float* before = nullptr;
     for (std::size_t r = 0; r < rows; ++r, to += window_side) {
         const std::ptrdiff_t row = std::clamp<std::ptrdiff_t>(y + static_cast<std::ptrdiff_t>(r), 0, height - 1);
         const float* from = plane.samples.data() + row * width;
-        if (across_an_edge)
-            for (std::size_t c = 0; c < columns; ++c) to[c] = from[column[c]];
-        else
-            std::copy_n(from + x, columns, to);
+        if (from == before) {
+            std::copy_n(to - window_side, columns, to);
+            continue;
+        }
+        before = from;
+        std::fill(to, to + first, from[0]);
+        if (first < within) std::copy_n(from + (x + first), within - first, to + first);
+        std::fill(to + std::max(first, within), to + count, from[width - 1]);
     }
     rows_ = copy_.data();
     stride_ = window_side;

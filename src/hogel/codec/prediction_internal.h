@@ -14,12 +14,33 @@
 
 namespace hogel {
 
-// Samples of one hogel and channel, [v][u], filled up to whole blocks.
-struct Plane {
-    std::size_t width = 0, height = 0;
-    std::pmr::vector<float> samples;
+// Samples of one hogel and channel, [v][u], filled up to whole blocks: its own, which mean nothing at first, or
+// somebody else's.
+class Plane {
+  public:
+    std::size_t width, height;
+    std::span<float> samples;
+
     Plane(std::size_t w, std::size_t h, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-        : width(w), height(h), samples(w * h, memory) {}
+        : width(w), height(h), own_(allocate(w * h, memory)) {
+        samples = {own_.get(), w * h};
+    }
+    Plane(std::size_t w, std::size_t h, float* of_others) : width(w), height(h), samples(of_others, w * h) {}
+
+  private:
+    struct Return {
+        std::pmr::memory_resource* memory;
+        std::size_t bytes;
+        void operator()(float* lent) const { memory->deallocate(lent, bytes, alignment); }
+    };
+    using Own = std::unique_ptr<float, Return>;
+    static constexpr std::size_t alignment = 64;
+    static Own allocate(std::size_t count, std::pmr::memory_resource* memory) {
+        const std::size_t bytes = count * sizeof(float);
+        return Own(static_cast<float*>(memory->allocate(bytes, alignment)), Return{memory, bytes});
+    }
+
+    Own own_{nullptr, Return{}};
 };
 
 // A window of a plane, which goes on as its edges are: where it lies, or a copy where it reaches over an edge.
@@ -60,6 +81,7 @@ struct Shift {
 constexpr int most_disparity = 1 << 14;
 inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
     if (reference.dt == 0) return {-disparity * reference.ds, 0};
+    if (aspect == 1) return {-disparity * reference.ds, -disparity * reference.dt};
     const double v = std::floor(static_cast<double>(-disparity * reference.dt) * static_cast<double>(aspect) + 0.5);
     return {-disparity * reference.ds, static_cast<int>(std::clamp(v, -1e9, 1e9))};
 }

@@ -73,22 +73,27 @@ void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, B
         left[k] = x > 0 ? sample(x - 1, y + k) : y > 0 ? sample(x, y - 1) : 0;
         above[k] = y > 0 ? sample(x + k, y - 1) : x > 0 ? sample(x - 1, y) : 0;
     }
-    float mean = 0;
-    for (std::size_t k = 0; k < block_side; ++k) mean += left[k] + above[k];
-    mean /= 2 * block_side;
-    for (std::size_t r = 0; r < block_side; ++r)
-        for (std::size_t c = 0; c < block_side; ++c) {
-            float value = mean;
-            if (how == 0)  // a surface through both edges
-                value = (static_cast<float>(7 - c) * left[r] + static_cast<float>(c + 1) * above[7] +
-                         static_cast<float>(7 - r) * above[c] + static_cast<float>(r + 1) * left[7]) /
-                        16;
-            else if (how == 2)
-                value = left[r];
-            else if (how == 3)
-                value = above[c];
-            block[r * block_side + c] = value;
-        }
+    const auto fill = [&](auto&& value) {
+        for (std::size_t r = 0; r < block_side; ++r)
+            for (std::size_t c = 0; c < block_side; ++c) block[r * block_side + c] = value(r, c);
+    };
+    if (how == 0) {  // a surface through both edges
+        constexpr std::array<float, block_side + 1> number{0, 1, 2, 3, 4, 5, 6, 7, 8};
+        fill([&](std::size_t r, std::size_t c) {
+            return (number[7 - c] * left[r] + number[c + 1] * above[7] + number[7 - r] * above[c] +
+                    number[r + 1] * left[7]) /
+                   16;
+        });
+    } else if (how == 2) {
+        fill([&](std::size_t r, std::size_t) { return left[r]; });
+    } else if (how == 3) {
+        fill([&](std::size_t, std::size_t c) { return above[c]; });
+    } else {
+        float mean = 0;
+        for (std::size_t k = 0; k < block_side; ++k) mean += left[k] + above[k];
+        mean /= 2 * block_side;
+        fill([&](std::size_t, std::size_t) { return mean; });
+    }
 }
 
 bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,

@@ -22,7 +22,8 @@ struct TileSetup {
     std::vector<float> noise;   // (step / that of level 0)², of each hogel in the order
     // What a level is taken for is its number and this part of a step: more often than not it stands for more.
     float beyond_level(bool within) const { return grid.version < 5 ? 0 : within ? 0.0625f : 0.1875f; }
-    // A picture must not outlive the setup, which keeps its memory.
+    bool whole_blocks() const { return width == grid.columns * block_side && height == grid.rows * block_side; }
+    // A picture whose samples mean nothing yet. It must not outlive the setup, which keeps its memory.
     Picture blank() const;
     std::unique_ptr<PictureMemory> memory;
 };

@@ -46,7 +46,8 @@ class TileCoder {
     virtual std::optional<std::size_t> least_bytes(const LightFieldGrid&) const { return std::nullopt; }
     /// @param step   the quantiser's, in units of radiance: the larger, the coarser. An error is about step/√12 where
     ///               the tile holds detail of that size, and less elsewhere.
-    virtual Encoded encode(const LightFieldTile& tile, double step, std::size_t most_bytes = no_limit) const = 0;
+    /// @param tile   is used up: its radiance means nothing afterwards
+    virtual Encoded encode(LightFieldTile& tile, double step, std::size_t most_bytes = no_limit) const = 0;
     /// Fills the tile's radiance. Throws Error(bad_input) for bytes that no encode() gives, where that shows.
     virtual void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const = 0;
     /// How many layers a tile has: the first ones alone give a coarser tile.

@@ -237,6 +237,14 @@ void three_pass_decode(const Pyramid& pyramid, std::span<const std::uint8_t> byt
         read_all(pyramid, step, planes, AlphabetDecoding(rest, planes), values);
 }
 
+void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> values) {
+    const Quantiser quantiser(get_float(bytes));
+    for (float& value : values) {
+        const std::uint32_t level = quantiser.level(value);
+        value = level == 0 ? 0 : quantiser.value(level, value < 0);
+    }
+}
+
 double three_pass_step(std::span<const float> values, double bits, double c) {
     const float most = largest_magnitude(values);
     if (most == 0) return 1;

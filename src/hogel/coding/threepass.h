@@ -36,6 +36,9 @@ enum class ThreePassCode { bits, alphabets };
 void three_pass_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
                        ThreePassCode code = ThreePassCode::bits);
 
+/// Makes of values what three_pass_decode() makes of their stream, which is looked at for its step alone: much sooner.
+void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> values);
+
 /// The step for a size, by [K]'s histogram rule Σ_{p < b_max} h(p) (b_max − p + c) = bits, made continuous in the step.
 /// c is the overhead of the tree for each significant coefficient; with the default the size comes out within some 20%
 /// for smooth values, from 0.05 to 4 bits each. One pass over the values.

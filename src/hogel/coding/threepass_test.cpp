@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "hogel/coding/threepass_internal.h"
@@ -92,6 +93,9 @@ TEST(ThreePass, decodes_to_the_middles_of_the_levels) {
             const Quantiser quantiser(static_cast<float>(step));
             for (std::size_t i = 0; i < values.size(); ++i)
                 ASSERT_EQ(decoded[i], quantiser.value(quantiser.level(values[i]), values[i] < 0)) << i << " " << step;
+            std::vector<float> rounded = values;
+            three_pass_round(bytes, rounded);
+            EXPECT_EQ(std::memcmp(rounded.data(), decoded.data(), values.size() * sizeof(float)), 0) << step;
         }
 }
 

@@ -190,12 +190,12 @@ void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t fir
 void LightField::read(LightFieldTile& tile) const {
     validate(tile, grid_);
     const HogelRange& r = tile.range;
-    for (std::size_t j = 0; j < r.nt; ++j) {
+    parallel_for(r.nt, [&](std::size_t j) {
         for (std::size_t c = 0; c < grid_.channels; ++c)
             copy_row(&radiance(c, r.t0 + j, r.s0, 0, 0), &tile.radiance(c, j, 0, 0, 0), r.ns, grid_.directions());
         if (has_depth() && tile.depth.size() > 0)
             copy_row(&depth(r.t0 + j, r.s0, 0, 0), &tile.depth(j, 0, 0, 0), r.ns, grid_.directions());
-    }
+    });
 }
 
 void LightField::write(const LightFieldTile& tile) {
