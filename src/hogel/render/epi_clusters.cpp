@@ -69,43 +69,47 @@ void sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, 
     order = std::move(sorted);
 }
 
-}  // namespace
-
-void ClusterBounds::resize(std::size_t count) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr std::size_t most_lanes = 32;
-    const std::size_t filled = (count + most_lanes - 1) / most_lanes * most_lanes;
-    for (Numbers* low : {&x_low, &y_low, &z_low}) low->assign(filled, infinity);
-    for (Numbers* high : {&x_high, &y_high, &z_high}) high->assign(filled, -infinity);
+std::uint16_t steps_from(double low, double high, double place) {
+    if (!(low < high)) return 0;
+    return static_cast<std::uint16_t>(std::lround((place - low) / (high - low) * ClusterHeights::steps));
 }
 
-void ClusterBounds::include(std::size_t i, const Vec3& p) {
-    x_low[i] = std::min(x_low[i], p.x);
-    x_high[i] = std::max(x_high[i], p.x);
-    y_low[i] = std::min(y_low[i], p.y);
-    y_high[i] = std::max(y_high[i], p.y);
-    z_low[i] = std::min(z_low[i], p.z);
-    z_high[i] = std::max(z_high[i], p.z);
+}  // namespace
+
+void ClusterBox::include(const Vec3& p) {
+    x_low = std::min(x_low, p.x);
+    x_high = std::max(x_high, p.x);
+    y_low = std::min(y_low, p.y);
+    y_high = std::max(y_high, p.y);
+    z_low = std::min(z_low, p.z);
+    z_high = std::max(z_high, p.z);
 }
 
 TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame, std::size_t channels)
     : triangles(morton_order(scene)) {
     sort_clusters(triangles, scene, frame);
     const std::size_t count = (triangles.size() + cluster_size - 1) / cluster_size;
-    corners.resize(count);
-    others.resize(triangles.size());
-    bounds.resize(count);
+    heights.resize(count);
+    corners.resize(triangles.size());
+    boxes.resize(count);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const std::size_t cluster = i / cluster_size, place = i % cluster_size;
         const auto& vertices = scene.triangles[triangles[i]].vertices;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const Vec3 p = frame.in_samples(scene.positions[vertices[corner]]);
-            corners[cluster].y[corner][place] = p.y;
-            corners[cluster].z[corner][place] = p.z;
-            others[i].x[corner] = p.x;
             const Rgb radiance = scene.radiance[vertices[corner]];
-            others[i].radiance[corner] = channels == 1 ? Rgb{luminance(radiance), 0, 0} : radiance;
-            bounds.include(cluster, p);
+            corners[i].x[corner] = p.x;
+            corners[i].y[corner] = p.y;
+            corners[i].z[corner] = p.z;
+            corners[i].radiance[corner] = channels == 1 ? Rgb{luminance(radiance), 0, 0} : radiance;
+            boxes[i / cluster_size].include(p);
+        }
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const std::size_t cluster = i / cluster_size, place = i % cluster_size;
+        const ClusterBox& box = boxes[cluster];
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            heights[cluster].y[corner][place] = steps_from(box.y_low, box.y_high, corners[i].y[corner]);
+            heights[cluster].z[corner][place] = steps_from(box.z_low, box.z_high, corners[i].z[corner]);
         }
     }
 }

@@ -36,7 +36,7 @@ void Occlusion::update(const EpipolarPlane& plane) {
     worth_asking_ = 4 * static_cast<std::size_t>(covered) >= cells_.size();
 }
 
-bool Occlusion::hides(const ClusterBounds::Box& box, const EpipolarPlane& plane, double shift, double z0) const {
+bool Occlusion::hides(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0) const {
     if (!worth_asking_) return false;
     const double x_low = box.x_low + shift, x_high = box.x_high + shift;
     const double z_low = box.z_low - z0, z_high = box.z_high - z0;

@@ -17,7 +17,7 @@ class Occlusion {
     void update(const EpipolarPlane& plane);
     /// Whether every sample of the plane that may see into the box sees something in front of it. Never true of a box
     /// that holds something visible, or just as near as what is seen. The box is moved by (shift, −z0) first.
-    bool hides(const ClusterBounds::Box& box, const EpipolarPlane& plane, double shift = 0, double z0 = 0) const;
+    bool hides(const ClusterBox& box, const EpipolarPlane& plane, double shift = 0, double z0 = 0) const;
 
   private:
     std::vector<std::uint32_t> cells_;

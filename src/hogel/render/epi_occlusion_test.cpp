@@ -29,7 +29,7 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
         occlusion.update(drawn.plane);
         for (int offer = 0; offer < 50; ++offer) {
             const double x = uniform(-60, 60), z = offer % 5 == 0 ? 0.5 : uniform(-2, 3);
-            const ClusterBounds::Box box{x, x + uniform(0, 9), 0, 0, z, z + uniform(0, 0.3f)};
+            const ClusterBox box{x, x + uniform(0, 9), 0, 0, z, z + uniform(0, 0.3f)};
             const bool hides = occlusion.hides(box, drawn.plane);
             (hides ? hidden : visible) += 1;
             if (!hides) continue;
@@ -56,7 +56,7 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
 TEST(Occlusion, an_empty_plane_hides_nothing) {
     TestPlane drawn(8, 16, 0);
     Occlusion occlusion;
-    const ClusterBounds::Box far{0, 1, 0, 1, 1e6, 2e6};
+    const ClusterBox far{0, 1, 0, 1, 1e6, 2e6};
     EXPECT_FALSE(occlusion.hides(far, drawn.plane));
     occlusion.update(drawn.plane);
     EXPECT_FALSE(occlusion.hides(far, drawn.plane));

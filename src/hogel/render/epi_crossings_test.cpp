@@ -1,0 +1,141 @@
+#include "hogel/render/epi_crossings_internal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hogel/render/epi_set_up_internal.h"
+#include "hogel/render/test_triangles_internal.h"
+
+namespace hogel {
+namespace {
+
+// The vector kernels as built for each instruction set that this processor has.
+class CrossingsOnEveryTarget : public KernelTargetTest {};
+INSTANTIATE_TEST_SUITE_P(Crossings, CrossingsOnEveryTarget, ::testing::ValuesIn(kernel_targets()));
+
+// Light fields whose planes are found alike: the front, directions to one side, a side of a hemicube, and more
+// directions than a slab has.
+std::vector<LightFieldGrid> grids() {
+    const LightFieldGrid front{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
+    LightFieldGrid aside = front, tall = front;
+    aside.center_v = -0.7;
+    tall.directions_v = 300;
+    const std::vector<LightFieldGrid> cube = hemicube({8, 9, 0.5e-3, 20, 30, 1, 1, 3});
+    return {front, aside, tall, cube[1], cube[3]};
+}
+
+RowRays rays_of(const EpipolarFrame& frame, std::size_t row, std::size_t planes, std::size_t first,
+                std::size_t columns) {
+    const EpipolarFrame::Plane place = frame.plane(row, 0), next = frame.plane(row, 1);
+    const double n = frame.first_column() + double(first), K = frame.first_direction();
+    return {place.row + place.slope * place.z0,
+            place.z0,
+            place.slope,
+            next.slope - place.slope,
+            std::min(RowRays::most_planes, planes),
+            place.shift,
+            n,
+            n + double(columns) - 1,
+            K,
+            -K};
+}
+
+bool separates(const EpipolarFrame::Plane& plane, const TriangleCorners& corners) {
+    int below = 0;
+    for (int i = 0; i < 3; ++i) below += (corners.y[i] - plane.slope * corners.z[i]) - plane.row < 0;
+    return below % 3 != 0;
+}
+
+// Triangles all around the hologram plane, from tiny ones to such that span all of a cluster.
+TEST(Crossings, are_all_that_show_and_few_others) {
+    std::size_t shown = 0;
+    for (const LightFieldGrid& grid : grids())
+        for (const double reach : {0.02e-3, 0.4e-3, 3e-3}) {
+            const EpipolarFrame frame(grid);
+            const TriangleClusters clusters(scattered_triangles(700, reach), frame, 3);
+            const std::size_t planes = frame.axes().slow_directions(), directions = frame.axes().fast_directions();
+            std::size_t crossed = 0, found = 0;
+            for (const std::size_t row : {0, 3, 6}) {
+                const RowRays rays = rays_of(frame, row, planes, 3, 3);
+                Crossings crossings;
+                find_crossings_plain(clusters, rays, crossings);
+                ASSERT_EQ(crossings.size(), rays.planes);
+                for (std::size_t k = 0; k < rays.planes; k += 3) {
+                    ASSERT_TRUE(std::ranges::is_sorted(crossings[k], {}, &Crossing::cluster));
+                    std::vector<bool> listed(clusters.triangles.size());
+                    for (const auto& [triangles, cluster] : crossings[k]) {
+                        ASSERT_EQ(triangles & ~clusters.filled(cluster), 0u);
+                        for (std::size_t i = 0; i < cluster_size; ++i)
+                            if (triangles >> i & 1) listed[cluster * cluster_size + i] = true;
+                    }
+                    const EpipolarFrame::Plane plane = frame.plane(row, k);
+                    const PlanePlace place{plane.row, plane.slope, plane.shift, plane.z0, frame.metres(1)};
+                    for (std::uint32_t i = 0; i < clusters.triangles.size(); ++i) {
+                        found += listed[i];
+                        if (!separates(plane, clusters.corners[i])) continue;
+                        crossed += listed[i];
+                        Strip strip;
+                        StripShades shades;
+                        set_up_plain(clusters, {&i, 1}, place, &strip, &shades, nullptr);
+                        std::vector<std::uint64_t> words(3 * directions, EpipolarPlane::nothing);
+                        draw_plain(
+                            {&strip, 1}, 1,
+                            {words.data(), nullptr, 3, directions, std::int32_t(rays.n_first), float(rays.K_first)});
+                        const bool shows = std::ranges::any_of(
+                            words, [](std::uint64_t word) { return word != EpipolarPlane::nothing; });
+                        ASSERT_TRUE(listed[i] || !shows) << row << " " << k << " " << i;
+                        shown += shows;
+                    }
+                }
+            }
+            EXPECT_GT(crossed, 20u);
+            EXPECT_LT(found, crossed + crossed / 2) << int(grid.face) << " " << reach;
+        }
+    EXPECT_GT(shown, 1000u);
+}
+
+// Of triangles that do not touch the hologram plane hardly one is found in vain.
+TEST(Crossings, are_nearly_exact_behind_the_hologram) {
+    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, 0.5, 0.4, 3};
+    const EpipolarFrame frame(grid);
+    ShadedScene scene = scattered_triangles(5000, 0.05e-3);
+    for (Vec3& p : scene.positions) p.z -= 8e-3;
+    const TriangleClusters clusters(scene, frame, 3);
+    Crossings crossings;
+    find_crossings_plain(clusters, rays_of(frame, 4, 200, 0, 9), crossings);
+    std::size_t found = 0, in_vain = 0;
+    for (std::size_t k = 0; k < 200; ++k)
+        for (const auto& [triangles, cluster] : crossings[k])
+            for (std::size_t i = 0; i < cluster_size; ++i) {
+                if ((triangles >> i & 1) == 0) continue;
+                ++found;
+                in_vain += !separates(frame.plane(4, k), clusters.corners[cluster * cluster_size + i]);
+            }
+    EXPECT_GT(found, 4000u);
+    EXPECT_LT(in_vain, found / 200);
+}
+
+TEST_P(CrossingsOnEveryTarget, vector_and_plain_ones_are_the_same) {
+    for (const LightFieldGrid& grid : grids())
+        for (const double reach : {0.02e-3, 0.4e-3, 3e-3}) {
+            const EpipolarFrame frame(grid);
+            const TriangleClusters clusters(scattered_triangles(700, reach), frame, 3);
+            for (std::size_t row = 0; row < 8; ++row) {
+                const RowRays rays = rays_of(frame, row, frame.axes().slow_directions(), row % 7, 2);
+                Crossings fast(300, {{1, 1}}), plain;
+                find_crossings(clusters, rays, fast);
+                find_crossings_plain(clusters, rays, plain);
+                ASSERT_EQ(fast.size(), plain.size());
+                for (std::size_t k = 0; k < plain.size(); ++k)
+                    ASSERT_TRUE(std::ranges::equal(fast[k], plain[k],
+                                                   [](const Crossing& a, const Crossing& b) {
+                                                       return a.cluster == b.cluster && a.triangles == b.triangles;
+                                                   }))
+                        << row << " " << k;
+            }
+        }
+}
+
+}  // namespace
+}  // namespace hogel
