@@ -23,7 +23,7 @@ struct ClusterHeights {
 };
 
 /// All that is to be known of a triangle that a plane of rays crosses, in two cache lines.
-struct alignas(128) TriangleCorners {
+struct alignas(64) TriangleCorners {
     double y[3], z[3], x[3];
     Rgb radiance[3];
     float unused[5] = {};  ///< four floats may be read from where a radiance stands
@@ -42,7 +42,7 @@ struct ClusterBox {
 /// last are full. The cluster that comes nearest to the viewer is the first.
 struct TriangleClusters {
     std::vector<ClusterHeights, CacheLineAllocator<ClusterHeights>> heights;
-    std::vector<TriangleCorners> corners;  ///< cluster by cluster
+    std::vector<TriangleCorners, CacheLineAllocator<TriangleCorners>> corners;  ///< cluster by cluster
     std::vector<std::uint32_t> triangles;  ///< which triangle of the scene stands in each place
     std::vector<ClusterBox> boxes;
 
