@@ -22,6 +22,9 @@ constexpr std::size_t most_words = std::size_t{96} << 10;
 // So many triangles, or a few more, are set up together.
 constexpr std::size_t most_waiting = 64;
 
+// The boxes of clusters are asked for so many clusters ahead.
+constexpr std::size_t boxes_ahead = 8;
+
 // A thread that copies a light field holds one tile.
 constexpr std::size_t most_tile_bytes = std::size_t{384} << 20;
 
@@ -152,7 +155,9 @@ class EpiRenderer final : public LightFieldSource {
             draw(std::span(work.strips).subspan(drawn, work.count - drawn), drawn, plane);
             drawn = work.count;
         };
-        for (const auto& [triangles, cluster] : crossings) {
+        for (std::size_t i = 0; i < crossings.size(); ++i) {
+            const auto [triangles, cluster] = crossings[i];
+            __builtin_prefetch(&clusters_.boxes[crossings[std::min(i + boxes_ahead, crossings.size() - 1)].cluster]);
             if (work.occlusion.hides(clusters_.boxes[cluster], plane, place.shift, place.z0)) continue;
             const std::size_t first = cluster * cluster_size;
             for (std::uint64_t rest = triangles; rest != 0; rest &= rest - 1) {

@@ -39,11 +39,14 @@ struct ClusterBox {
 };
 
 /// The triangles of a scene in the units of an EpipolarFrame, neighbours together in clusters, of which all but the
-/// last are full. The cluster that comes nearest to the viewer is the first.
+/// last are full. First come those whose triangles show their fronts to who looks straight at the hologram, which are
+/// likely to hide the others, then those that show their backs; of either kind the one that comes nearest to the viewer
+/// is the first.
 struct TriangleClusters {
     std::vector<ClusterHeights, CacheLineAllocator<ClusterHeights>> heights;
     std::vector<TriangleCorners, CacheLineAllocator<TriangleCorners>> corners;  ///< cluster by cluster
     std::vector<std::uint32_t> triangles;  ///< which triangle of the scene stands in each place
+    std::size_t fronts;                    ///< so many clusters show fronts
     std::vector<ClusterBox> boxes;
 
     /// @param channels  of the light field: with one, r of each radiance is its luminance

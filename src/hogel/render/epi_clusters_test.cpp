@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "hogel/render/epi_clusters_internal.h"
+#include "hogel/render/epi_set_up_internal.h"
 #include "hogel/render/test_triangles_internal.h"
 
 namespace hogel {
@@ -42,9 +44,33 @@ TEST(TriangleClusters, come_nearest_first_and_lie_in_their_boxes) {
     }
     // The last is what was left over.
     for (std::size_t i = 2; i < clusters.boxes.size(); ++i)
-        EXPECT_LE(clusters.boxes[i - 2].z_low, clusters.boxes[i - 1].z_low);
+        EXPECT_TRUE(i - 1 == clusters.fronts || clusters.boxes[i - 2].z_low <= clusters.boxes[i - 1].z_low) << i;
     EXPECT_EQ(clusters.filled(0), ~std::uint64_t{0});
     EXPECT_EQ(clusters.filled(1000 / cluster_size), (std::uint64_t{1} << 1000 % cluster_size) - 1);
+}
+
+// Right in front of a triangle its front is seen where a strip's end 0 is left of end 1.
+TEST(TriangleClusters, show_fronts_first_and_then_backs) {
+    for (const LightFieldGrid& g : hemicube({9, 8, 0.5e-3, 20, 30, 1, 1, 3})) {
+        const EpipolarFrame frame(g);
+        const TriangleClusters clusters(scattered_triangles(1000, 0.4e-3), frame, 3);
+        ASSERT_GT(clusters.fronts, 4u);
+        ASSERT_LT(clusters.fronts, clusters.boxes.size() - 4);
+        std::size_t strips = 0, mixed = 0;
+        // The kinds meet in the last cluster of fronts, and in the last of all.
+        for (std::uint32_t i = 0; i < cluster_size * (clusters.boxes.size() - 1); ++i) {
+            const TriangleCorners& own = clusters.corners[i];
+            const double middle = (own.y[0] + own.y[1] + own.y[2]) / 3;
+            Strip strip;
+            StripShades shades;
+            set_up_plain(clusters, {&i, 1}, {middle, 0, 0, 0, 1}, &strip, &shades, nullptr);
+            if (strip.x0 == nowhere.x0 || std::abs(strip.x1 - strip.x0) < 1e-3f) continue;
+            mixed += (strip.x0 < strip.x1) != (i < clusters.fronts * cluster_size);
+            ++strips;
+        }
+        EXPECT_GT(strips, 500u);
+        EXPECT_LT(mixed, cluster_size);
+    }
 }
 
 TEST(TriangleClusters, hold_heights_to_half_a_step_of_the_box) {
