@@ -21,6 +21,9 @@ using IntTag = hn::RebindToSigned<FloatTag>;
 using ByteTag = hn::CappedTag<std::uint8_t, cluster_size>;
 using Floats = hn::Vec<FloatTag>;
 
+// Heights are asked for so many clusters ahead.
+constexpr std::size_t clusters_ahead = 3;
+
 static_assert(RowRays::most_planes <= 256, "a plane's number fits a byte");
 
 HWY_INLINE Floats steps_of(const std::uint16_t* steps) {
@@ -99,6 +102,9 @@ void FindCrossings(const TriangleClusters& clusters, const RowRays& rays, Crossi
     for (std::vector<Crossing>& of_plane : crossings) of_plane.clear();
     PlanesOfTriangles planes;
     for (std::uint32_t cluster = 0; cluster < clusters.heights.size(); ++cluster) {
+        const auto* ahead = reinterpret_cast<const char*>(
+            &clusters.heights[std::min<std::size_t>(cluster + clusters_ahead, clusters.heights.size() - 1)]);
+        for (std::size_t byte = 0; byte < sizeof(ClusterHeights); byte += 64) __builtin_prefetch(ahead + byte);
         const ClusterBox& box = clusters.boxes[cluster];
         if (!may_meet(box, rays)) continue;
         find_planes(clusters.heights[cluster], HeightScale(box, rays), rays.planes, planes);
