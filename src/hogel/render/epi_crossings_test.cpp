@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 #include "hogel/render/epi_set_up_internal.h"
 #include "hogel/render/test_triangles_internal.h"
@@ -53,7 +55,7 @@ TEST(Crossings, are_all_that_show_and_few_others) {
     for (const LightFieldGrid& grid : grids())
         for (const double reach : {0.02e-3, 0.4e-3, 3e-3}) {
             const EpipolarFrame frame(grid);
-            const TriangleClusters clusters(scattered_triangles(700, reach), frame, 3);
+            const TriangleClusters clusters(scattered_triangles(4000, reach), frame, 3);
             const std::size_t planes = frame.axes().slow_directions(), directions = frame.axes().fast_directions();
             std::size_t crossed = 0, found = 0;
             for (const std::size_t row : {0, 3, 6}) {
@@ -93,6 +95,56 @@ TEST(Crossings, are_all_that_show_and_few_others) {
             EXPECT_LT(found, crossed + crossed / 2) << int(grid.face) << " " << reach;
         }
     EXPECT_GT(shown, 1000u);
+}
+
+TEST(Crossings, a_box_is_met_where_its_only_point_is_seen_and_nowhere_far_from_there) {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> anywhere(-50, 50);
+    for (int round = 0; round < 1000; ++round) {
+        const double x = anywhere(random), z = 0.1 * anywhere(random), slope = anywhere(random), K = anywhere(random);
+        const double n = x - K * z, row = 3;
+        ClusterBox box;
+        box.include({x, row + slope * z, z});
+        const auto met = [&](double slopes_from, double n_from) {
+            return may_meet(box, {row, 0, slopes_from, -0.5, 3, 0, n_from, n_from + 4, K, K});
+        };
+        for (const double i : {0, 1, 2})
+            for (const double columns : {0, 2, 4}) EXPECT_TRUE(met(slope + 0.5 * i, n - columns)) << round;
+        EXPECT_FALSE(met(slope, n + 1.1) || met(slope, n - 5.1)) << round;
+        EXPECT_FALSE(std::abs(z) > 1e-3 && (met(slope + 1.1, n) || met(slope - 0.1, n))) << round;
+    }
+}
+
+// Triangles that a plane only just separates, of which clusters hold quite different ones.
+TEST(Crossings, miss_no_narrow_one) {
+    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, 0.5, 0.4, 3};
+    const EpipolarFrame frame(grid);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> depth(0.5e-3, 9e-3), height(-1e-9, 1e-9);
+    ShadedScene scene;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const double v = grid.v(double(random() % 200));
+        for (int corner = 0; corner < 3; ++corner) {
+            const double forward = depth(random);
+            scene.positions.push_back({0, grid.t(4) + v * forward + height(random) * grid.pitch, -forward});
+            scene.radiance.push_back({});
+        }
+        scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
+    }
+    const TriangleClusters clusters(scene, frame, 3);
+    Crossings crossings;
+    find_crossings_plain(clusters, rays_of(frame, 4, 200, 0, 9), crossings);
+    std::size_t narrow = 0;
+    for (std::size_t k = 0; k < 200; ++k)
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            if (!separates(frame.plane(4, k), clusters.corners[i])) continue;
+            ++narrow;
+            const bool listed = std::ranges::any_of(crossings[k], [i](const Crossing& crossing) {
+                return crossing.cluster == i / cluster_size && (crossing.triangles >> i % cluster_size & 1) != 0;
+            });
+            ASSERT_TRUE(listed) << k << " " << i;
+        }
+    EXPECT_GT(narrow, 1000u);
 }
 
 // Of triangles that do not touch the hologram plane hardly one is found in vain.
