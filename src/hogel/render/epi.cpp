@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hogel/render/epi_clusters_internal.h"
+#include "hogel/render/epi_crossings_internal.h"
 #include "hogel/render/epi_internal.h"
 #include "hogel/render/epi_kernels_internal.h"
 #include "hogel/render/epi_light_internal.h"
@@ -20,6 +21,9 @@ constexpr std::size_t most_words = std::size_t{96} << 10;
 
 // So many triangles, or a few more, are set up together.
 constexpr std::size_t most_waiting = 64;
+
+// The boxes of clusters are asked for so many clusters ahead.
+constexpr std::size_t boxes_ahead = 8;
 
 // A thread that copies a light field holds one tile.
 constexpr std::size_t most_tile_bytes = std::size_t{384} << 20;
@@ -66,22 +70,24 @@ class EpiRenderer final : public LightFieldSource {
                                                                             EpipolarPlane::nothing);
         PlaneCells cells;
         Work work;
-        for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow)
-            for (std::size_t row = 0; row < axes_.slow_hogels(range); ++row) {
-                const EpipolarFrame::Plane place = frame_.plane(first_row + row, slow);
-                for (std::size_t column = 0; column < hogels; column += columns) {
-                    const EpipolarPlane plane{words.data(),
-                                              &cells,
-                                              std::min(columns, hogels - column),
-                                              directions,
-                                              frame_.first_column() + static_cast<std::int32_t>(first_column + column),
-                                              frame_.first_direction(),
-                                              scene_->fronts_only};
-                    draw_plane(plane, place, work);
+        for (std::size_t row = 0; row < axes_.slow_hogels(range); ++row)
+            for (std::size_t column = 0; column < hogels; column += columns) {
+                const EpipolarPlane plane{words.data(),
+                                          &cells,
+                                          std::min(columns, hogels - column),
+                                          directions,
+                                          frame_.first_column() + static_cast<std::int32_t>(first_column + column),
+                                          frame_.first_direction(),
+                                          scene_->fronts_only};
+                for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
+                    const std::size_t of_slab = slow % RowRays::most_planes;
+                    if (of_slab == 0) find_crossings(clusters_, rays_of(plane, first_row + row, slow), work.crossings);
+                    draw_plane(plane, frame_.plane(first_row + row, slow), work.crossings[of_slab], work);
+                    const First first{first_row + row, first_column + column, slow};
                     if (axes_.turned())
-                        shade_turned_plane(tile, plane, work, {first_row + row, first_column + column, slow});
+                        shade_turned_plane(tile, plane, work, first);
                     else
-                        shade_plane(tile, plane, work, {first_row + row, first_column + column, slow});
+                        shade_plane(tile, plane, work, first);
                 }
             }
     }
@@ -110,24 +116,32 @@ class EpiRenderer final : public LightFieldSource {
         std::vector<StripOrigin> origins;
         std::vector<StripLight, CacheLineAllocator<StripLight>> lights;
         Occlusion occlusion;
-        std::vector<std::uint32_t> clusters;       // that the plane crosses
-        std::vector<std::uint32_t> waiting;        // triangles that it crosses, on their way from memory
+        Crossings crossings;                       // of some planes
+        std::vector<std::uint32_t> waiting;        // triangles on their way from memory
         std::array<std::vector<float>, 4> turned;  // values of a plane whose columns lie far apart in the tile
     };
 
-    // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
-    void draw_plane(const EpipolarPlane& plane, const EpipolarFrame::Plane& place, Work& work) const {
-        const PlaneCells& cells = *plane.cells;
+    // Of planes from a row's direction `slow` on.
+    RowRays rays_of(const EpipolarPlane& plane, std::size_t row, std::size_t slow) const {
+        const EpipolarFrame::Plane first = frame_.plane(row, slow), next = frame_.plane(row, slow + 1);
         const double n_first = plane.first_column, k_first = plane.first_direction;
-        const PlaneRays rays{place.row,
-                             place.slope,
-                             place.shift,
-                             place.z0,
-                             n_first,
-                             n_first + static_cast<double>(plane.columns) - 1,
-                             k_first,
-                             k_first + static_cast<double>(plane.directions) - 1,
-                             place.deepening * frame_.metres(1)};
+        return {first.row + first.slope * first.z0,
+                first.z0,
+                first.slope,
+                next.slope - first.slope,
+                std::min(RowRays::most_planes, axes_.slow_directions() - slow),
+                first.shift,
+                n_first,
+                n_first + static_cast<double>(plane.columns) - 1,
+                k_first,
+                k_first + static_cast<double>(plane.directions) - 1};
+    }
+
+    // From front to back, and what has been drawn hides what is behind it, cluster by cluster.
+    void draw_plane(const EpipolarPlane& plane, const EpipolarFrame::Plane& at, const std::vector<Crossing>& crossings,
+                    Work& work) const {
+        const PlaneCells& cells = *plane.cells;
+        const PlanePlace place{at.row, at.slope, at.shift, at.z0, at.deepening * frame_.metres(1)};
         work.occlusion.clear(plane);
         work.count = 0;
         make_room(work, 1);
@@ -141,18 +155,20 @@ class EpiRenderer final : public LightFieldSource {
             draw(std::span(work.strips).subspan(drawn, work.count - drawn), drawn, plane);
             drawn = work.count;
         };
-        work.clusters.clear();
-        clusters_crossed(clusters_.bounds, rays, work.clusters);
-        for (const std::uint32_t cluster : work.clusters) {
-            if (work.occlusion.hides(clusters_.bounds[cluster], plane, place.shift, place.z0)) continue;
-            const std::uint32_t first = cluster * cluster_size;
-            for (std::uint64_t rest = crossing(clusters_.corners[cluster], place.row, place.slope); rest != 0;
-                 rest &= rest - 1) {
-                work.waiting.push_back(first + static_cast<std::uint32_t>(std::countr_zero(rest)));
-                __builtin_prefetch(&clusters_.others[work.waiting.back()]);
+        for (std::size_t i = 0; i < crossings.size(); ++i) {
+            const auto [triangles, cluster] = crossings[i];
+            __builtin_prefetch(&clusters_.boxes[crossings[std::min(i + boxes_ahead, crossings.size() - 1)].cluster]);
+            if (work.occlusion.hides(clusters_.boxes[cluster], plane, place.shift, place.z0)) continue;
+            const std::size_t first = cluster * cluster_size;
+            for (std::uint64_t rest = triangles; rest != 0; rest &= rest - 1) {
+                const std::size_t next = first + static_cast<std::size_t>(std::countr_zero(rest));
+                work.waiting.push_back(static_cast<std::uint32_t>(next));
+                const auto* lines = reinterpret_cast<const char*>(&clusters_.corners[next]);
+                __builtin_prefetch(lines);
+                __builtin_prefetch(lines + 64);
             }
             if (work.waiting.size() < most_waiting) continue;
-            add_strips(work, rays);
+            add_strips(work, place);
             if (work.count < drawn + fewest_between_updates) continue;
             draw_rest();
             const bool after_many = work.count >= updated + between_updates;
@@ -161,15 +177,15 @@ class EpiRenderer final : public LightFieldSource {
             updated = work.count;
             if (after_many) between_updates += between_updates / 2;
         }
-        add_strips(work, rays);
+        add_strips(work, place);
         draw_rest();
     }
 
     // Of the triangles that wait.
-    void add_strips(Work& work, const PlaneRays& rays) const {
+    void add_strips(Work& work, const PlanePlace& place) const {
         const std::size_t first = work.count;
         make_room(work, work.waiting.size());
-        set_up(clusters_, work.waiting, rays, &work.strips[first], &work.shades[first],
+        set_up(clusters_, work.waiting, place, &work.strips[first], &work.shades[first],
                needs_samples_ ? &work.origins[first] : nullptr);
         work.count += work.waiting.size();
         for (std::size_t i = 0; needs_samples_ && i < work.waiting.size(); ++i) {

@@ -18,8 +18,17 @@ std::uint64_t every_third_bit(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249;
 }
 
-// Triangles along a Morton curve through their middles: neighbours on the curve are neighbours in space.
-std::vector<std::uint32_t> morton_order(const ShadedScene& scene) {
+// Whether a ray across the hologram, or the middle of a side's picture, sees the back of a triangle.
+bool faces_away(const ShadedScene& scene, const EpipolarFrame& frame, std::uint32_t triangle) {
+    const auto& [a, b, c] = scene.triangles[triangle].vertices;
+    const Vec3 first = frame.in_samples(scene.positions[a]);
+    const Vec3 to_b = frame.in_samples(scene.positions[b]) - first, to_c = frame.in_samples(scene.positions[c]) - first;
+    return to_b.x * to_c.y - to_b.y * to_c.x < 0;
+}
+
+// Triangles along a Morton curve through their middles: neighbours on the curve are neighbours in space. First those
+// that show their fronts, then those that show their backs, so that the two sides of a wall share no cluster.
+std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const EpipolarFrame& frame) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     for (const Vec3& p : scene.positions) {
@@ -36,8 +45,10 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene) {
         const auto cell = [scale](double along) {
             return every_third_bit(static_cast<std::uint64_t>(std::max(0.0, scale * along)));
         };
-        keyed.emplace_back(cell(middle.x - low.x) | cell(middle.y - low.y) << 1 | cell(middle.z - low.z) << 2,
-                           static_cast<std::uint32_t>(i));
+        const auto triangle = static_cast<std::uint32_t>(i);
+        keyed.emplace_back(std::uint64_t{faces_away(scene, frame, triangle)} << 63 | cell(middle.x - low.x) |
+                               cell(middle.y - low.y) << 1 | cell(middle.z - low.z) << 2,
+                           triangle);
     }
     std::sort(keyed.begin(), keyed.end());
     std::vector<std::uint32_t> order;
@@ -46,16 +57,24 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene) {
     return order;
 }
 
-// The clusters of triangles in that order, nearest first, are what is left in `order`: whole ones, and the rest of the
-// last at the end.
-void sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, const EpipolarFrame& frame) {
-    std::vector<std::pair<double, std::size_t>> nearest(order.size() / cluster_size);
+// The clusters of triangles in that order are what is left in `order`, those of fronts first, and of either kind the
+// nearest first: whole ones, and the rest of the last at the end.
+// @return how many show fronts
+std::size_t sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, const EpipolarFrame& frame) {
+    struct Place {
+        bool away;
+        double least;
+        std::size_t cluster;
+        auto operator<=>(const Place&) const = default;
+    };
+    std::vector<Place> nearest(order.size() / cluster_size);
     for (std::size_t cluster = 0; cluster < nearest.size(); ++cluster) {
+        const std::size_t first = cluster * cluster_size;
         double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = cluster * cluster_size; i < (cluster + 1) * cluster_size; ++i)
+        for (std::size_t i = first; i < first + cluster_size; ++i)
             for (const std::uint32_t vertex : scene.triangles[order[i]].vertices)
                 least = std::min(least, frame.in_samples(scene.positions[vertex]).z);
-        nearest[cluster] = {least, cluster};
+        nearest[cluster] = {faces_away(scene, frame, order[first]), least, cluster};
     }
     std::sort(nearest.begin(), nearest.end());
     std::vector<std::uint32_t> sorted;
@@ -64,48 +83,52 @@ void sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, 
         sorted.insert(sorted.end(), order.begin() + static_cast<std::ptrdiff_t>(begin),
                       order.begin() + static_cast<std::ptrdiff_t>(end));
     };
-    for (const auto& [least, cluster] : nearest) append(cluster * cluster_size, (cluster + 1) * cluster_size);
+    for (const auto& [away, least, cluster] : nearest) append(cluster * cluster_size, (cluster + 1) * cluster_size);
     append(nearest.size() * cluster_size, order.size());
     order = std::move(sorted);
+    return static_cast<std::size_t>(std::ranges::count(nearest, false, &Place::away));
+}
+
+std::uint16_t steps_from(double low, double high, double place) {
+    if (!(low < high)) return 0;
+    return static_cast<std::uint16_t>(std::lround((place - low) / (high - low) * ClusterHeights::steps));
 }
 
 }  // namespace
 
-void ClusterBounds::resize(std::size_t count) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr std::size_t most_lanes = 32;
-    const std::size_t filled = (count + most_lanes - 1) / most_lanes * most_lanes;
-    for (Numbers* low : {&x_low, &y_low, &z_low}) low->assign(filled, infinity);
-    for (Numbers* high : {&x_high, &y_high, &z_high}) high->assign(filled, -infinity);
-}
-
-void ClusterBounds::include(std::size_t i, const Vec3& p) {
-    x_low[i] = std::min(x_low[i], p.x);
-    x_high[i] = std::max(x_high[i], p.x);
-    y_low[i] = std::min(y_low[i], p.y);
-    y_high[i] = std::max(y_high[i], p.y);
-    z_low[i] = std::min(z_low[i], p.z);
-    z_high[i] = std::max(z_high[i], p.z);
+void ClusterBox::include(const Vec3& p) {
+    x_low = std::min(x_low, p.x);
+    x_high = std::max(x_high, p.x);
+    y_low = std::min(y_low, p.y);
+    y_high = std::max(y_high, p.y);
+    z_low = std::min(z_low, p.z);
+    z_high = std::max(z_high, p.z);
 }
 
 TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame, std::size_t channels)
-    : triangles(morton_order(scene)) {
-    sort_clusters(triangles, scene, frame);
+    : triangles(morton_order(scene, frame)), fronts(sort_clusters(triangles, scene, frame)) {
     const std::size_t count = (triangles.size() + cluster_size - 1) / cluster_size;
-    corners.resize(count);
-    others.resize(triangles.size());
-    bounds.resize(count);
+    heights.resize(count);
+    corners.resize(triangles.size());
+    boxes.resize(count);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const std::size_t cluster = i / cluster_size, place = i % cluster_size;
         const auto& vertices = scene.triangles[triangles[i]].vertices;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const Vec3 p = frame.in_samples(scene.positions[vertices[corner]]);
-            corners[cluster].y[corner][place] = p.y;
-            corners[cluster].z[corner][place] = p.z;
-            others[i].x[corner] = p.x;
             const Rgb radiance = scene.radiance[vertices[corner]];
-            others[i].radiance[corner] = channels == 1 ? Rgb{luminance(radiance), 0, 0} : radiance;
-            bounds.include(cluster, p);
+            corners[i].x[corner] = p.x;
+            corners[i].y[corner] = p.y;
+            corners[i].z[corner] = p.z;
+            corners[i].radiance[corner] = channels == 1 ? Rgb{luminance(radiance), 0, 0} : radiance;
+            boxes[i / cluster_size].include(p);
+        }
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const std::size_t cluster = i / cluster_size, place = i % cluster_size;
+        const ClusterBox& box = boxes[cluster];
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            heights[cluster].y[corner][place] = steps_from(box.y_low, box.y_high, corners[i].y[corner]);
+            heights[cluster].z[corner][place] = steps_from(box.z_low, box.z_high, corners[i].z[corner]);
         }
     }
 }

@@ -1,5 +1,5 @@
-// The vector twin of find_farthest_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first
-// called.
+// The vector twins of find_farthest_plain in epi_kernels.cpp and of cells_hide_plain in epi_occlusion.cpp, compiled for
+// every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi_occlusion_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/epi_occlusion_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
@@ -18,6 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 // A single lane holds no four columns.
 void FindFarthest(const EpipolarPlane& plane) { find_farthest_plain(plane); }
+bool CellsHide(const EpipolarPlane& plane, const SeenBox& box) { return cells_hide_plain(plane, box); }
 #else
 using Tag = hn::CappedTag<std::uint32_t, cell_directions>;
 using Depths = hn::Vec<Tag>;
@@ -76,6 +77,43 @@ void FindFarthest(const EpipolarPlane& plane) {
         }
     }
 }
+
+// First the columns that see the box from a vector of rows of cells, then row by row a vector of columns.
+bool CellsHide(const EpipolarPlane& plane, const SeenBox& box) {
+    const Tag d;
+    const hn::RebindToFloat<Tag> df;
+    const hn::RebindToSigned<Tag> di;
+    const std::size_t lanes = hn::Lanes(d), rows = PlaneCells::rows(plane.directions);
+    const auto n_first = static_cast<float>(plane.first_column), columns = static_cast<float>(plane.columns);
+    const auto first = hn::Set(df, n_first), last = hn::Set(df, n_first + columns - 1);
+    const auto K_last = hn::Set(df, plane.first_direction + static_cast<float>(plane.directions) - 1);
+    const auto z_low = hn::Set(df, box.z_low), z_high = hn::Set(df, box.z_high), margin = hn::Set(df, box.margin);
+    const Depths nearest = hn::Set(d, box.nearest);
+    HWY_ALIGN std::int32_t begins[hn::MaxLanes(d)], counts[hn::MaxLanes(d)];
+    for (std::size_t group = 0; group < rows; group += lanes) {
+        const auto Ka = hn::Add(hn::Set(df, plane.first_direction + static_cast<float>(group * cell_directions)),
+                                hn::Mul(hn::Iota(df, 0), hn::Set(df, static_cast<float>(cell_directions))));
+        const auto Kb = hn::Min(K_last, hn::Add(Ka, hn::Set(df, static_cast<float>(cell_directions - 1))));
+        const auto a = hn::Mul(Ka, z_low), b = hn::Mul(Ka, z_high), c = hn::Mul(Kb, z_low), e = hn::Mul(Kb, z_high);
+        const auto least = hn::Min(hn::Min(a, b), hn::Min(c, e)), most = hn::Max(hn::Max(a, b), hn::Max(c, e));
+        const auto low = hn::Sub(hn::Sub(hn::Set(df, box.x_low), most), margin);
+        const auto high = hn::Add(hn::Sub(hn::Set(df, box.x_high), least), margin);
+        const auto begin = hn::Max(first, hn::Ceil(low)), end = hn::Min(last, hn::Floor(high));
+        // None where the box is not seen at all, however far away that is.
+        const auto count = hn::Max(hn::Zero(df), hn::Add(hn::Sub(end, begin), hn::Set(df, 1.0f)));
+        hn::Store(hn::ConvertTo(di, hn::Sub(hn::Min(begin, last), first)), di, begins);
+        hn::Store(hn::ConvertTo(di, count), di, counts);
+        for (std::size_t row = group; row < std::min(rows, group + lanes); ++row) {
+            const std::uint32_t* cells = plane.cells->farthest.data() + row * plane.columns + begins[row - group];
+            for (auto rest = static_cast<std::size_t>(counts[row - group]); rest != 0;
+                 rest -= std::min(rest, lanes), cells += lanes) {
+                const auto covered = hn::Lt(hn::LoadU(d, cells), nearest);
+                if (!hn::AllFalse(d, hn::AndNot(covered, hn::FirstN(d, rest)))) return false;
+            }
+        }
+    }
+    return true;
+}
 #endif
 
 }  // namespace HWY_NAMESPACE
@@ -86,8 +124,11 @@ HWY_AFTER_NAMESPACE();
 namespace hogel {
 
 HWY_EXPORT(FindFarthest);
+HWY_EXPORT(CellsHide);
 
 void find_farthest(const EpipolarPlane& plane) { HWY_DYNAMIC_DISPATCH(FindFarthest)(plane); }
+
+bool cells_hide(const EpipolarPlane& plane, const SeenBox& box) { return HWY_DYNAMIC_DISPATCH(CellsHide)(plane, box); }
 
 }  // namespace hogel
 #endif

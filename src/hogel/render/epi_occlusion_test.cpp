@@ -29,7 +29,7 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
         occlusion.update(drawn.plane);
         for (int offer = 0; offer < 50; ++offer) {
             const double x = uniform(-60, 60), z = offer % 5 == 0 ? 0.5 : uniform(-2, 3);
-            const ClusterBounds::Box box{x, x + uniform(0, 9), 0, 0, z, z + uniform(0, 0.3f)};
+            const ClusterBox box{x, x + uniform(0, 9), 0, 0, z, z + uniform(0, 0.3f)};
             const bool hides = occlusion.hides(box, drawn.plane);
             (hides ? hidden : visible) += 1;
             if (!hides) continue;
@@ -53,10 +53,37 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
     EXPECT_GT(visible, 1000u);
 }
 
+TEST(Occlusion, vector_and_plain_cells_hide_the_same) {
+    std::mt19937 random(3);
+    const auto uniform = [&](double low, double high) {
+        return float(std::uniform_real_distribution<double>(low, high)(random));
+    };
+    std::size_t hidden = 0, visible = 0;
+    for (int round = 0; round < 200; ++round) {
+        TestPlane drawn(1 + random() % 60, 1 + random() % 400, std::int32_t(random() % 40) - 30);
+        drawn.cells.clear(drawn.plane.columns, drawn.plane.directions);
+        for (std::uint32_t& cell : drawn.cells.farthest) cell = random() % 50 == 0 ? 3000 : random() % 2000;
+        for (int offer = 0; offer < 20; ++offer) {
+            const float x = uniform(-60, 60), z = uniform(-1, 1) * (offer % 3 == 0 ? 1e-3f : 1);
+            const SeenBox box{
+                x, x + uniform(0, 9), z, z + uniform(0, 0.1), uniform(0, 0.01), std::uint32_t(1500 + random() % 1500)};
+            const bool plain = cells_hide_plain(drawn.plane, box);
+            (plain ? hidden : visible) += 1;
+            for (const std::int64_t target : kernel_targets()) {
+                use_kernel_target(target);
+                EXPECT_EQ(cells_hide(drawn.plane, box), plain) << target << " " << round << " " << offer;
+                use_kernel_target(0);
+            }
+        }
+    }
+    EXPECT_GT(hidden, 500u);
+    EXPECT_GT(visible, 500u);
+}
+
 TEST(Occlusion, an_empty_plane_hides_nothing) {
     TestPlane drawn(8, 16, 0);
     Occlusion occlusion;
-    const ClusterBounds::Box far{0, 1, 0, 1, 1e6, 2e6};
+    const ClusterBox far{0, 1, 0, 1, 1e6, 2e6};
     EXPECT_FALSE(occlusion.hides(far, drawn.plane));
     occlusion.update(drawn.plane);
     EXPECT_FALSE(occlusion.hides(far, drawn.plane));

@@ -10,25 +10,14 @@
 
 namespace hogel {
 
-/// From clusters to strips, plain and by vectors; the twins give the same bits.
-
-/// The rays of an epipolar plane: y = row + slope z, seen at (x + shift, z − z0) by columns from n_first to n_last in
-/// directions from K_first to K_last (EpipolarFrame, EpipolarPlane).
-struct PlaneRays {
+/// An epipolar plane: y = row + slope z, seen at (x + shift, z − z0) (EpipolarFrame).
+struct PlanePlace {
     double row, slope, shift, z0;
-    double n_first, n_last, K_first, K_last;
     double depth;  ///< ζ in metres of a step forward
 };
 
-/// Appends the clusters that a ray of the plane may meet to `crossed`, as numbers, in their order. Exact about
-/// rounding: a cluster one of whose triangles `crossing` reports, and `draw` draws, is never left out.
-void clusters_crossed_plain(const ClusterBounds& bounds, const PlaneRays& rays, std::vector<std::uint32_t>& crossed);
-void clusters_crossed(const ClusterBounds& bounds, const PlaneRays& rays, std::vector<std::uint32_t>& crossed);
-
-/// Which triangles of a cluster the plane y = row + slope z separates: bit i for triangle i. A corner is below if
-/// (y − slope z) − row < 0.
-std::uint64_t crossing_plain(const ClusterCorners& corners, double row, double slope);
-std::uint64_t crossing(const ClusterCorners& corners, double row, double slope);
+/// Covers nothing.
+constexpr Strip nowhere{1e30f, 1, 1e30f, 1};
 
 /// Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
 /// it and the next corner, end 1 between it and the last (TriangleCut).
@@ -47,11 +36,13 @@ struct StripOrigin {
     }
 };
 
-/// Cuts triangles, given by their places in the clusters, all of which the plane crosses. Writes a strip for each.
+/// Cuts triangles, given by their places in the clusters, and writes a strip for each. The plane crosses a triangle if
+/// it separates its corners, of which those are below with (y − slope z) − row < 0; others get Strip nowhere.
+/// The twins give the same bits.
 /// @param origins  may be null
-void set_up_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlaneRays& rays,
+void set_up_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlanePlace& plane,
                   Strip* strips, StripShades* shades, StripOrigin* origins);
-void set_up(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlaneRays& rays,
+void set_up(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlanePlace& plane,
             Strip* strips, StripShades* shades, StripOrigin* origins);
 
 }  // namespace hogel
