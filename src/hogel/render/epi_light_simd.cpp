@@ -5,6 +5,7 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cmath>
 
 #include "hogel/render/epi_light_internal.h"
@@ -139,30 +140,48 @@ class LitSamples {
         transpose(values);
     }
 
+    // Which lanes have no depth, as bits.
+    static HWY_INLINE std::uint64_t lanes_without_depth(const Floats (&values)[4]) {
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(FloatTag(), hn::IsNaN(values[3]), bytes);
+        return bytes[0] | std::uint64_t{bytes[1]} << 8;
+    }
+
     // Makes the nodes that are missing, and asks for the samples that have none.
     HWY_NOINLINE void shade_slowly(const std::uint64_t* words, std::size_t column, std::size_t k, Floats parts,
                                    Floats (&values)[4]) {
         const FloatTag d;
         constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
+        static_assert(lanes <= 16);
         HWY_ALIGN float part[lanes], value[4][lanes];
         hn::Store(parts, d, part);
-        hn::Store(values[3], d, value[3]);
+        const std::uint64_t missing = lanes_without_depth(values);
         // Several strips at a time wait for memory.
-        std::size_t waiting[lanes], count = 0;
-        for (std::size_t i = 0; i < lanes; ++i) {
+        bool points = false;
+        for (std::uint64_t rest = missing; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const std::size_t number = words[i] & 0xffffffff;
-            if (!std::isnan(value[3][i]) || lit_.lines()[number].from != LightFrom::points) continue;
-            waiting[count++] = i;
-            if (lit_.lines()[number].first != LitStrips::unmade) continue;
+            const LitStrips::Line& line = lit_.lines()[number];
+            if (line.from != LightFrom::points) continue;
+            points = true;
+            if (line.first != LitStrips::unmade) continue;
             const GridPlace place(lit_.light(number, samples_), part[i]);
             __builtin_prefetch(place.upper);
             __builtin_prefetch(place.lower);
         }
-        for (std::size_t i = 0; i < count; ++i) make_nodes(words[waiting[i]] & 0xffffffff, part[waiting[i]]);
-        if (count > 0) shade_several(words, parts, values);
+        if (points) {
+            for (std::uint64_t rest = missing; rest != 0; rest &= rest - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+                const std::size_t number = words[i] & 0xffffffff;
+                if (lit_.lines()[number].from == LightFrom::points) make_nodes(number, part[i]);
+            }
+            shade_several(words, parts, values);
+        }
+        std::uint64_t rest = lanes_without_depth(values);
+        if (rest == 0) return;
         for (int i = 0; i < 4; ++i) hn::Store(values[i], d, value[i]);
-        for (std::size_t i = 0; i < lanes; ++i) {
-            if (!std::isnan(value[3][i])) continue;
+        for (; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const std::size_t number = words[i] & 0xffffffff;
             const Rgb radiance = samples_.radiance(number, part[i], column, k + i);
             value[0][i] = colour_ ? radiance.r : luminance(radiance);
@@ -176,14 +195,17 @@ class LitSamples {
     // Around part of a strip LightFrom::points; and, as others will be asked for soon, all nodes in that stretch of the
     // strip for which no points have to be made.
     void make_nodes(std::size_t number, float part) {
-        const StripLight& light = lit_.light(number, samples_);
         const LitStrips::Line& line = lit_.lines()[number];
+        const auto cell = static_cast<std::size_t>(LitStrips::Place(line, part).cell);
+        if (const LitStrips::Node* around = lit_.nodes() + line.first + cell;
+            !std::isnan(around[0][3]) && !std::isnan(around[1][3]))
+            return;
+        const StripLight& light = lit_.light(number, samples_);
         const StripShades& strip = strips_[number];
         constexpr std::size_t stretch = 8;
-        const auto cell = static_cast<std::size_t>(LitStrips::Place(line, part).cell);
         const std::size_t first = cell / stretch * stretch,
                           last = std::min(first + stretch, static_cast<std::size_t>(line.cells));
-        LitStrips::Node* nodes = lit_.nodes() + line.first;
+        LitStrips::Node* const nodes = lit_.nodes() + line.first;
         for (std::size_t i = first; i <= last; ++i) {
             if (!std::isnan(nodes[i][3])) continue;
             const float at = static_cast<float>(i) / line.cells;
