@@ -40,9 +40,15 @@ HWY_INLINE Floats load_blocks(const float* const* places, std::size_t behind) {
         return in_all_blocks(0);
     else if constexpr (lanes == 8)
         return hn::OddEvenBlocks(in_all_blocks(4), in_all_blocks(0));
-    else
-        return hn::ConcatUpperLower(d, hn::OddEvenBlocks(in_all_blocks(12), in_all_blocks(8)),
-                                    hn::OddEvenBlocks(in_all_blocks(4), in_all_blocks(0)));
+    else {
+        // Half by half: g++ 12 fails inside on blends of blocks that are already in a register.
+        const hn::Half<FloatTag> dh;
+        const auto half = [&](std::size_t i) HWY_ATTR {
+            return hn::OddEvenBlocks(hn::LoadDup128(dh, places[i + 4] + behind),
+                                     hn::LoadDup128(dh, places[i] + behind));
+        };
+        return hn::Combine(d, half(8), half(0));
+    }
 }
 
 // Four vectors, whose block b holds four floats of sample 4 b + i, become those floats of all samples: and back.
