@@ -192,6 +192,7 @@ int bench_render_peers(const BenchRenderOptions& options, const Session& session
         render.directions.columns, render.directions.rows, render.field_of_view.across * 180 / std::numbers::pi,
         thread_count(), limits.rounds, algorithm);
     print_head(peers, algorithm);
+    double bytes = 0;
     for (const std::string& name : scenes) {
         render.shading = name == "church-radiance" ? "given" : "vertex";
         const auto scene = untextured(bench_scene(session, name, render));
@@ -202,6 +203,7 @@ int bench_render_peers(const BenchRenderOptions& options, const Session& session
             limits.rows = std::clamp<std::size_t>(most_hogels / count.columns, 1, most_rows);
             const Race result = race(session, algorithm, peers, scene, render.grid(), limits);
             print_row(fmt::format("{}, {} triangles", name, scene->triangles.size()), render.grid(), peers, result);
+            bytes = std::max(bytes, result.racers.front().bytes);
             for (const Racer& racer : result.racers)
                 session.detail(
                     fmt::format("{}: {} hogels a round, {:.3g} million samples a processor second, {} of "
@@ -210,6 +212,8 @@ int bench_render_peers(const BenchRenderOptions& options, const Session& session
                                 100 * racer.differing));
         }
     }
+    fmt::print("\n{} held at most {} of memory beside the scene's, with the rows of hogels that are compared.\n",
+               algorithm, format_bytes(bytes));
     return 0;
 }
 

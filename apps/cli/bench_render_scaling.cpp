@@ -9,6 +9,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/render/renderer.h"
 #include "outputs.h"
+#include "resources.h"
 
 namespace hogel::cli {
 namespace {
@@ -122,11 +123,15 @@ void print_limits(const std::string& algorithm, const LightFieldGrid& grid, doub
 void print_threads(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
                    const LightFieldGrid& grid, std::size_t rounds) {
     std::vector<double> seconds;
+    const double before = forget_most_memory();
     for (const std::size_t threads : {1, 2}) {
         const ThreadLimit limit(threads);
         seconds.push_back(times_of(algorithm, scene, grid, rounds, rows_for_threads).wall);
     }
-    fmt::print("Two threads are {:.2f} times as fast as one.\n\n", seconds[0] / seconds[1]);
+    fmt::print(
+        "Two threads are {:.2f} times as fast as one; at most {} of memory beside the scene's, with {} rows of hogels "
+        "that are kept.\n\n",
+        seconds[0] / seconds[1], format_bytes(most_memory_held() - before), std::min(rows_for_threads, grid.hogels_t));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class EpiRenderer final : public LightFieldSource {
         const float values[] = {grey ? luminance(sky) : sky.r, sky.g, sky.b, std::numeric_limits<float>::infinity()};
         std::ranges::copy(values, background_.value0);
         if (needs_samples_)
-            for (const std::uint32_t triangle : clusters_.triangles) lights_.push_back(light_of(triangle));
+            for (const std::uint32_t triangle : clusters_.triangles) lights_.push_back(light_from(triangle));
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -94,18 +94,12 @@ class EpiRenderer final : public LightFieldSource {
 
   private:
     // Where the light of a triangle's strips comes from.
-    struct TriangleLight {
-        StripLight::From from = StripLight::From::ends;
-        LightGrid grid = {};
-    };
-
-    TriangleLight light_of(std::uint32_t triangle) const {
-        if (!scene_->needs_samples(triangle)) return {};
+    LightFrom light_from(std::uint32_t triangle) const {
+        if (!scene_->needs_samples(triangle)) return LightFrom::ends;
         if (!scene_->light_cache || scene_->triangles[triangle].texture != ShadedScene::no_texture)
-            return {StripLight::From::samples};
+            return LightFrom::samples;
         const LightGrid& grid = scene_->light_cache->grid(triangle);
-        if (!grid.points || !grid.is_radiance) return {StripLight::From::samples};
-        return {StripLight::From::points, grid};
+        return grid.points && grid.is_radiance ? LightFrom::points : LightFrom::samples;
     }
 
     // The strips of one epipolar plane; number 0 is the background.
@@ -114,7 +108,7 @@ class EpiRenderer final : public LightFieldSource {
         std::vector<Strip> strips;
         std::vector<StripShades, CacheLineAllocator<StripShades>> shades;
         std::vector<StripOrigin> origins;
-        std::vector<StripLight, CacheLineAllocator<StripLight>> lights;
+        LitStrips lit;  // empty where all light comes from the ends
         Occlusion occlusion;
         Crossings crossings;                       // of some planes
         std::vector<std::uint32_t> waiting;        // triangles on their way from memory
@@ -148,6 +142,7 @@ class EpiRenderer final : public LightFieldSource {
         work.strips[0] = {};
         work.shades[0] = background_;
         work.count = 1;
+        if (needs_samples_) work.lit.clear(background_);
         std::size_t between_updates =
             std::max(fewest_between_updates, plane.columns * plane.directions / samples_between_updates);
         std::size_t drawn = 1, updated = 1;
@@ -189,13 +184,14 @@ class EpiRenderer final : public LightFieldSource {
                needs_samples_ ? &work.origins[first] : nullptr);
         work.count += work.waiting.size();
         for (std::size_t i = 0; needs_samples_ && i < work.waiting.size(); ++i) {
-            const auto& [source, grid] = lights_[work.waiting[i]];
-            const StripOrigin& from = work.origins[first + i];
-            StripLight& light = work.lights[first + i];
-            if (source == StripLight::From::points)
-                light = light_of_points(grid, from.weights(0), from.weights(1));
-            else
-                (light = {}).from = source;
+            const LightFrom from = lights_[work.waiting[i]];
+            if (from == LightFrom::ends) {
+                work.lit.add_lit_at_ends(work.shades[first + i]);
+                continue;
+            }
+            work.lit.add_lit(from);
+            if (from == LightFrom::points)
+                __builtin_prefetch(&scene_->light_cache->grid(work.origins[first + i].triangle));
         }
         work.waiting.clear();
     }
@@ -206,9 +202,7 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t size = std::max(needed, 2 * work.strips.size());
         work.strips.resize(size);
         work.shades.resize(size);
-        if (!needs_samples_) return;
-        work.origins.resize(size);
-        work.lights.resize(size);
+        if (needs_samples_) work.origins.resize(size);
     }
 
     // The first sample of a plane, as the axes number hogels and directions.
@@ -216,7 +210,7 @@ class EpiRenderer final : public LightFieldSource {
         std::size_t slow_hogel, fast_hogel, slow_direction;
     };
 
-    void shade_plane(LightFieldTile& tile, const EpipolarPlane& plane, const Work& work, const First& first) const {
+    void shade_plane(LightFieldTile& tile, const EpipolarPlane& plane, Work& work, const First& first) const {
         const std::size_t t = first.slow_hogel - tile.range.t0, s = first.fast_hogel - tile.range.s0;
         const std::size_t v = first.slow_direction, stride = grid_.directions();
         const bool colour = grid_.channels == 3;
@@ -249,9 +243,9 @@ class EpiRenderer final : public LightFieldSource {
         }
     }
 
-    void shade_samples(const EpipolarPlane& plane, const Work& work, const First& first, const ShadedPlane& out) const {
+    void shade_samples(const EpipolarPlane& plane, Work& work, const First& first, const ShadedPlane& out) const {
         if (needs_samples_)
-            shade_lit(plane, work.shades, work.lights, PlaneSamples(*this, work, first), out);
+            shade_lit(plane, work.shades, work.lit, PlaneSamples(*this, work, first), out);
         else
             shade(plane, work.shades, out);
     }
@@ -275,6 +269,11 @@ class EpiRenderer final : public LightFieldSource {
             return radiance_at(*renderer_.scene_, from.triangle, b0, b1, b2, sight);
         }
 
+        void find_light(std::size_t strip, StripLight& light) const override {
+            const StripOrigin& from = work_.origins[strip];
+            light.set(renderer_.scene_->light_cache->grid(from.triangle), from.weights(0), from.weights(1));
+        }
+
         LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
             return renderer_.scene_->light_cache->corners(*renderer_.scene_, work_.origins[strip].triangle, row,
                                                           column);
@@ -291,7 +290,7 @@ class EpiRenderer final : public LightFieldSource {
     RowAxes axes_;
     EpipolarFrame frame_;
     TriangleClusters clusters_;
-    std::vector<TriangleLight> lights_;  // in the places of the clusters; empty where all are From::ends
+    std::vector<LightFrom> lights_;  // in the places of the clusters; empty where all light comes from the ends
     StripShades background_{0, 0, 1, 0, {}, {}};
     bool needs_samples_ = scene_->lighting || !scene_->textures.empty();
 };

@@ -1,11 +1,17 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 
 #include "hogel/render/epi_light_internal.h"
 #include "hogel/render/sample_store_internal.h"
 
 namespace hogel {
 namespace {
+
+using Node = LitStrips::Node;
+
+constexpr float not_yet = std::numeric_limits<float>::quiet_NaN();
 
 LightCache::Corners corners_of(const StripLight& light, const LightGrid::Place& row, const LightGrid::Place& column,
                                std::size_t strip, const SampleSource& samples) {
@@ -20,40 +26,105 @@ LightCache::Corners corners_of(const StripLight& light, const LightGrid::Place& 
     return corners;
 }
 
-Rgb light_of_points(const StripLight& light, float part, std::size_t strip, const SampleSource& samples) {
+// What is kept where part of the way along a strip lies, and a zero.
+Node light_of_points(const StripLight& light, float part, std::size_t strip, const SampleSource& samples) {
     const float towards = light.place[0] + part * light.change[0], last = light.place[1] + part * light.change[1];
     const LightGrid::Place row(towards, {light.scale[0], light.last_cell[0]});
     const LightGrid::Place column(LightGrid::along(towards, last), {light.scale[1], light.last_cell[1]});
     const LightCache::Corners corner = corners_of(light, row, column, strip, samples);
-    std::array<float, 3> value;
-    for (std::size_t i = 0; i < 3; ++i) {
+    Node value;
+    for (std::size_t i = 0; i < value.size(); ++i) {
         const float upper = corner[0][i] + column.beyond * (corner[1][i] - corner[0][i]);
         const float lower = corner[2][i] + column.beyond * (corner[3][i] - corner[2][i]);
         value[i] = std::max(0.0f, upper + row.beyond * (lower - upper));
     }
-    return {value[0], value[1], value[2]};
+    return value;
+}
+
+Node value_of_one(const StripShades& strip, float part) {
+    Node value;
+    for (std::size_t i = 0; i < value.size(); ++i) value[i] = strip.value0[i] + part * strip.difference[i];
+    return value;
+}
+
+// Around part of a strip LightFrom::points.
+void make_nodes(LitStrips& lit, std::size_t number, const StripShades& strip, float part, bool colour,
+                const SampleSource& samples) {
+    const StripLight& light = lit.light(number, samples);
+    const LitStrips::Line& line = lit.lines()[number];
+    const auto cell = static_cast<std::size_t>(LitStrips::Place(line, part).cell);
+    for (std::size_t i = cell; i <= cell + 1; ++i) {
+        Node& node = lit.nodes()[line.first + i];
+        if (!std::isnan(node[3])) continue;
+        const float at = static_cast<float>(i) / line.cells;
+        node = light_of_points(light, at, number, samples);
+        if (!colour) node = {luminance({node[0], node[1], node[2]}), 0, 0, 0};
+        node[3] = strip.value0[3] + at * strip.difference[3];
+    }
 }
 
 }  // namespace
 
-void shade_lit_plain(const EpipolarPlane& plane, std::span<const StripShades> strips,
-                     std::span<const StripLight> lights, const SampleSource& samples, const ShadedPlane& out) {
+float StripLight::cells() const {
+    constexpr float per_cell = 2;
+    const float rows = down > 0 ? std::abs(change[0]) * scale[0] : 0,
+                columns = right > 0 ? std::abs(change[1]) * scale[1] : 0;
+    const float cells = std::min(per_cell * std::max(rows, columns), most_cells - 1);
+    return static_cast<float>(static_cast<std::int32_t>(cells) + 1);
+}
+
+void LitStrips::clear(const StripShades& background) {
+    lines_.clear();
+    nodes_.assign(2, {0, 0, 0, not_yet});
+    StripShades without_depth = background;
+    without_depth.value0[3] = without_depth.difference[3] = 0;
+    add_lit_at_ends(without_depth);
+}
+
+void LitStrips::add_lit_at_ends(const StripShades& strip) {
+    lines_.push_back({static_cast<std::uint32_t>(nodes_.size()), 1, 0, LightFrom::ends});
+    nodes_.push_back(value_of_one(strip, 0));
+    nodes_.push_back(value_of_one(strip, 1));
+}
+
+const StripLight& LitStrips::light(std::size_t number, const SampleSource& samples) {
+    Line& line = lines_[number];
+    if (line.first == unmade) {
+        if (lights_.size() < lines_.size()) lights_.resize(2 * lines_.size());
+        samples.find_light(number, lights_[number]);
+        line.first = static_cast<std::uint32_t>(nodes_.size());
+        line.cells = lights_[number].cells();
+        line.last = line.cells - 1;
+        nodes_.resize(nodes_.size() + static_cast<std::size_t>(line.cells) + 1, {0, 0, 0, not_yet});
+    }
+    return lights_[number];
+}
+
+void shade_lit_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, LitStrips& lit,
+                     const SampleSource& samples, const ShadedPlane& out) {
+    const bool colour = out.values[1] != nullptr;
     for (std::size_t column = 0; column < plane.columns; ++column)
         for (std::size_t k = 0; k < plane.directions; ++k) {
             std::uint64_t& word = plane.words[column * plane.directions + k];
             const std::size_t number = word & 0xffffffff;
             word = EpipolarPlane::nothing;
             const StripShades& strip = strips[number];
-            const StripLight& light = lights[number];
+            const LitStrips::Line& line = lit.lines()[number];
             const float n = static_cast<float>(plane.first_column) + static_cast<float>(column);
             const float part = part_of_strip(strip, n, plane.first_direction + static_cast<float>(k));
-            std::array<float, 4> value;
-            for (std::size_t i = 0; i < 4; ++i) value[i] = strip.value0[i] + part * strip.difference[i];
-            if (light.from != StripLight::From::ends) {
-                const Rgb radiance = light.from == StripLight::From::points
-                                         ? light_of_points(light, part, number, samples)
-                                         : samples.radiance(number, part, column, k);
-                value = {out.values[1] ? radiance.r : luminance(radiance), radiance.g, radiance.b, value[3]};
+            Node value;
+            if (number == EpipolarPlane::nobody) {
+                value = value_of_one(strip, 0);
+            } else if (line.from == LightFrom::samples) {
+                const Rgb radiance = samples.radiance(number, part, column, k);
+                value = value_of_one(strip, part);
+                value = {colour ? radiance.r : luminance(radiance), radiance.g, radiance.b, value[3]};
+            } else {
+                if (line.from == LightFrom::points) make_nodes(lit, number, strip, part, colour, samples);
+                const LitStrips::Place place(line, part);
+                const Node* node = lit.nodes() + line.first + static_cast<std::size_t>(place.cell);
+                for (std::size_t i = 0; i < value.size(); ++i)
+                    value[i] = node[0][i] + place.beyond * (node[1][i] - node[0][i]);
             }
             for (std::size_t i = 0; i < 4; ++i)
                 if (out.values[i]) out.values[i][column * out.strides[i] + k] = value[i];

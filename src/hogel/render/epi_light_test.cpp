@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -14,19 +15,24 @@ namespace {
 
 using Weights = std::array<float, 3>;
 
-// Light that changes from place to place, below zero too, as no lamp would make it.
+// Light that is linear on each triangle, or a wave, below zero too, as no lamp would make it.
 class SomeLight final : public SampleLighting {
   public:
+    explicit SomeLight(bool linear) : linear_(linear) {}
     Size size_of_light(std::size_t) const override { return {3, 0}; }
     bool light_is_radiance(std::size_t) const override { return true; }
     void light_on(const ShadedScene&, std::size_t index, const Weights& w, std::span<float> light) const override {
         for (std::size_t i = 0; i < 3; ++i)
-            light[i] = std::sin(float(index + i) + 9 * w[0] + 14 * w[1] * w[2]) + 0.7f * float(i);
+            light[i] = linear_ ? 3 + float(i) * w[0] - 2 * w[1] + 0.3f * float(index)
+                               : std::sin(float(index + i) + 9 * w[0] + 14 * w[1] * w[2]) + 0.7f * float(i);
     }
+
+  private:
+    bool linear_;
 };
 
 // A broad triangle, slivers, small ones, each listed from any corner on.
-ShadedScene lit_triangles(float spacing) {
+ShadedScene lit_triangles(float spacing, bool linear) {
     ShadedScene scene;
     scene.positions = {{-1, -1, 0}, {1, -0.9, 0.2}, {0.1, 1, -0.3}, {-0.99, -1, 0}, {0.1, 1.01, -0.3}, {-1, -0.98, 0}};
     for (const std::array<std::uint32_t, 3>& corners :
@@ -34,7 +40,7 @@ ShadedScene lit_triangles(float spacing) {
         scene.triangles.push_back({corners, ShadedScene::no_texture, 0});
     scene.radiance.resize(scene.positions.size());
     scene.texture_coordinates.resize(scene.positions.size());
-    scene.lighting = std::make_shared<SomeLight>();
+    scene.lighting = std::make_shared<SomeLight>(linear);
     cache_light(scene, std::vector<float>(scene.triangles.size(), spacing));
     return scene;
 }
@@ -43,7 +49,7 @@ ShadedScene lit_triangles(float spacing) {
 struct Strips final : SampleSource {
     const ShadedScene& scene;
     std::vector<StripShades> shades;
-    std::vector<StripLight> lights;
+    std::vector<LightFrom> from;
     std::vector<std::size_t> triangles;
     std::vector<std::array<Weights, 2>> weights;
     mutable std::size_t points_asked = 0;
@@ -60,8 +66,8 @@ struct Strips final : SampleSource {
         };
         triangles.emplace_back();
         weights.emplace_back();
-        shades.push_back({0, 0, 1, 0, {10, 20, 30, 40}, {}});
-        lights.emplace_back();
+        shades.push_back({0, 0, 1, 0, {10, 20, 30, std::numeric_limits<float>::infinity()}, {}});
+        from.push_back(LightFrom::ends);
         for (std::size_t i = 1; i <= count; ++i) {
             triangles.push_back(random() % scene.triangles.size());
             weights.push_back({on_side(), on_side()});
@@ -69,22 +75,35 @@ struct Strips final : SampleSource {
                 StripShades{place(random), 0.1f * place(random), place(random), 0.1f * place(random), {}, {}});
             strip.value0[3] = place(random);
             strip.difference[3] = place(random);
-            StripLight& light = lights.emplace_back();
-            switch (random() % 4) {
-                case 0:
-                    for (int c = 0; c < 3; ++c) strip.value0[c] = part(random), strip.difference[c] = part(random);
-                    break;
-                case 1:
-                    light.from = StripLight::From::samples;
-                    break;
-                default:
-                    light = light_of_points(scene.light_cache->grid(triangles[i]), weights[i][0], weights[i][1]);
-            }
+            const std::size_t kind = random() % 4;
+            from.push_back(kind == 0 ? LightFrom::ends : kind == 1 ? LightFrom::samples : LightFrom::points);
+            if (kind == 0)
+                for (int c = 0; c < 3; ++c) strip.value0[c] = part(random), strip.difference[c] = part(random);
+        }
+    }
+
+    // As they are before a plane is shaded.
+    void start(LitStrips& lit) const {
+        lit.clear(shades[0]);
+        for (std::size_t i = 1; i < shades.size(); ++i) {
+            if (from[i] == LightFrom::ends)
+                lit.add_lit_at_ends(shades[i]);
+            else
+                lit.add_lit(from[i]);
         }
     }
 
     Rgb radiance(std::size_t strip, float part, std::size_t column, std::size_t k) const override {
         return {float(strip) + part, float(column), float(k)};
+    }
+    Weights weights_at(std::size_t strip, float part) const {
+        const auto& [w0, w1] = weights[strip];
+        Weights w;
+        for (std::size_t k = 0; k < 3; ++k) w[k] = w0[k] + part * (w1[k] - w0[k]);
+        return w;
+    }
+    void find_light(std::size_t strip, StripLight& light) const override {
+        light.set(scene.light_cache->grid(triangles[strip]), weights[strip][0], weights[strip][1]);
     }
     LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
         ++points_asked;
@@ -110,14 +129,19 @@ INSTANTIATE_TEST_SUITE_P(EpipolarLight, EveryTargetOfLight, ::testing::ValuesIn(
 
 TEST_P(EveryTargetOfLight, vector_and_plain_shadings_are_the_same_and_show_what_the_cache_has) {
     std::mt19937 random(1);
+    LitStrips lit;
     for (const std::size_t directions : {1, 7, 16, 64, 67, 128, 150}) {
-        const ShadedScene scene = lit_triangles(directions % 2 == 0 ? 0.3f : 0.03f);
+        const bool linear = directions % 4 != 0;
+        const ShadedScene scene = lit_triangles(directions % 2 == 0 ? 0.3f : 0.03f, linear);
         const Strips strips(scene, random, 40);
         constexpr std::size_t columns = 3;
         const std::size_t size = columns * directions;
         std::vector<std::uint64_t> words(size, EpipolarPlane::nothing);
         for (std::uint64_t& word : words)
             if (random() % 4 != 0) word = std::uint64_t{12345} << 32 | (1 + random() % 40);
+        // Neighbours often see the same strip.
+        for (std::size_t i = 1; i < size; ++i)
+            if (i / 32 % 2 == 1 && i % 32 != 0) words[i] = words[i - 1];
         const EpipolarPlane plane{words.data(), nullptr, columns, directions, -3, 0.5f - 0.5f * float(directions)};
         for (const bool colour : {true, false})
             for (const bool depth : {true, false})
@@ -126,10 +150,12 @@ TEST_P(EveryTargetOfLight, vector_and_plain_shadings_are_the_same_and_show_what_
                         plain(size, directions, offset, colour, depth);
                     // In the first round the points have yet to be made.
                     const std::vector<std::uint64_t> before = words, emptied(size, EpipolarPlane::nothing);
-                    shade_lit(plane, strips.shades, strips.lights, strips, fast.plane);
+                    strips.start(lit);
+                    shade_lit(plane, strips.shades, lit, strips, fast.plane);
                     ASSERT_EQ(words, emptied);
                     std::ranges::copy(before, words.begin());
-                    shade_lit_plain(plane, strips.shades, strips.lights, strips, plain.plane);
+                    strips.start(lit);
+                    shade_lit_plain(plane, strips.shades, lit, strips, plain.plane);
                     ASSERT_EQ(words, emptied);
                     std::ranges::copy(before, words.begin());
                     ASSERT_EQ(fast.rows, plain.rows) << directions;
@@ -137,25 +163,55 @@ TEST_P(EveryTargetOfLight, vector_and_plain_shadings_are_the_same_and_show_what_
                         const std::size_t number = words[i] & 0xffffffff;
                         if (words[i] == EpipolarPlane::nothing) {
                             ASSERT_EQ(plain.rows[0][i + offset], 10);
+                            ASSERT_EQ(plain.rows[3][i + offset], depth ? strips.shades[0].value0[3] : -1);
                             continue;
                         }
-                        if (!strips.lights[number].points) continue;
-                        const float part = part_of_strip(strips.shades[number], -3 + float(i / directions),
+                        if (strips.from[number] != LightFrom::points) continue;
+                        const StripShades& shades = strips.shades[number];
+                        const float part = part_of_strip(shades, -3 + float(i / directions),
                                                          plane.first_direction + float(i % directions));
-                        const auto& [w0, w1] = strips.weights[number];
-                        Weights w;
-                        for (std::size_t k = 0; k < 3; ++k) w[k] = w0[k] + part * (w1[k] - w0[k]);
+                        ASSERT_NEAR(plain.rows[3][i + offset],
+                                    depth ? shades.value0[3] + part * shades.difference[3] : -1, 1e-4);
+                        if (!linear) continue;
+                        const Weights w = strips.weights_at(number, part);
                         const Rgb seen = radiance_at(scene, strips.triangles[number], w[0], w[1], w[2]);
-                        ASSERT_NEAR(plain.rows[0][i + offset], colour ? seen.r : luminance(seen), 2e-3);
-                        if (depth) {
-                            const StripShades& shades = strips.shades[number];
-                            ASSERT_NEAR(plain.rows[3][i + offset], shades.value0[3] + part * shades.difference[3],
-                                        1e-4);
-                        }
+                        ASSERT_NEAR(plain.rows[0][i + offset], colour ? seen.r : luminance(seen), 2e-5);
                     }
                 }
         EXPECT_GT(strips.points_asked, 0u);
     }
+}
+
+// The nodes along a strip lie closer than the points, so that what is kept is shown to second order.
+TEST(EpipolarLight, shows_a_wave_to_second_order) {
+    std::vector<double> worst;
+    for (const float spacing : {0.08f, 0.04f, 0.02f}) {
+        const ShadedScene scene = lit_triangles(spacing, false);
+        std::mt19937 random(7);
+        const Strips strips(scene, random, 60);
+        LitStrips lit;
+        strips.start(lit);
+        worst.push_back(0);
+        for (std::size_t number = 1; number < strips.shades.size(); ++number) {
+            // On the broad triangle, whose points lie close both ways.
+            if (strips.from[number] != LightFrom::points || strips.triangles[number] % 5 != 0) continue;
+            std::vector<std::uint64_t> words(256, std::uint64_t{12345} << 32 | number);
+            const EpipolarPlane plane{words.data(), nullptr, 4, 64, -2, -31.5f};
+            Values values(words.size(), 64, 0, true, false);
+            shade_lit_plain(plane, strips.shades, lit, strips, values.plane);
+            for (std::size_t i = 0; i < words.size(); ++i) {
+                const float part = part_of_strip(strips.shades[number], -2 + float(i / 64), -31.5f + float(i % 64));
+                std::array<float, 3> truth;
+                scene.lighting->light_on(scene, strips.triangles[number], strips.weights_at(number, part), truth);
+                for (std::size_t c = 0; c < 3; ++c)
+                    worst.back() =
+                        std::max(worst.back(), double(std::abs(values.rows[c][i] - std::max(0.0f, truth[c]))));
+            }
+        }
+    }
+    EXPECT_LT(worst[0], 0.05);
+    EXPECT_LT(worst[1], worst[0] / 2.5);
+    EXPECT_LT(worst[2], worst[1] / 2.5);
 }
 
 }  // namespace

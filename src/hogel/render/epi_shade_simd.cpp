@@ -4,14 +4,12 @@
 #define HWY_TARGET_INCLUDE "hogel/render/epi_shade_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <cstring>
 
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/epi_samples_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
@@ -19,66 +17,14 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
-// A single lane holds no four values.
 void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     shade_plain(plane, strips, out);
 }
 #else
-#if HWY_HAVE_SCALABLE
-using FloatTag = hn::FixedTag<float, 4>;
-#else
-using FloatTag = hn::ScalableTag<float>;
-#endif
-using NumberTag = hn::RebindToUnsigned<FloatTag>;
-using Floats = hn::Vec<FloatTag>;
-
-// Four floats so far behind each fourth of these places, one after the other.
-HWY_INLINE Floats load_blocks(const float* const* places, std::size_t behind) {
-    const FloatTag d;
-    constexpr std::size_t lanes = hn::MaxLanes(d);
-    const auto in_all_blocks = [&](std::size_t i) HWY_ATTR { return hn::LoadDup128(d, places[i] + behind); };
-    if constexpr (lanes == 4)
-        return in_all_blocks(0);
-    else if constexpr (lanes == 8)
-        return hn::OddEvenBlocks(in_all_blocks(4), in_all_blocks(0));
-    else {
-        // Half by half: g++ 12 fails inside on blends of blocks that are already in a register.
-        const hn::Half<FloatTag> dh;
-        const auto half = [&](std::size_t i) HWY_ATTR {
-            return hn::OddEvenBlocks(hn::LoadDup128(dh, places[i + 4] + behind), hn::LoadDup128(dh, places[i] + behind));
-        };
-        return hn::Combine(d, half(8), half(0));
-    }
-}
-
-// Four vectors, whose block b holds four floats of sample 4 b + i, become those floats of all samples: and back.
-HWY_INLINE void transpose(Floats (&v)[4]) {
-    const FloatTag d;
-    const hn::RepartitionToWide<FloatTag> dw;
-    const auto wide = [&](Floats f) HWY_ATTR { return hn::BitCast(dw, f); };
-    const auto a = wide(hn::InterleaveLower(d, v[0], v[1])), b = wide(hn::InterleaveLower(d, v[2], v[3]));
-    const auto c = wide(hn::InterleaveUpper(d, v[0], v[1])), e = wide(hn::InterleaveUpper(d, v[2], v[3]));
-    v[0] = hn::BitCast(d, hn::InterleaveLower(dw, a, b));
-    v[1] = hn::BitCast(d, hn::InterleaveUpper(dw, a, b));
-    v[2] = hn::BitCast(d, hn::InterleaveLower(dw, c, e));
-    v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, c, e));
-}
-
-// As part_of_strip.
-HWY_INLINE Floats parts_of_strips(Floats n, Floats K, const Floats (&place)[4]) {
-    const FloatTag d;
-    const auto& [x0, z0, dx, dz] = place;
-    const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const Floats part = hn::Div(hn::Add(hn::Sub(n, x0), hn::Mul(K, z0)), hn::Sub(dx, hn::Mul(K, dz)));
-    const Floats positive = hn::IfThenElse(hn::Gt(part, zero), part, zero);
-    return hn::IfThenElse(hn::Lt(positive, one), positive, one);
-}
-
 // Of samples that all show one strip.
 HWY_INLINE void shade_one(const StripShades& strip, Floats n, Floats K, Floats (&values)[4]) {
     const FloatTag d;
-    const Floats part =
-        parts_of_strips(n, K, {hn::Set(d, strip.x0), hn::Set(d, strip.z0), hn::Set(d, strip.dx), hn::Set(d, strip.dz)});
+    const Floats part = parts_of_one(strip, n, K);
     for (int i = 0; i < 4; ++i)
         values[i] = hn::Add(hn::Set(d, strip.value0[i]), hn::Mul(part, hn::Set(d, strip.difference[i])));
 }
@@ -89,9 +35,7 @@ HWY_INLINE void shade_several(const std::uint64_t* words, const StripShades* str
     const float* from[hn::MaxLanes(FloatTag())];
     for (std::size_t i = 0; i < hn::MaxLanes(FloatTag()); ++i) from[i] = &strips[words[i] & 0xffffffff].x0;
     const auto load = [&](std::size_t first, std::size_t behind) HWY_ATTR { return load_blocks(from + first, behind); };
-    Floats place[4] = {load(0, 0), load(1, 0), load(2, 0), load(3, 0)};
-    transpose(place);
-    const Floats part = parts_of_strips(n, K, place);
+    const Floats part = parts_of_several(from, n, K);
     constexpr std::size_t value0 = offsetof(StripShades, value0) / sizeof(float),
                           difference = offsetof(StripShades, difference) / sizeof(float);
     values[0] = hn::Add(load(0, value0), hn::Mul(hn::Broadcast<0>(part), load(0, difference)));
@@ -101,62 +45,22 @@ HWY_INLINE void shade_several(const std::uint64_t* words, const StripShades* str
     transpose(values);
 }
 
-// The values of a vector of samples.
-HWY_INLINE void shade_vector(const std::uint64_t* words, const StripShades* strips, Floats n, Floats K,
-                             Floats (&values)[4]) {
-    const FloatTag d;
-    const NumberTag du;
-    const hn::RepartitionToWide<NumberTag> d64;
-    const auto numbers = hn::ConcatEven(du, hn::BitCast(du, hn::LoadU(d64, words + hn::Lanes(d64))),
-                                        hn::BitCast(du, hn::LoadU(d64, words)));
-    const auto first = static_cast<std::uint32_t>(words[0]);
-    if (!hn::AllTrue(du, hn::Eq(numbers, hn::Set(du, first))))
-        shade_several(words, strips, n, K, values);
-    else if (first != EpipolarPlane::nobody)
-        shade_one(strips[first], n, K, values);
-    else
-        for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, strips[EpipolarPlane::nobody].value0[i]);
-}
-
 void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     const FloatTag d;
-    const hn::RepartitionToWide<NumberTag> d64;
-    const std::size_t lanes = hn::Lanes(d), directions = plane.directions;
-    const bool aligned = out.begins_at_multiples(lanes);
+    const NumberTag du;
     const StripShades* const shades = strips.data();
-    const auto nothing = hn::Set(d64, EpipolarPlane::nothing);
-    for (std::size_t column = 0; column < plane.columns; ++column) {
-        std::uint64_t* words = plane.words + column * directions;
-        float* to[4];
-        for (int i = 0; i < 4; ++i) to[i] = out.values[i] ? out.values[i] + column * out.strides[i] : nullptr;
-        const Floats n = hn::Set(d, static_cast<float>(plane.first_column) + static_cast<float>(column));
-        Floats values[4];
-        std::size_t k = 0;
-        for (; aligned && k + lanes <= directions; k += lanes, words += lanes) {
-            shade_vector(words, shades, n, hn::Iota(d, plane.first_direction + static_cast<float>(k)), values);
-            hn::StoreU(nothing, d64, words);
-            hn::StoreU(nothing, d64, words + lanes / 2);
-            // Past the caches: nobody reads a sample soon after.
-            if (to[0]) hn::Stream(values[0], d, to[0] + k);
-            if (to[1]) hn::Stream(values[1], d, to[1] + k);
-            if (to[2]) hn::Stream(values[2], d, to[2] + k);
-            if (to[3]) hn::Stream(values[3], d, to[3] + k);
-        }
-        for (; k < directions; k += lanes, words += lanes) {
-            const std::size_t count = std::min(lanes, directions - k);
-            HWY_ALIGN std::uint64_t some_words[hn::MaxLanes(d)] = {};
-            std::copy_n(words, count, some_words);
-            std::fill_n(words, count, EpipolarPlane::nothing);
-            shade_vector(some_words, shades, n, hn::Iota(d, plane.first_direction + static_cast<float>(k)), values);
-            for (int i = 0; i < 4; ++i) {
-                if (!to[i]) continue;
-                HWY_ALIGN float some[hn::MaxLanes(d)];
-                hn::Store(values[i], d, some);
-                std::memcpy(to[i] + k, some, count * sizeof(float));
-            }
-        }
-    }
-    hwy::FlushStream();
+    shade_vectors(plane, out,
+                  [&](const std::uint64_t* words, std::size_t column, std::size_t k, Floats(&values)[4]) HWY_ATTR {
+                      const Floats n = hn::Set(d, static_cast<float>(plane.first_column) + static_cast<float>(column));
+                      const Floats K = hn::Iota(d, plane.first_direction + static_cast<float>(k));
+                      const auto first = static_cast<std::uint32_t>(words[0]);
+                      if (!hn::AllTrue(du, hn::Eq(numbers_of(words), hn::Set(du, first))))
+                          shade_several(words, shades, n, K, values);
+                      else if (first != EpipolarPlane::nobody)
+                          shade_one(shades[first], n, K, values);
+                      else
+                          for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, shades[EpipolarPlane::nobody].value0[i]);
+                  });
 }
 #endif
 

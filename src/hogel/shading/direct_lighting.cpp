@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 
 #include "hogel/shading/gloss_internal.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting_internal.h"
 #include "hogel/shading/reflection.h"
+#include "hogel/shading/shadow_maps_internal.h"
 
 namespace hogel {
 namespace {
@@ -41,14 +43,27 @@ class DirectLighting final : public SampleLighting {
         const SurfacePoint point(scene, triangle.vertices, weights);
         const Vec3 normal = normal_at(triangle, weights);
         LightUnderLobe sum;
-        for (std::size_t i = 0; i < lights_.size(); ++i) {
-            const Illumination from = illuminate(lights_[i], point.position);
-            const double cosine = dot(normal, from.to_light);
-            if (!(cosine > 0)) continue;
-            const float lit = maps_[i].lit(point.position, point.flat_normal);
-            if (!(lit > 0)) continue;
-            sum.add(surface.material, lit * static_cast<float>(from.falloff) * lights_[i].intensity, cosine);
-            if (glossy) light[6 + i] = lit;
+        constexpr std::size_t block = 64;
+        for (std::size_t first = 0; first < lights_.size(); first += block) {
+            // Lamps that the surface faces.
+            std::array<std::uint32_t, block> facing;
+            std::array<double, block> cosines, falloffs;
+            std::size_t count = 0;
+            for (std::size_t i = first; i < std::min(first + block, lights_.size()); ++i) {
+                const Illumination from = illuminate(lights_[i], point.position);
+                cosines[count] = dot(normal, from.to_light);
+                falloffs[count] = from.falloff;
+                facing[count] = static_cast<std::uint32_t>(i);
+                if (cosines[count] > 0) ++count;
+            }
+            std::array<float, block> shares;
+            maps_.lit(std::span(facing).first(count), point.position, point.flat_normal, shares.data());
+            for (std::size_t k = 0; k < count; ++k) {
+                if (!(shares[k] > 0)) continue;
+                sum.add(surface.material, shares[k] * static_cast<float>(falloffs[k]) * lights_[facing[k]].intensity,
+                        cosines[k]);
+                if (glossy) light[6 + facing[k]] = shares[k];
+            }
         }
         if (glossy) {
             put(sum.arriving, light.first<3>());
@@ -100,7 +115,7 @@ class DirectLighting final : public SampleLighting {
 
     std::vector<Light> lights_;
     LampTable lamps_;
-    std::vector<ShadowMap> maps_;
+    ShadowMaps maps_;
     Rgb ambient_;
     std::vector<Surface> surfaces_;  // of the meshes
     std::vector<Vec3> normals_;

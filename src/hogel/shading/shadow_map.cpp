@@ -11,8 +11,6 @@
 namespace hogel {
 namespace {
 
-constexpr double bias = 0.75;   // texels
-constexpr double steepest = 8;  // how many texels of depth a tangent plane may fall away over one texel
 constexpr std::size_t cube_faces = 6;
 
 double component(Vec3 p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hogel/core/progress.h"
@@ -30,6 +31,17 @@ class ShadowMap {
     /// How much of the light arrives at a point of a surface: 0 to 1. `normal` is perpendicular to the surface, of any
     /// length and sign.
     float lit(Vec3 point, Vec3 normal) const;
+
+    static constexpr double bias = 0.75;   ///< texels
+    static constexpr double steepest = 8;  ///< how many texels of depth a tangent plane may fall away over one texel
+
+    /// For loops that look into many maps: the depths [face][row][column] around a point light that casts shadows, none
+    /// for others; where it is; and how many texels lie along the side of a face.
+    std::span<const float> faces() const {
+        return point_light_ ? std::span<const float>(depth_) : std::span<const float>();
+    }
+    Vec3 origin() const { return origin_; }
+    std::size_t side() const { return side_; }
 
   private:
     struct Place {  // of a point, or of a texel's ray, on the map

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "hogel/core/parallel.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting_internal.h"
+#include "hogel/shading/shadow_maps_internal.h"
 
 namespace hogel {
 namespace {
@@ -48,12 +50,23 @@ class ShadowedLighting final : public SampleLighting {
         const SurfacePoint point(scene, vertices, weights);
         Rgb sum = interpolate(unshadowed_, vertices, weights);
         constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
-        for (std::size_t k = 0; k < intensities_.size(); ++k) {
-            Rgb light{0, 0, 0};
-            for (std::size_t i = 0; i < 3; ++i)
-                light += weights[i] * irradiance_[vertices[i] * intensities_.size() + k] * colors_[vertices[i]];
-            if (light == Rgb{0, 0, 0}) continue;
-            sum += reflected * maps_[k].lit(point.position, point.flat_normal) * (intensities_[k] * light);
+        constexpr std::size_t block = 64;
+        for (std::size_t first = 0; first < intensities_.size(); first += block) {
+            std::array<std::uint32_t, block> shining;
+            std::array<Rgb, block> lights;
+            std::size_t count = 0;
+            for (std::size_t k = first; k < std::min(first + block, intensities_.size()); ++k) {
+                Rgb light{0, 0, 0};
+                for (std::size_t i = 0; i < 3; ++i)
+                    light += weights[i] * irradiance_[vertices[i] * intensities_.size() + k] * colors_[vertices[i]];
+                lights[count] = light;
+                shining[count] = static_cast<std::uint32_t>(k);
+                if (light != Rgb{0, 0, 0}) ++count;
+            }
+            std::array<float, block> shares;
+            maps_.lit(std::span(shining).first(count), point.position, point.flat_normal, shares.data());
+            for (std::size_t i = 0; i < count; ++i)
+                sum += reflected * shares[i] * (intensities_[shining[i]] * lights[i]);
         }
         seen[0] = sum.r;
         seen[1] = sum.g;
@@ -61,7 +74,7 @@ class ShadowedLighting final : public SampleLighting {
     }
 
   private:
-    std::vector<ShadowMap> maps_;
+    ShadowMaps maps_;
     std::vector<Rgb> intensities_;
     std::vector<bool> given_;  // whether a mesh has radiance of its own
     std::vector<Rgb> colors_, unshadowed_;

@@ -1,0 +1,33 @@
+#include <array>
+#include <limits>
+
+#include "hogel/shading/shadow_maps_internal.h"
+
+namespace hogel {
+namespace {
+
+// A map of one texel a face.
+constexpr float far = std::numeric_limits<float>::infinity();
+constexpr std::array no_depth{far, far, far, far, far, far};
+
+}  // namespace
+
+ShadowMaps::ShadowMaps(std::vector<ShadowMap> maps) : maps_(std::move(maps)) {
+    for (const ShadowMap& map : maps_) {
+        const std::span<const float> faces = map.faces();
+        const Vec3 at = map.origin();
+        table_.x.push_back(at.x);
+        table_.y.push_back(at.y);
+        table_.z.push_back(at.z);
+        table_.side.push_back(faces.empty() ? 1 : static_cast<double>(map.side()));
+        table_.depth.push_back(faces.empty() ? no_depth.data() : faces.data());
+        other_.push_back(faces.empty() ? 1 : 0);
+        any_other_ |= faces.empty();
+    }
+}
+
+void ShadowMaps::lit_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const {
+    for (std::size_t i = 0; i < lamps.size(); ++i) shares[i] = maps_[lamps[i]].lit(point, normal);
+}
+
+}  // namespace hogel
