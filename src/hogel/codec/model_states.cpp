@@ -37,29 +37,28 @@ double bits_for(const BitCount& count, int state) {
 
 }  // namespace
 
-ModelStates::ModelStates(std::uint32_t version) {
+ModelStates::ModelStates(std::uint32_t version) : version_(version) {
     BlockCounts counts;
-    counts.for_each([&](const BitCount&) { states_.push_back(0); }, version);
+    counts.for_each([&](const BitCount&) { states_.push_back(0); }, version_);
 }
 
-ModelStates::ModelStates(BlockCounts& counts, const ModelStates& before) {
+ModelStates::ModelStates(BlockCounts& counts, const ModelStates& before) : version_(before.version_) {
     std::size_t at = 0;
-    counts.for_each([&](const BitCount& count) {
+    const auto tell = [&](const BitCount& count) {
         const int old = before.states_[at++];
         // The nearest state to the ratio that was counted is as good as the best one.
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
         const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -most_state, most_state);
         const bool worth_it = bits_for(count, found) + bits_of_change < bits_for(count, old);
         states_.push_back(worth_it ? found : old);
-    });
+    };
+    counts.for_each(tell, version_);
 }
 
 BlockModels ModelStates::models() const {
     BlockModels models;
     std::size_t at = 0;
-    models.for_each([&](BitModel& model) {
-        if (at < states_.size()) model = BitModel(probabilities.zero[place_of(states_[at++])]);
-    });
+    models.for_each([&](BitModel& model) { model = BitModel(probabilities.zero[place_of(states_[at++])]); }, version_);
     return models;
 }
 

@@ -24,6 +24,18 @@ struct Cosines {
 };
 const Cosines cosines;
 
+void transform_along(Basis basis, const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
+                     BlockSamples& out) {
+    if (basis.cosines())
+        transform_both_ways(matrix, transposed, in, out);
+    else if (basis.cosines_u)
+        transform_along_u(transposed, in, out);
+    else if (basis.cosines_v)
+        transform_along_v(matrix, in, out);
+    else
+        out = in;
+}
+
 }  // namespace
 
 TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
@@ -57,12 +69,12 @@ Picture TileSetup::blank() const {
     return picture;
 }
 
-void transform_block(const BlockSamples& in, BlockSamples& out) {
-    transform_both_ways(cosines.of[0], cosines.of[1], in, out);
+void transform_block(Basis basis, const BlockSamples& in, BlockSamples& out) {
+    transform_along(basis, cosines.of[0], cosines.of[1], in, out);
 }
 
-void inverse_transform_block(const BlockSamples& in, BlockSamples& out) {
-    transform_both_ways(cosines.of[1], cosines.of[0], in, out);
+void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& out) {
+    transform_along(basis, cosines.of[1], cosines.of[0], in, out);
 }
 
 void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block) {
@@ -128,7 +140,7 @@ bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel
 }
 
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
-                 float step, float beyond_level) {
+                 Basis basis, float step, float beyond_level) {
     BlockSamples residual;
     if (levels) {
         BlockSamples coefficients;
@@ -136,7 +148,7 @@ void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples&
             const auto level = static_cast<float>((*levels)[k]);
             coefficients[k] = (level + (level > 0 ? beyond_level : level < 0 ? -beyond_level : 0)) * step;
         }
-        inverse_transform_block(coefficients, residual);
+        inverse_transform_block(basis, coefficients, residual);
     }
     for (std::size_t r = 0; r < block_side; ++r) {
         float* row = &plane.samples[(y + r) * plane.width + x];
@@ -171,8 +183,8 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
                 predict_within(picture[c], x, y, block.within, prediction);
             else if (!predict_parts(pictures, place, block, choices, c, x, y, prediction))
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
-            place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step,
-                        setup.beyond_level(block.mode == 0));
+            place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr,
+                        bases[block.basis[c]], step, setup.beyond_level(block.mode == 0));
         }
         blocks[k] = BlockState::made;
     }
