@@ -67,7 +67,7 @@ def model_names(version):
         return [("mode", moved, context, k) for context in range(3) for k in range(6)]
 
     names = of_mode(0)
-    names += [("within", k) for k in range(3)]
+    names += [("within", k) for k in range(3 if version < 6 else 9)]
     names += of_disparity("main")
     names += of_coded(0, ("any", "side", "within"))
     for of in [(c, within) for c in (False, True) for within in (False, True)]:
@@ -244,6 +244,20 @@ def beyond(line):
 
 
 ALIAS = [f32(np.rint(math.sin(math.pi * fraction / 64)**2 * 2**14) / 2**14) for fraction in range(64)]
+
+
+def along_direction(edge, other, halves):
+    block = np.zeros((8, 8), f32)
+    for r in range(8):
+        for c in range(8):
+            at = 2 * c + halves * (r + 1)
+            if at < -2:
+                block[r, c] = other[r + 2 * (c + 1) // halves]
+            elif at % 2 == 0:
+                block[r, c] = edge[at // 2]
+            else:
+                block[r, c] = f32(0.5) * (edge[at // 2] + edge[at // 2 + 1])
+    return block
 
 
 class Tile:
@@ -439,7 +453,7 @@ class Tile:
                     while block["mode"] < 5 and bit(models["mode", before, odd, block["mode"]]):
                         block["mode"] += 1
             if block["mode"] == 0:
-                block["within"] = self.unary(("within",), 3)
+                block["within"] = self.unary(("within",), 3 if self.version < 6 else 9)
             candidates = self.candidates(hogel, n, moved)
             block["disparity"] = candidates[0]
             if block["mode"] or first:
@@ -483,6 +497,13 @@ class Tile:
             for k in range(8):
                 mean += left[k] + above[k]
             return np.full((8, 8), mean / f32(16), f32)
+        if how > 3:
+            corner = plane[y - 1, x - 1] if x and y else left[0] if x else above[0]
+            more = plane[y - 1, np.minimum(np.arange(x, x + 16), plane.shape[1] - 1)] if y else np.full(16, above[0], f32)
+            left, above = [*left, *[left[7]] * 8, corner], [*more, corner]  # -1 is the corner
+            if how < 8:
+                return along_direction(above, left, (2, 1, -1, -2)[how - 4])
+            return along_direction(left, above, (-1, 1)[how - 8]).T
         k = np.arange(8, dtype=f32)
         r, c = k[:, None], k[None, :]
         return ((7 - c) * left[:, None] + (c + 1) * above[7] + (7 - r) * above[None, :] + (r + 1) * left[7]) / f32(16)

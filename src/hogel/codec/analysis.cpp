@@ -13,8 +13,9 @@ namespace hogel {
 namespace {
 
 // Bits that things cost, as they are taken into account: about what they come to.
-constexpr float within = 12, coded_block = 8, coded_level = 3.5f;
+constexpr float within = 12, within_first = 1, coded_block = 8, coded_level = 3.5f;
 constexpr float other_basis = 3, level_of_samples = 5.5f, level_of_half = 4.5f;  // other than cosines
+constexpr float bits_of_within(int how) { return how == 0 ? 0 : how < first_direction ? 2 : 5; }
 // What is added before rounding down: less than a half, as smaller levels take fewer bits.
 constexpr float rounding_within = 0.36f, rounding_across = 0.2f;
 // A block whose disparity is that of the block beside it, with less error than this in squared steps, is looked at no
@@ -196,7 +197,6 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     BlockSearch search(setup, place, source[0], seen, weights, {estimated, moved, beside});
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
-    BlockSamples prediction;
     CodedChannel channel, other;
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
@@ -206,11 +206,17 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
         Block& block = coded.blocks[k];
         block.mode = best.mode;
         block.disparity = best.disparity;
-        if (!search.good() && best.cost > worth * (first ? 2 : within)) {
+        if (!search.good() && best.cost > worth * (first ? within_first : within)) {
             float least = best.cost;
             for (int how = 0; how < within_modes; ++how) {
-                predict_within(picture[0], x, y, how, prediction);
-                const float cost = squared_difference(prediction, wanted) + worth * (first ? 2 : within);
+                predict_within(picture[0], x, y, how, other.prediction);
+                float cost = squared_difference(other.prediction, wanted);
+                // All hogels inherit from the first one, so that it is worth trying what becomes of each way.
+                if (first) {
+                    quantise(wanted, cost, step, true, setup.beyond_level(true), other);
+                    cost = other.cost;
+                }
+                cost += worth * ((first ? within_first : within) + bits_of_within(how));
                 if (cost < least) {
                     least = cost;
                     block.mode = 0;

@@ -17,13 +17,13 @@ std::size_t by_mode(const Block* moved) { return !moved ? 0 : moved->mode == 1 ?
 
 template <class Coder>
 void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, std::size_t context, bool first,
-               bool may_be_parted, Block& block) {
+               const BlockGrid& grid, Block& block) {
     if (!first) {
         // The best of all sides, within, and then one side after the other.
         auto& model = models.mode[from][context];
         if (!coder.bit(model[0], block.mode != 1))
             block.mode = 1;
-        else if (may_be_parted && coder.bit(models.parts.parted[from][context], block.mode == parted))
+        else if (grid.may_be_parted() && coder.bit(models.parts.parted[from][context], block.mode == parted))
             block.mode = parted;
         else if (!coder.bit(model[1], block.mode != 0))
             block.mode = 0;
@@ -35,7 +35,7 @@ void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, s
     }
     if (block.mode != 0) return;
     std::uint8_t within = 0;
-    while (within + 1 < within_modes && coder.bit(models.within[within], block.within != within)) ++within;
+    while (within + 1 < grid.within_modes() && coder.bit(models.within[within], block.within != within)) ++within;
     block.within = within;
 }
 
@@ -170,7 +170,7 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
         const Block* above = k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr;
         const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
         const Block* from = grid.tells_by_moved() ? moved[k] : nullptr;
-        code_mode(coder, models, by_mode(from), context, first, grid.may_be_parted(), block);
+        code_mode(coder, models, by_mode(from), context, first, grid, block);
         const Candidates candidates = candidates_for(k, grid, coded.blocks, moved[k], beside);
         if (block.mode == 0 && !first) {
             block.disparity = candidates.disparity[0];

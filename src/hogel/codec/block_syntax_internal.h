@@ -38,7 +38,8 @@ struct Block {
     std::int16_t disparity_beyond = 0;
     std::array<std::uint8_t, 2> side{};  // of the main part, and beyond
 };
-constexpr int within_modes = 4, across_modes = 1 + static_cast<int>(ReferenceWeights::sides);
+constexpr int within_modes = 10, first_direction = 4;  // from there on as the edges go on along a direction
+constexpr int across_modes = 1 + static_cast<int>(ReferenceWeights::sides);
 constexpr std::uint8_t parted = across_modes;
 
 struct CodedHogel {
@@ -54,6 +55,7 @@ struct BlockGrid {
     bool may_be_parted() const { return version >= 4; }   // blocks
     bool tells_by_moved() const { return version >= 5; }  // what they are told, by what is moved here
     bool has_bases() const { return version >= 6; }       // other than cosines
+    int within_modes() const { return version >= 6 ? hogel::within_modes : first_direction; }
 };
 
 // The blocks of the tellers, moved to where they are seen from this hogel: one for each block, or null.
@@ -120,7 +122,7 @@ struct ModelsOf {
     template <class Models>
     using ByMoved = std::array<Models, 3>;
     ByMoved<std::array<std::array<Model, across_modes>, 3>> mode;
-    std::array<Model, 3> within;
+    std::array<Model, within_modes - 1> within;
     struct ForDisparity {
         ByMoved<std::array<std::array<std::array<Model, 2>, 3>, 4>> disparity;  // by spread
         std::array<std::array<Model, 4>, 4> candidate;                          // by spread
@@ -151,7 +153,8 @@ struct ModelsOf {
     // All of them that a version of the format has, in its order.
     template <class Use>
     void for_each(Use&& use, std::uint32_t version = latest_version) {
-        visit(use, mode[0], within);
+        visit(use, mode[0]);
+        for (std::size_t k = 0; k < (version < 6 ? first_direction - 1 : within.size()); ++k) use(within[k]);
         visit_disparity(use, main);
         visit(use, coded[0]);
         if (version < 6) {

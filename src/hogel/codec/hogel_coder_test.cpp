@@ -129,6 +129,29 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
     }
 }
 
+// A picture that is the same along a direction goes on along it.
+TEST(Prediction, within_goes_on_along_directions) {
+    struct Along {
+        int how;
+        double u, v;  // how far the direction leads
+    };
+    for (const Along along : {Along{4, -1, 1}, {5, -0.5, 1}, {6, 0.5, 1}, {7, 1, 1}, {8, 1, 0.5}, {9, 1, -0.5}}) {
+        Plane plane(32, 24);
+        for (std::size_t y = 0; y < plane.height; ++y)
+            for (std::size_t x = 0; x < plane.width; ++x)
+                plane.samples[y * plane.width + x] = static_cast<float>(along.v * double(x) - along.u * double(y));
+        BlockSamples block;
+        predict_within(plane, 8, 8, along.how, block);
+        for (std::size_t r = 0; r < block_side; ++r)
+            for (std::size_t c = 0; c < block_side; ++c) {
+                // What would come from below the block is not known.
+                if (along.u > 0 && along.v < 0 && double(r) + 0.5 * double(c + 1) > 7) continue;
+                ASSERT_FLOAT_EQ(block[r * block_side + c], plane.samples[(8 + r) * plane.width + 8 + c])
+                    << along.how << " " << r << " " << c;
+            }
+    }
+}
+
 // In every basis, and along the axes alone on which it has cosines.
 TEST(Blocks, transform_is_the_orthonormal_cosine_transform) {
     BlockSamples block, coefficients, back;

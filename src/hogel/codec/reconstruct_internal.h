@@ -33,6 +33,7 @@ void transform_block(Basis basis, const BlockSamples& in, BlockSamples& out);
 void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& out);
 
 // A block as it follows from the samples to its left and above it.
+// @param how   below within_modes
 void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block);
 // As it follows from other hogels; false where there is none on that side.
 bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
