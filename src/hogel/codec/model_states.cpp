@@ -46,6 +46,7 @@ ModelStates::ModelStates(BlockCounts& counts, const ModelStates& before) : versi
     std::size_t at = 0;
     const auto tell = [&](const BitCount& count) {
         const int old = before.states_[at++];
+        if (count[0] + count[1] == 0) return states_.push_back(old);  // as most are in small tiles
         // The nearest state to the ratio that was counted is as good as the best one.
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
         const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -most_state, most_state);
