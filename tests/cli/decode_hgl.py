@@ -499,7 +499,8 @@ class Tile:
             return np.full((8, 8), mean / f32(16), f32)
         if how > 3:
             corner = plane[y - 1, x - 1] if x and y else left[0] if x else above[0]
-            more = plane[y - 1, np.minimum(np.arange(x, x + 16), plane.shape[1] - 1)] if y else np.full(16, above[0], f32)
+            columns = np.minimum(np.arange(x, x + 16), plane.shape[1] - 1)
+            more = plane[y - 1, columns] if y else np.full(16, above[0], f32)
             left, above = [*left, *[left[7]] * 8, corner], [*more, corner]  # -1 is the corner
             if how < 8:
                 return along_direction(above, left, (2, 1, -1, -2)[how - 4])
