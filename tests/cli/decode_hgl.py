@@ -67,17 +67,27 @@ def model_names(version):
         return [("mode", moved, context, k) for context in range(3) for k in range(6)]
 
     names = of_mode(0)
-    names += [("within", k) for k in range(3)]
+    names += [("within", k) for k in range(3 if version < 6 else 9)]
     names += of_disparity("main")
     names += of_coded(0, ("any", "side", "within"))
-    for c in (False, True):
-        for within in (False, True):
-            of = (c, within)
+    for of in [(c, within) for c in (False, True) for within in (False, True)]:
+        for basis in ("cosines", "samples", "half") if version > 5 else ():
+            name = (*of, basis)
+            names += [(name, "last", node) for node in range(64)]
+            names += [(name, size, around, place) for size in ("some", "above 1") for around in range(12)
+                      for place in range(3)]
+            names += [(name, "above 2", around) for around in range(12)]
+            names += [((name, "rest", around), k) for around in range(12) for k in range(31)]
+            names += [(name, "sign", right, below) for right in range(3) for below in range(3)]
+        if version < 6:
             names += [(of, "last", node) for node in range(64)]
             names += [(of, "some", total, (place, low)) for total in range(8) for place in range(3)
                       for low in (False, True)]
             names += [(of, "above 1", total) for total in range(8)] + [(of, "above 2", total) for total in range(8)]
             names += [((of, "rest"), k) for k in range(31)]
+    if version > 5:
+        names += [("basis", c, kind, k) for c in (False, True) for kind in ("any", "side", "within", "parted")
+                  for k in range(3)]
     if version > 3:
         names += [("parted", 0, context) for context in range(3)]
         names += [(part, "side", k) for part in ("main", "beyond") for k in range(4)]
@@ -212,6 +222,10 @@ COSINES = np.array([[f32(np.rint((math.sqrt(1 / 8) if k == 0 else 0.5) * math.co
                                  * 2**20) / 2**20) for j in range(8)] for k in range(8)], f32)
 
 
+# Whether there are samples along u, and along v.
+BASES = (False, False), (True, True), (False, True), (True, False)
+
+
 def taps_at(fraction):
     def sinc(x):
         return 1.0 if x == 0 else math.sin(x) / x
@@ -230,6 +244,20 @@ def beyond(line):
 
 
 ALIAS = [f32(np.rint(math.sin(math.pi * fraction / 64)**2 * 2**14) / 2**14) for fraction in range(64)]
+
+
+def along_direction(edge, other, halves):
+    block = np.zeros((8, 8), f32)
+    for r in range(8):
+        for c in range(8):
+            at = 2 * c + halves * (r + 1)
+            if at < -2:
+                block[r, c] = other[r + 2 * (c + 1) // halves]
+            elif at % 2 == 0:
+                block[r, c] = edge[at // 2]
+            else:
+                block[r, c] = f32(0.5) * (edge[at // 2] + edge[at // 2 + 1])
+    return block
 
 
 class Tile:
@@ -351,7 +379,40 @@ class Tile:
         size = 1 + min(self.decoder.number(models, (of, "difference")), 2**16)
         return max(-2**14, min(2**14, candidates[0] + sign * unit * size))
 
-    def levels(self, name):
+    def levels(self, of, basis):
+        """Of samples along u and along v, where the basis says so, and else of cosines."""
+        bit, models, (samples_u, samples_v) = self.decoder.bit, self.models, basis
+        name = (*of, "half" if samples_u != samples_v else "samples" if samples_u else "cosines")
+        order = ZIGZAG
+        if samples_u:
+            order = [(r, c) for r in range(8) for c in range(8)]
+        elif samples_v:
+            order = [(r, c) for c in range(8) for r in range(8)]
+        last, result, seen = self.path((name, "last"), 6), np.zeros((8, 8), f32), np.zeros((10, 10), int)
+        for n in range(last, -1, -1):
+            r, c = order[n]
+            size = abs(seen)
+            total = 2 * (size[r, c + 1] + size[r + 1, c]) + size[r + 1, c + 1] + size[r, c + 2] + size[r + 2, c]
+            around = sum(total >= begin for begin in (1, 2, 3, 5, 8, 12, 18, 28, 44, 70, 120))
+            frequency = r * (not samples_v) + c * (not samples_u)
+            place = 0 if frequency == 0 else 1 if frequency < 3 else 2
+            if n == last or bit(models[name, "some", around, place]):
+                size = 1
+                if bit(models[name, "above 1", around, place]):
+                    size = 2
+                    if bit(models[name, "above 2", around]):
+                        size = 3 + self.decoder.number(models, (name, "rest", around))
+                if samples_u or samples_v:
+                    known = samples_u * seen[r, c + 1], samples_v * seen[r + 1, c]
+                    signs = [0 if level == 0 else 1 if level > 0 else 2 for level in known]
+                    negative = bit(models[(name, "sign", *signs)])
+                else:
+                    negative = self.decoder.even()
+                seen[r, c] = result[r, c] = -size if negative else size
+        return result
+
+    def cosine_levels(self, name):
+        """Up to version 5."""
         bit, models = self.decoder.bit, self.models
         last, result, seen = self.path((name, "last"), 6), np.zeros((8, 8), f32), np.zeros((10, 10), int)
         for n in range(last, -1, -1):
@@ -392,7 +453,7 @@ class Tile:
                     while block["mode"] < 5 and bit(models["mode", before, odd, block["mode"]]):
                         block["mode"] += 1
             if block["mode"] == 0:
-                block["within"] = self.unary(("within",), 3)
+                block["within"] = self.unary(("within",), 3 if self.version < 6 else 9)
             candidates = self.candidates(hogel, n, moved)
             block["disparity"] = candidates[0]
             if block["mode"] or first:
@@ -415,8 +476,13 @@ class Tile:
                 around = sum(b["coded"][c] for b in near)
                 had = 0 if of is None else 2 if of["coded"][c] else 1
                 block["coded"].append(bit(models["coded", had, c > 0, kind, block["surprising"], around]))
-                levels = self.levels((c > 0, kind == "within")) if block["coded"][c] else None
-                self.reconstruct(hogel, n, block, c, levels)
+                levels, basis, sort = None, BASES[0], (c > 0, kind == "within")
+                if block["coded"][c] and self.version > 5:
+                    basis = BASES[self.unary(("basis", c > 0, kind), 3)]
+                    levels = self.levels(sort, basis)
+                elif block["coded"][c]:
+                    levels = self.cosine_levels(sort)
+                self.reconstruct(hogel, n, block, c, levels, basis)
         hogel.picture = self.picture
 
     def predict_within(self, plane, x, y, how):
@@ -431,6 +497,14 @@ class Tile:
             for k in range(8):
                 mean += left[k] + above[k]
             return np.full((8, 8), mean / f32(16), f32)
+        if how > 3:
+            corner = plane[y - 1, x - 1] if x and y else left[0] if x else above[0]
+            columns = np.minimum(np.arange(x, x + 16), plane.shape[1] - 1)
+            more = plane[y - 1, columns] if y else np.full(16, above[0], f32)
+            left, above = [*left, *[left[7]] * 8, corner], [*more, corner]  # -1 is the corner
+            if how < 8:
+                return along_direction(above, left, (2, 1, -1, -2)[how - 4])
+            return along_direction(left, above, (-1, 1)[how - 8]).T
         k = np.arange(8, dtype=f32)
         r, c = k[:, None], k[None, :]
         return ((7 - c) * left[:, None] + (c + 1) * above[7] + (7 - r) * above[None, :] + (r + 1) * left[7]) / f32(16)
@@ -468,7 +542,7 @@ class Tile:
             block = block + TAPS[v % 64][k] * across[k:k + 8]
         return block
 
-    def reconstruct(self, hogel, n, block, c, levels):
+    def reconstruct(self, hogel, n, block, c, levels, basis):
         x, y, plane = n % self.across * 8, n // self.across * 8, self.picture[c]
         if block["mode"]:
             main, side = (block["sides"] if block["mode"] == 6 else [block["mode"] - 1, None])
@@ -482,11 +556,12 @@ class Tile:
         if levels is not None:
             if self.version > 4:
                 levels = levels + np.sign(levels) * f32(3 / 16 if block["mode"] else 1 / 16)
-            coefficients, across = levels * self.steps[hogel.level], np.zeros((8, 8), f32)
-            for j in range(8):
-                across = across + coefficients[:, j:j + 1] * COSINES[j:j + 1, :]
-            for r in range(8):
-                residual = residual + COSINES[r:r + 1, :].T * across[r:r + 1, :]
+            residual = levels * self.steps[hogel.level]
+            samples_u, samples_v = basis
+            if not samples_u:
+                residual = sum((residual[:, j:j + 1] * COSINES[j:j + 1, :] for j in range(8)), np.zeros((8, 8), f32))
+            if not samples_v:
+                residual = sum((COSINES[r:r + 1, :].T * residual[r:r + 1, :] for r in range(8)), np.zeros((8, 8), f32))
         plane[y:y + 8, x:x + 8] = prediction + residual
 
 
@@ -727,7 +802,7 @@ def check(data, file, beyond=None):
     assert data[:8] == b"\x89HGL\r\n\x1a\n"
     source.at = 8
     version, length = source.take("II")
-    assert version in (1, 2, 3, 4, 5)
+    assert 1 <= version <= 6
     channels, columns, rows, n_u, n_v = source.take("5Q")
     _, tan_u, tan_v, _, _ = source.take("5d")
     assert source.text() == "front"

@@ -13,7 +13,9 @@ namespace hogel {
 namespace {
 
 // Bits that things cost, as they are taken into account: about what they come to.
-constexpr float within = 12, coded_block = 8, coded_level = 3.5f;
+constexpr float within = 12, within_first = 1, coded_block = 8, coded_level = 3.5f;
+constexpr float other_basis = 3, level_of_samples = 5.5f, level_of_half = 4.5f;  // other than cosines
+constexpr float bits_of_within(int how) { return how == 0 ? 0 : how < first_direction ? 2 : 5; }
 // What is added before rounding down: less than a half, as smaller levels take fewer bits.
 constexpr float rounding_within = 0.36f, rounding_across = 0.2f;
 // A block whose disparity is that of the block beside it, with less error than this in squared steps, is looked at no
@@ -36,9 +38,36 @@ BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
 struct CodedChannel {
     BlockSamples prediction;
     bool any_levels = false;
+    std::uint8_t basis = 0;
     Levels levels;
     float cost = 0;  // squared error, and what the bits of the levels are worth
 };
+
+// The levels that stand for a residual in a basis. Returns what they gain in squared steps, less what their bits are
+// worth.
+float gain_of_levels(const BlockSamples& residual, float step, float rounding, float beyond_level, Basis basis,
+                     Levels& levels) {
+    BlockSamples coefficients;
+    transform_block(basis, residual, coefficients);
+    levels = {};
+    float gain = 0, bits = coded_block;
+    if (!basis.cosines()) bits += other_basis;
+    const float bits_of_level = basis.cosines() ? coded_level : basis.samples() ? level_of_samples : level_of_half;
+    const float per_step = 1 / step;
+    for (std::uint64_t large = large_samples(coefficients, (0.99f - rounding) * step); large != 0; large &= large - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(large));
+        const float size = std::min(std::abs(coefficients[k]) * per_step, static_cast<float>(most_level));
+        const auto level = static_cast<std::int32_t>(size + rounding);
+        if (level == 0) continue;
+        const std::size_t frequency = (basis.cosines_v ? k / block_side : 0) + (basis.cosines_u ? k % block_side : 0);
+        const float left = size - (static_cast<float>(level) + beyond_level);
+        gain += size * size - left * left;
+        levels[k] = coefficients[k] < 0 ? -level : level;
+        bits += bits_of_level + 2 * static_cast<float>(std::bit_width(static_cast<std::uint32_t>(level)) - 1) +
+                0.3f * static_cast<float>(frequency);
+    }
+    return gain - bit_worth * bits;
+}
 
 // The levels of what a prediction leaves, whose sum of squares is `error`; none where they cost more than they are
 // worth.
@@ -49,27 +78,19 @@ void quantise(const BlockSamples& truth, float error, float step, bool from_with
     coded.cost = error;
     coded.any_levels = false;
     if (error <= worth * (coded_block + coded_level)) return;
-    BlockSamples residual, coefficients;
+    BlockSamples residual;
     mix_blocks(truth, coded.prediction, 1, -1, residual);
-    transform_block(residual, coefficients);
-    coded.levels = {};
-    float gain = 0, bits = coded_block;
-    const float per_step = 1 / step;
-    for (std::uint64_t large = large_samples(coefficients, (0.99f - rounding) * step); large != 0; large &= large - 1) {
-        const auto k = static_cast<std::size_t>(std::countr_zero(large));
-        const float size = std::min(std::abs(coefficients[k]) * per_step, static_cast<float>(most_level));
-        const auto level = static_cast<std::int32_t>(size + rounding);
-        const std::size_t frequency = k / block_side + k % block_side;
-        if (level == 0) continue;
-        const float left = size - (static_cast<float>(level) + beyond_level);
-        gain += size * size - left * left;
-        coded.levels[k] = coefficients[k] < 0 ? -level : level;
-        bits += coded_level + 2 * static_cast<float>(std::bit_width(static_cast<std::uint32_t>(level)) - 1) +
-                0.3f * static_cast<float>(frequency);
+    float most = 0;  // squared steps gained, less what bits are worth
+    for (std::uint8_t basis = 0; basis < bases.size(); ++basis) {
+        Levels levels;
+        const float gain = gain_of_levels(residual, step, rounding, beyond_level, bases[basis], levels);
+        if (!(gain > most)) continue;
+        most = gain;
+        coded.any_levels = true;
+        coded.basis = basis;
+        coded.levels = levels;
     }
-    if (gain <= bit_worth * bits) return;
-    coded.any_levels = true;
-    coded.cost = error - (gain - bit_worth * bits) * step * step;
+    coded.cost = error - most * step * step;
 }
 
 }  // namespace
@@ -192,7 +213,6 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     CodedHogel coded;
     coded.blocks.resize(setup.grid.count());
     coded.candidates.reserve(setup.grid.count());
-    BlockSamples prediction;
     CodedChannel channel, other;
     for (std::size_t k = 0; k < setup.grid.count(); ++k) {
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
@@ -203,11 +223,17 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
         Block& block = coded.blocks[k];
         block.mode = best.mode;
         block.disparity = best.disparity;
-        if (!search.good() && best.cost > worth * (first ? 2 : within)) {
+        if (!search.good() && best.cost > worth * (first ? within_first : within)) {
             float least = best.cost;
             for (int how = 0; how < within_modes; ++how) {
-                predict_within(picture[0], x, y, how, prediction);
-                const float cost = squared_difference(prediction, wanted) + worth * (first ? 2 : within);
+                predict_within(picture[0], x, y, how, other.prediction);
+                float cost = squared_difference(other.prediction, wanted);
+                // All hogels inherit from the first one, so that it is worth trying what becomes of each way.
+                if (first) {
+                    quantise(wanted, cost, step, true, setup.beyond_level(true), other);
+                    cost = other.cost;
+                }
+                cost += worth * ((first ? within_first : within) + bits_of_within(how));
                 if (cost < least) {
                     least = cost;
                     block.mode = 0;
@@ -264,10 +290,11 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
             if (c > 0) code_as(block, c);
             if (channel.any_levels) {
                 block.coded = static_cast<std::uint8_t>(block.coded | 1 << c);
+                block.basis[c] = channel.basis;
                 coded.levels.push_back(channel.levels);
             }
-            place_block(picture[c], x, y, channel.prediction, channel.any_levels ? &channel.levels : nullptr, step,
-                        setup.beyond_level(block.mode == 0));
+            place_block(picture[c], x, y, channel.prediction, channel.any_levels ? &channel.levels : nullptr,
+                        bases[channel.basis], step, setup.beyond_level(block.mode == 0));
         }
     }
     return coded;

@@ -134,23 +134,30 @@ void take_better_plain(const BlockSamples& prediction, const BlockSamples& wante
     }
 }
 
-void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
-                               BlockSamples& out) {
-    BlockSamples across;  // in · matrixᵀ
+void transform_along_u_plain(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out) {
     for (std::size_t r = 0; r < block_side; ++r) {
         float sum[block_side] = {};
         for (std::size_t j = 0; j < block_side; ++j)
             for (std::size_t k = 0; k < block_side; ++k)
                 sum[k] += in[r * block_side + j] * transposed[j * block_side + k];
-        std::copy_n(sum, block_side, &across[r * block_side]);
+        std::copy_n(sum, block_side, &out[r * block_side]);
     }
+}
+
+void transform_along_v_plain(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out) {
     for (std::size_t k = 0; k < block_side; ++k) {
         float sum[block_side] = {};
         for (std::size_t r = 0; r < block_side; ++r)
-            for (std::size_t c = 0; c < block_side; ++c)
-                sum[c] += matrix[k * block_side + r] * across[r * block_side + c];
+            for (std::size_t c = 0; c < block_side; ++c) sum[c] += matrix[k * block_side + r] * in[r * block_side + c];
         std::copy_n(sum, block_side, &out[k * block_side]);
     }
+}
+
+void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
+                               BlockSamples& out) {
+    BlockSamples across;
+    transform_along_u_plain(transposed, in, across);
+    transform_along_v_plain(matrix, across, out);
 }
 
 }  // namespace hogel

@@ -91,7 +91,15 @@ void take_better(const BlockSamples& prediction, const BlockSamples& wanted, flo
 void take_better_plain(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
                        const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond);
 
-// matrix · in · matrixᵀ; the transposed matrix is given too.
+// in · transposed, which transforms along u; `out` is another block.
+void transform_along_u(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out);
+void transform_along_u_plain(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out);
+
+// matrix · in, which transforms along v; the same.
+void transform_along_v(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out);
+void transform_along_v_plain(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out);
+
+// matrix · in · matrixᵀ, along u first; the transposed matrix is given too.
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                          BlockSamples& out);
 void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,

@@ -269,26 +269,35 @@ void TakeBetter(const BlockSamples& prediction, const BlockSamples& wanted, floa
     }
 }
 
-void TransformBothWays(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
-                       BlockSamples& out) {
+void TransformAlongU(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out) {
     const Row d;
-    HWY_ALIGN float across[block_samples];
-    for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
+    for (std::size_t c = 0; c < block_side; c += hn::Lanes(d))
         for (std::size_t r = 0; r < block_side; ++r) {
             auto sum = hn::Zero(d);
             for (std::size_t j = 0; j < block_side; ++j)
                 sum = hn::Add(
                     sum, hn::Mul(hn::Set(d, in[r * block_side + j]), hn::LoadU(d, &transposed[j * block_side + c])));
-            hn::Store(sum, d, across + r * block_side + c);
+            hn::StoreU(sum, d, &out[r * block_side + c]);
         }
+}
+
+void TransformAlongV(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out) {
+    const Row d;
+    for (std::size_t c = 0; c < block_side; c += hn::Lanes(d))
         for (std::size_t k = 0; k < block_side; ++k) {
             auto sum = hn::Zero(d);
             for (std::size_t r = 0; r < block_side; ++r)
-                sum = hn::Add(
-                    sum, hn::Mul(hn::Set(d, matrix[k * block_side + r]), hn::Load(d, across + r * block_side + c)));
+                sum = hn::Add(sum,
+                              hn::Mul(hn::Set(d, matrix[k * block_side + r]), hn::LoadU(d, &in[r * block_side + c])));
             hn::StoreU(sum, d, &out[k * block_side + c]);
         }
-    }
+}
+
+void TransformBothWays(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
+                       BlockSamples& out) {
+    BlockSamples across;
+    TransformAlongU(transposed, in, across);
+    TransformAlongV(matrix, across, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -308,6 +317,8 @@ HWY_EXPORT(SumOfSquaresOf);
 HWY_EXPORT(LargeSamples);
 HWY_EXPORT(AlongSlopeOf);
 HWY_EXPORT(SlopesOfBlock);
+HWY_EXPORT(TransformAlongU);
+HWY_EXPORT(TransformAlongV);
 HWY_EXPORT(TransformBothWays);
 
 void interpolate_block(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
@@ -349,6 +360,14 @@ void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes) {
 void take_better(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
                  const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond) {
     HWY_DYNAMIC_DISPATCH(TakeBetter)(prediction, wanted, more, way, lines, main, beyond);
+}
+
+void transform_along_u(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out) {
+    HWY_DYNAMIC_DISPATCH(TransformAlongU)(transposed, in, out);
+}
+
+void transform_along_v(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out) {
+    HWY_DYNAMIC_DISPATCH(TransformAlongV)(matrix, in, out);
 }
 
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,

@@ -60,6 +60,12 @@ TEST(BlockKernels, vectors_give_the_same_bits) {
         transform_both_ways(matrix, b, a, fast);
         transform_both_ways_plain(matrix, b, a, plain);
         EXPECT_EQ(fast, plain);
+        transform_along_u(b, a, fast);
+        transform_along_u_plain(b, a, plain);
+        EXPECT_EQ(fast, plain);
+        transform_along_v(matrix, a, fast);
+        transform_along_v_plain(matrix, a, plain);
+        EXPECT_EQ(fast, plain);
         LinesInRows lines;
         for (std::uint32_t r = 0; r < block_side; ++r)
             for (std::uint32_t line = 0; line < block_lines; ++line)

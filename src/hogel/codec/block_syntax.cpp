@@ -5,79 +5,25 @@
 #include <cstdlib>
 #include <limits>
 
+#include "hogel/codec/level_syntax_internal.h"
+
 namespace hogel {
 namespace {
 
 constexpr int one_surface = 12;  // disparities no farther apart than this belong to one surface
 
-// The zigzag of JPEG: frequencies of a block by their sum.
-constexpr std::array<std::uint8_t, block_samples> zigzag = [] {
-    std::array<std::uint8_t, block_samples> order{};
-    std::size_t n = 0;
-    for (std::size_t sum = 0; sum < 2 * block_side - 1; ++sum)
-        for (std::size_t k = 0; k <= sum; ++k) {
-            const std::size_t row = sum % 2 == 1 ? k : sum - k, column = sum - row;
-            if (row < block_side && column < block_side)
-                order[n++] = static_cast<std::uint8_t>(row * block_side + column);
-        }
-    return order;
-}();
-
 // What a block that is moved here tells of modes and disparities, as a number: nothing is moved here; as usual; not.
 std::size_t by_mode(const Block* moved) { return !moved ? 0 : moved->mode == 1 ? 1 : 2; }
 
-// A number of `bits` bits, from the highest on, as a path through a binary tree.
-template <class Coder, class Model, std::size_t count>
-std::size_t code_path(Coder& coder, std::array<Model, count>& models, int bits, std::size_t value) {
-    std::size_t node = 1;
-    for (int bit = bits - 1; bit >= 0; --bit) node = node * 2 + coder.bit(models[node], value >> bit & 1);
-    return node - (std::size_t{1} << bits);
-}
-
-template <class Coder>
-void code_levels(Coder& coder, typename Coder::Models::ForLevels& models, Levels& levels) {
-    // The place of the last level, as a path through a binary tree.
-    std::size_t last = 0;
-    if constexpr (!Coder::reads)
-        for (std::size_t n = 0; n < block_samples; ++n)
-            if (levels[zigzag[n]] != 0) last = n;
-    last = code_path(coder, models.last, 6, last);
-    // From there down to the lowest frequency; what stands at the next higher frequencies tells much.
-    std::array<std::array<std::uint8_t, block_side + 2>, block_side + 2> seen{};
-    for (std::size_t n = last + 1; n-- > 0;) {
-        const std::size_t row = zigzag[n] / block_side, column = zigzag[n] % block_side;
-        const int sum = seen[row][column + 1] + seen[row + 1][column] + seen[row + 1][column + 1] +
-                        seen[row][column + 2] + seen[row + 2][column];
-        const std::size_t around = static_cast<std::size_t>(std::min(sum, 7));
-        const std::size_t place = (row + column == 0 ? 0 : row + column < 3 ? 1 : 2) * 2 + (n < 3 ? 1 : 0);
-        std::int32_t& level = levels[zigzag[n]];
-        std::uint32_t magnitude = static_cast<std::uint32_t>(std::abs(level));
-        if (n == last || coder.bit(models.significant[around][place], magnitude > 0)) {
-            if (!coder.bit(models.beyond_one[around], magnitude > 1))
-                magnitude = 1;
-            else if (!coder.bit(models.beyond_two[static_cast<std::size_t>(std::min(sum / 2, 7))], magnitude > 2))
-                magnitude = 2;
-            else
-                magnitude = 3 + code_number(coder, models.rest, magnitude - 3);
-            const bool negative = coder.even(level < 0);
-            level = negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
-        } else {
-            level = 0;
-            magnitude = 0;
-        }
-        seen[row][column] = static_cast<std::uint8_t>(std::min(magnitude, 4u));
-    }
-}
-
 template <class Coder>
 void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, std::size_t context, bool first,
-               bool may_be_parted, Block& block) {
+               const BlockGrid& grid, Block& block) {
     if (!first) {
         // The best of all sides, within, and then one side after the other.
         auto& model = models.mode[from][context];
         if (!coder.bit(model[0], block.mode != 1))
             block.mode = 1;
-        else if (may_be_parted && coder.bit(models.parts.parted[from][context], block.mode == parted))
+        else if (grid.may_be_parted() && coder.bit(models.parts.parted[from][context], block.mode == parted))
             block.mode = parted;
         else if (!coder.bit(model[1], block.mode != 0))
             block.mode = 0;
@@ -89,7 +35,7 @@ void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, s
     }
     if (block.mode != 0) return;
     std::uint8_t within = 0;
-    while (within + 1 < within_modes && coder.bit(models.within[within], block.within != within)) ++within;
+    while (within + 1 < grid.within_modes() && coder.bit(models.within[within], block.within != within)) ++within;
     block.within = within;
 }
 
@@ -224,7 +170,7 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
         const Block* above = k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr;
         const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
         const Block* from = grid.tells_by_moved() ? moved[k] : nullptr;
-        code_mode(coder, models, by_mode(from), context, first, grid.may_be_parted(), block);
+        code_mode(coder, models, by_mode(from), context, first, grid, block);
         const Candidates candidates =
             coded.candidates.empty() ? candidates_for(k, grid, coded.blocks, moved[k], beside) : coded.candidates[k];
         if (block.mode == 0 && !first) {
@@ -247,7 +193,15 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
             if (!coder.bit(of_kind[block.surprising ? 1 : 0][around], block.coded >> c & 1)) continue;
             flags = static_cast<std::uint8_t>(flags | 1 << c);
             if (used == coded.levels.size()) coded.levels.emplace_back();
-            code_levels(coder, models.levels[chrominance][block.mode == 0 ? 1 : 0], coded.levels[used++]);
+            Levels& levels = coded.levels[used++];
+            const std::size_t within = block.mode == 0 ? 1 : 0;
+            if (grid.has_bases()) {
+                auto& of_basis = models.basis[chrominance][block.mode == parted ? 3 : kind];
+                block.basis[c] = code_basis(coder, of_basis, block.basis[c]);
+                code_levels(coder, models.levels[chrominance][within], bases[block.basis[c]], levels);
+            } else {
+                code_cosines(coder, models.cosines[chrominance][within], levels);
+            }
         }
         block.coded = flags;
     }

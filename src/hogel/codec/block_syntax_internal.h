@@ -15,12 +15,22 @@ namespace hogel {
 
 using Levels = std::array<std::int32_t, block_samples>;
 
+// What the levels of a channel of a block stand for: cosines along u and v, samples as they are, or along one axis
+// cosines and along the other samples.
+struct Basis {
+    bool cosines_u, cosines_v;
+    constexpr bool cosines() const { return cosines_u && cosines_v; }
+    constexpr bool samples() const { return !cosines_u && !cosines_v; }
+};
+constexpr std::array<Basis, 4> bases{{{true, true}, {false, false}, {true, false}, {false, true}}};
+
 // What a block of one hogel is told.
 struct Block {
     // 0: from within the hogel; 1 + side: from other hogels; parted.
     std::uint8_t mode = 0;
-    std::uint8_t within = 0;  // how, for mode 0
-    std::uint8_t coded = 0;   // a bit for each channel that has levels
+    std::uint8_t within = 0;              // how, for mode 0
+    std::uint8_t coded = 0;               // a bit for each channel that has levels
+    std::array<std::uint8_t, 3> basis{};  // of each channel's levels
     std::int16_t disparity = 0;
     bool surprising = false;  // its disparity is not the likeliest
     // Of mode parted, what lies beyond a line; the main part has `disparity`.
@@ -28,7 +38,8 @@ struct Block {
     std::int16_t disparity_beyond = 0;
     std::array<std::uint8_t, 2> side{};  // of the main part, and beyond
 };
-constexpr int within_modes = 4, across_modes = 1 + static_cast<int>(ReferenceWeights::sides);
+constexpr int within_modes = 10, first_direction = 4;  // from there on as the edges go on along a direction
+constexpr int across_modes = 1 + static_cast<int>(ReferenceWeights::sides);
 constexpr std::uint8_t parted = across_modes;
 
 struct Candidates;
@@ -45,6 +56,8 @@ struct BlockGrid {
     std::size_t count() const { return columns * rows; }
     bool may_be_parted() const { return version >= 4; }   // blocks
     bool tells_by_moved() const { return version >= 5; }  // what they are told, by what is moved here
+    bool has_bases() const { return version >= 6; }       // other than cosines
+    int within_modes() const { return version >= 6 ? hogel::within_modes : first_direction; }
 };
 
 // The blocks of the tellers, moved to where they are seen from this hogel: one for each block, or null.
@@ -87,10 +100,21 @@ std::uint32_t code_number(Coder& coder, std::array<Model, most_number_bits + 1>&
     return result - 1;
 }
 
+// Levels are told by the sizes of those around them, in as many classes.
+constexpr std::size_t level_classes = 12;
+
 // A model for everything that is told, by what is known of it.
 template <class Model>
 struct ModelsOf {
     struct ForLevels {
+        std::array<Model, block_samples> last;
+        std::array<std::array<Model, 3>, level_classes> significant, beyond_one;  // by frequency
+        std::array<Model, level_classes> beyond_two;
+        std::array<std::array<Model, most_number_bits + 1>, level_classes> rest;
+        std::array<std::array<Model, 3>, 3> sign;  // of samples, by those on the right and below
+    };
+    // Up to version 5.
+    struct ForCosines {
         std::array<Model, block_samples> last;
         std::array<std::array<Model, 6>, 8> significant;
         std::array<Model, 8> beyond_one, beyond_two;
@@ -100,7 +124,7 @@ struct ModelsOf {
     template <class Models>
     using ByMoved = std::array<Models, 3>;
     ByMoved<std::array<std::array<Model, across_modes>, 3>> mode;
-    std::array<Model, 3> within;
+    std::array<Model, within_modes - 1> within;
     struct ForDisparity {
         ByMoved<std::array<std::array<std::array<Model, 2>, 3>, 4>> disparity;  // by spread
         std::array<std::array<Model, 4>, 4> candidate;                          // by spread
@@ -121,18 +145,30 @@ struct ModelsOf {
     ForDisparity main;
     // By luminance or chrominance, kind of mode, whether the disparity is surprising.
     ByMoved<std::array<std::array<std::array<std::array<Model, 3>, 2>, 3>, 2>> coded;
-    std::array<std::array<ForLevels, 2>, 2> levels;  // by luminance or chrominance, within or across
+    // By luminance or chrominance, within or across; of levels by whether they are cosines, samples, or half of each.
+    std::array<std::array<ForCosines, 2>, 2> cosines;
+    std::array<std::array<std::array<ForLevels, 3>, 2>, 2> levels;
+    std::array<std::array<std::array<Model, bases.size() - 1>, 4>, 2> basis;  // and kind of mode, parted last
 
     ForParts parts;
 
     // All of them that a version of the format has, in its order.
     template <class Use>
     void for_each(Use&& use, std::uint32_t version = latest_version) {
-        visit(use, mode[0], within);
+        visit(use, mode[0]);
+        for (std::size_t k = 0; k < (version < 6 ? first_direction - 1 : within.size()); ++k) use(within[k]);
         visit_disparity(use, main);
         visit(use, coded[0]);
-        for (auto& of_channel : levels)
-            for (ForLevels& l : of_channel) visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest);
+        if (version < 6) {
+            for (auto& of_channel : cosines)
+                for (ForCosines& l : of_channel) visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest);
+        } else {
+            for (auto& of_channel : levels)
+                for (auto& of_side : of_channel)
+                    for (ForLevels& l : of_side)
+                        visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest, l.sign);
+            visit(use, basis);
+        }
         if (version < 4) return;
         visit(use, parts.parted[0], parts.side, parts.angle, parts.place);
         visit_disparity(use, parts.beyond);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hogel/codec/analysis_internal.h"
+#include "hogel/codec/level_syntax_internal.h"
 #include "hogel/codec/test_damage_internal.h"
 #include "hogel/codec/test_fields_internal.h"
 #include "hogel/core/error.h"
@@ -128,20 +129,112 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
     }
 }
 
+// A picture that is the same along a direction goes on along it.
+TEST(Prediction, within_goes_on_along_directions) {
+    struct Along {
+        int how;
+        double u, v;  // how far the direction leads
+    };
+    for (const Along along : {Along{4, -1, 1}, {5, -0.5, 1}, {6, 0.5, 1}, {7, 1, 1}, {8, 1, 0.5}, {9, 1, -0.5}}) {
+        Plane plane(32, 24);
+        for (std::size_t y = 0; y < plane.height; ++y)
+            for (std::size_t x = 0; x < plane.width; ++x)
+                plane.samples[y * plane.width + x] = static_cast<float>(along.v * double(x) - along.u * double(y));
+        BlockSamples block;
+        predict_within(plane, 8, 8, along.how, block);
+        for (std::size_t r = 0; r < block_side; ++r)
+            for (std::size_t c = 0; c < block_side; ++c) {
+                // What would come from below the block is not known.
+                if (along.u > 0 && along.v < 0 && double(r) + 0.5 * double(c + 1) > 7) continue;
+                ASSERT_FLOAT_EQ(block[r * block_side + c], plane.samples[(8 + r) * plane.width + 8 + c])
+                    << along.how << " " << r << " " << c;
+            }
+    }
+}
+
+// In every basis, and along the axes alone on which it has cosines.
 TEST(Blocks, transform_is_the_orthonormal_cosine_transform) {
     BlockSamples block, coefficients, back;
     for (std::size_t k = 0; k < block_samples; ++k) block[k] = static_cast<float>(std::sin(double(k * k)));
-    transform_block(block, coefficients);
-    inverse_transform_block(coefficients, back);
-    double mean = 0, energy = 0, energy_after = 0;
-    for (std::size_t k = 0; k < block_samples; ++k) {
-        EXPECT_NEAR(back[k], block[k], 2e-5);
-        mean += block[k] / 64;
-        energy += double(block[k]) * block[k];
-        energy_after += double(coefficients[k]) * coefficients[k];
+    for (const Basis basis : bases) {
+        transform_block(basis, block, coefficients);
+        inverse_transform_block(basis, coefficients, back);
+        double energy = 0, energy_after = 0;
+        for (std::size_t k = 0; k < block_samples; ++k) {
+            EXPECT_NEAR(back[k], block[k], 2e-5);
+            energy += double(block[k]) * block[k];
+            energy_after += double(coefficients[k]) * coefficients[k];
+        }
+        EXPECT_NEAR(energy_after, energy, 1e-4 * energy);
+        // The first coefficient is √8 times the mean along each axis with cosines.
+        double sum = 0;
+        const std::size_t columns = basis.cosines_u ? block_side : 1, rows = basis.cosines_v ? block_side : 1;
+        for (std::size_t r = 0; r < rows; ++r)
+            for (std::size_t c = 0; c < columns; ++c) sum += block[r * block_side + c];
+        EXPECT_NEAR(coefficients[0], sum / std::sqrt(double(columns * rows)), 1e-5);
     }
-    EXPECT_NEAR(coefficients[0], 8 * mean, 1e-5);
-    EXPECT_NEAR(energy_after, energy, 1e-4 * energy);
+}
+
+// What stands out alone takes a level in a basis of samples, and most of the block's in one of cosines.
+TEST(HogelCoder, single_samples_and_lines_take_few_bits) {
+    constexpr std::size_t side = 256;
+    LightField field({1, 1, 1e-3, side, side, 0.3, 0.3, 1});
+    const auto bits_of_a_block = [&](auto&& value) {
+        for (std::size_t v = 0; v < side; ++v)
+            for (std::size_t u = 0; u < side; ++u) field.radiance(0, 0, 0, v, u) = value(v, u);
+        LightFieldTile tile = whole(field);
+        const double bytes = double(make_hogel_coder(field.grid())->encode(tile, 0.1).bytes.size());
+        return 8 * bytes / (side * side / block_samples);
+    };
+    const auto place = [](std::size_t at, std::uint32_t seed) {
+        return 1 + philox({static_cast<std::uint32_t>(at / block_side), seed, 0, 0}, {7, 8})[0] % 6;
+    };
+    // A sample somewhere in each block; a line across all blocks below each other; across all those side by side.
+    EXPECT_LT(bits_of_a_block([&](std::size_t v, std::size_t u) {
+                  const std::size_t block = v / block_side * side + u;
+                  return v % block_side == place(block, 1) && u % block_side == place(block, 2) ? 1.0f : 0.0f;
+              }),
+              30);
+    EXPECT_LT(bits_of_a_block([&](std::size_t, std::size_t u) { return u % block_side == place(u, 3) ? 1.0f : 0.0f; }),
+              30);
+    EXPECT_LT(bits_of_a_block([&](std::size_t v, std::size_t) { return v % block_side == place(v, 4) ? 1.0f : 0.0f; }),
+              30);
+}
+
+// Levels of any size come back, in every basis.
+TEST(Blocks, levels_of_all_bases_come_back) {
+    std::vector<Levels> given;
+    std::vector<std::uint8_t> basis;
+    for (std::uint32_t n = 0; n < 400; ++n) {
+        Levels levels{};
+        const std::uint32_t filled = 1 + n % block_samples;
+        for (std::uint32_t k = 0; k < filled; ++k) {
+            const auto random = philox({n, k, 0, 0}, {3, 4});
+            levels[random[0] % block_samples] = static_cast<std::int32_t>(random[1]) >> (8 + random[2] % 24);
+        }
+        levels[n % block_samples] = n % 2 == 0 ? 1 : -1;  // at least one
+        given.push_back(levels);
+        basis.push_back(static_cast<std::uint8_t>(n / 3 % bases.size()));
+    }
+    const auto code_all = [&](auto& coder, auto&& use) {
+        BlockModels models;
+        for (std::size_t n = 0; n < given.size(); ++n) use(coder, models.levels[0][n % 2], models.basis[0][n % 4], n);
+    };
+    BlockWriter writer;
+    code_all(writer, [&](BlockWriter& coder, auto& models, auto& of_basis, std::size_t n) {
+        code_basis(coder, of_basis, basis[n]);
+        code_levels(coder, models, bases[basis[n]], given[n]);
+    });
+    const std::vector<std::uint8_t> bytes = writer.finish();
+    BlockReader reader(bytes);
+    code_all(reader, [&](BlockReader& coder, auto& models, auto& of_basis, std::size_t n) {
+        Levels found{};
+        ASSERT_EQ(code_basis(coder, of_basis, 0), basis[n]);
+        code_levels(coder, models, bases[basis[n]], found);
+        ASSERT_EQ(found, given[n]) << n;
+    });
+    EXPECT_TRUE(reader.all_read());
+    EXPECT_FALSE(reader.ended());
 }
 
 // What one hogel shows, the others show moved: a plane takes nearly no more bytes seen by 64 hogels than by one.

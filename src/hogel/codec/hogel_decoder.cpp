@@ -154,6 +154,9 @@ void HogelDecoder::want_what_is_shown(std::size_t k) {
         if (block.mode == 0) {
             if (column > 0) want_block(k, column - 1, row);
             if (row > 0) want_block(k, column, row - 1);
+            if (row == 0 || block.within < first_direction) continue;
+            if (column > 0) want_block(k, column - 1, row - 1);
+            if (column + 1 < grid.columns) want_block(k, column + 1, row - 1);
             continue;
         }
         const BlockChoices choices = choices_of(block, weights);

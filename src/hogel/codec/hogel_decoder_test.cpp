@@ -21,7 +21,11 @@ struct Example {
     LightFieldTile decoded;
 
     Example(std::size_t s, std::size_t t, std::size_t u, std::size_t v, std::size_t channels, double step = 0.02)
-        : field(textured_planes(s, t, u, v, channels)), whole{0, 0, s, t}, decoded(field.grid(), whole, false) {
+        : Example(textured_planes(s, t, u, v, channels), step) {}
+    Example(LightField shown, double step)
+        : field(std::move(shown)),
+          whole{0, 0, field.grid().hogels_s, field.grid().hogels_t},
+          decoded(field.grid(), whole, false) {
         const auto coder = make_hogel_coder(field.grid());
         LightFieldTile tile(field.grid(), whole, false);
         field.read(tile);
@@ -56,6 +60,25 @@ TEST(HogelDecoder, any_part_is_what_the_whole_has_there) {
                 range.nt = std::min<std::size_t>(2, whole.nt - range.t0);
             }
         }
+    }
+}
+
+// A picture of lines that come from above on the right, which the first hogel goes on along; the others see it moved by
+// more than a block, so that they show only one end of it.
+TEST(HogelDecoder, parts_have_what_lies_above_on_the_right) {
+    LightField field({5, 1, 1e-3, 64, 40, 0.3, 0.3, 1});
+    for (std::size_t s = 0; s < 5; ++s)
+        for (std::size_t v = 0; v < 40; ++v)
+            for (std::size_t u = 0; u < 64; ++u) {
+                const auto line = static_cast<std::uint32_t>(u + v + 12 * s);
+                field.radiance(0, 0, s, v, u) = static_cast<float>(philox({line, 0, 0, 0}, {1, 2})[0]) * 0x1p-32f;
+            }
+    const Example example(std::move(field), 0.05);
+    for (std::size_t s = 0; s < 5; ++s) {
+        HogelDecoder decoder = example.open();
+        LightFieldTile part(example.field.grid(), {s, 0, 1, 1}, false);
+        decoder.read(part);
+        ASSERT_TRUE(example.has(part)) << s;
     }
 }
 

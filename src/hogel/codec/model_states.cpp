@@ -37,13 +37,17 @@ double bits_for(const BitCount& count, int state) {
 
 }  // namespace
 
-ModelStates::ModelStates(std::uint32_t version) {
+ModelStates::ModelStates(std::uint32_t version) : version_(version) {
     BlockModelNumbers().for_each([&](std::uint16_t) { states_.push_back(0); }, version);
 }
 
-ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& before) {
+ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& before) : version_(before.version_) {
     for (const BitCount& count : counts) {
         const int old = before.states_[states_.size()];
+        if (count[0] + count[1] == 0) {  // as of most in small tiles
+            states_.push_back(old);
+            continue;
+        }
         // The nearest state to the ratio that was counted is as good as the best one.
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
         const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -most_state, most_state);
@@ -62,9 +66,7 @@ BlockModels ModelStates::models() const {
     const std::vector<BitModel> in_order = models_in_order();
     BlockModels models;
     std::size_t at = 0;
-    models.for_each([&](BitModel& model) {
-        if (at < in_order.size()) model = in_order[at++];
-    });
+    models.for_each([&](BitModel& model) { model = in_order[at++]; }, version_);
     return models;
 }
 

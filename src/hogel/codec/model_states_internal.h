@@ -26,6 +26,7 @@ class ModelStates {
     void code(Coder& coder, const ModelStates& before);
 
   private:
+    std::uint32_t version_;
     std::vector<int> states_;
 };
 

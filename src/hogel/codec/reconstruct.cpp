@@ -24,6 +24,18 @@ struct Cosines {
 };
 const Cosines cosines;
 
+void transform_along(Basis basis, const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
+                     BlockSamples& out) {
+    if (basis.cosines())
+        transform_both_ways(matrix, transposed, in, out);
+    else if (basis.cosines_u)
+        transform_along_u(transposed, in, out);
+    else if (basis.cosines_v)
+        transform_along_v(matrix, in, out);
+    else
+        out = in;
+}
+
 }  // namespace
 
 TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
@@ -57,17 +69,52 @@ Picture TileSetup::blank() const {
     return picture;
 }
 
-void transform_block(const BlockSamples& in, BlockSamples& out) {
-    transform_both_ways(cosines.of[0], cosines.of[1], in, out);
+void transform_block(Basis basis, const BlockSamples& in, BlockSamples& out) {
+    transform_along(basis, cosines.of[0], cosines.of[1], in, out);
 }
 
-void inverse_transform_block(const BlockSamples& in, BlockSamples& out) {
-    transform_both_ways(cosines.of[1], cosines.of[0], in, out);
+void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& out) {
+    transform_along(basis, cosines.of[1], cosines.of[0], in, out);
 }
+
+namespace {
+
+// A block as its edges go on along a direction: that of the first edge, in halves of a sample from one line to the
+// next. Its samples are from the corner on; where the direction leaves it behind, the other edge's are.
+using Edge = std::array<float, 1 + 2 * block_side>;
+float along_direction(const Edge& edge, const Edge& other, int halves, int along, int line) {
+    const int at = 2 * along + halves * (line + 1);
+    if (at < -2) return other[static_cast<std::size_t>(1 + line + 2 * (along + 1) / halves)];
+    const auto index = static_cast<std::size_t>((at + 2) / 2);
+    return at % 2 == 0 ? edge[index] : 0.5f * (edge[index] + edge[index + 1]);
+}
+
+void predict_along(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block) {
+    // Beyond its last sample an edge goes on as it is, so does the plane beyond its first ones.
+    Edge left, above;
+    const auto sample = [&](std::size_t column, std::size_t row) { return plane.samples[row * plane.width + column]; };
+    const bool on_left = x > 0, on_top = y > 0;
+    const float none = on_left ? sample(x - 1, y) : on_top ? sample(x, y - 1) : 0;
+    left[0] = above[0] = on_left && on_top ? sample(x - 1, y - 1) : none;
+    for (std::size_t k = 0; k < 2 * block_side; ++k) {
+        left[1 + k] = on_left ? sample(x - 1, y + std::min(k, block_side - 1)) : none;
+        above[1 + k] = on_top ? sample(std::min(x + k, plane.width - 1), y - 1) : none;
+    }
+    constexpr std::array<int, within_modes - first_direction> halves{2, 1, -1, -2, -1, 1};
+    constexpr int left_from = first_direction + 4;  // the first ones go on with what is above
+    const int slope = halves[static_cast<std::size_t>(how - first_direction)];
+    for (int r = 0; r < static_cast<int>(block_side); ++r)
+        for (int c = 0; c < static_cast<int>(block_side); ++c)
+            block[static_cast<std::size_t>(r) * block_side + static_cast<std::size_t>(c)] =
+                how < left_from ? along_direction(above, left, slope, c, r) : along_direction(left, above, slope, r, c);
+}
+
+}  // namespace
 
 void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block) {
     // Where one of the edges is missing the other's first sample stands for it; in the first block both are 0.
     float left[block_side] = {}, above[block_side] = {};
+    if (how >= first_direction) return predict_along(plane, x, y, how, block);
     const auto sample = [&](std::size_t column, std::size_t row) { return plane.samples[row * plane.width + column]; };
     for (std::size_t k = 0; k < block_side; ++k) {
         left[k] = x > 0 ? sample(x - 1, y + k) : y > 0 ? sample(x, y - 1) : 0;
@@ -133,7 +180,7 @@ bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel
 }
 
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
-                 float step, float beyond_level) {
+                 Basis basis, float step, float beyond_level) {
     BlockSamples residual;
     if (levels) {
         BlockSamples coefficients;
@@ -141,7 +188,7 @@ void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples&
             const auto level = static_cast<float>((*levels)[k]);
             coefficients[k] = (level + (level > 0 ? beyond_level : level < 0 ? -beyond_level : 0)) * step;
         }
-        inverse_transform_block(coefficients, residual);
+        inverse_transform_block(basis, coefficients, residual);
     }
     for (std::size_t r = 0; r < block_side; ++r) {
         float* row = &plane.samples[(y + r) * plane.width + x];
@@ -176,8 +223,8 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
                 predict_within(picture[c], x, y, block.within, prediction);
             else if (!predict_parts(pictures, place, block, choices, c, x, y, prediction))
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
-            place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr, step,
-                        setup.beyond_level(block.mode == 0));
+            place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr,
+                        bases[block.basis[c]], step, setup.beyond_level(block.mode == 0));
         }
         blocks[k] = BlockState::made;
     }

@@ -28,11 +28,13 @@ struct TileSetup {
     std::unique_ptr<PictureMemory> memory;
 };
 
-// The orthonormal DCT of a block and its inverse. Depend on the order of the additions, which is part of the format.
-void transform_block(const BlockSamples& in, BlockSamples& out);
-void inverse_transform_block(const BlockSamples& in, BlockSamples& out);
+// The orthonormal DCT of a block along the axes on which a basis has cosines, and its inverse. Depend on the order of
+// the additions, which is part of the format.
+void transform_block(Basis basis, const BlockSamples& in, BlockSamples& out);
+void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& out);
 
 // A block as it follows from the samples to its left and above it.
+// @param how   below within_modes
 void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block);
 // As it follows from other hogels; false where there is none on that side.
 bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
@@ -53,7 +55,7 @@ bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel
 // Adds levels times a step to a prediction, and puts it into its place.
 // @param beyond_level   as of TileSetup
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
-                 float step, float beyond_level);
+                 Basis basis, float step, float beyond_level);
 
 // What has become of a block's samples.
 enum class BlockState : std::uint8_t { unknown, wanted, made };

@@ -75,7 +75,7 @@ struct CodingMethod {
 std::vector<std::string_view> coder_names();
 
 /// The version of the format that is written; older ones are read.
-constexpr std::uint32_t latest_version = 5;
+constexpr std::uint32_t latest_version = 6;
 
 /// @param counted   the directions whose errors count
 /// @param version   of the format (docs/format.md); only of the latest one anything can be encoded
