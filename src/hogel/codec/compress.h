@@ -22,11 +22,12 @@ struct CompressionTarget {
 struct CompressionOptions {
     CodingMethod method;
     CompressionTarget target;
-    std::optional<HogelRange> tile;                 ///< size of the tiles; by default what suits the coder
-    Metadata metadata;                              ///< no word of the name `filler`
-    HemicubeLayout layout = HemicubeLayout::faces;  ///< of several faces
-    bool with_depth = false;                        ///< whether the sources' depth is stored, too
-    double depth_error = 0;                         ///< of each at most, metres; 0: a 1,000th of the depths' range
+    std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
+    Metadata metadata;               ///< no word of the name `filler`
+    /// By default `gathered` where that can be and the coder is hogel, otherwise `faces`.
+    std::optional<StreamLayout> layout;
+    bool with_depth = false;  ///< whether the sources' depth is stored, too
+    double depth_error = 0;   ///< of each at most, metres; 0: a 1,000th of the depths' range
     /// Decades of luminance that the light field is mapped to before it is coded, by the adjustment of its histogram
     /// (docs/codec.md); one that spans no more is left as it is.
     std::optional<double> tone_decades;
