@@ -213,10 +213,25 @@ double most_bytes(double pixels_per_bit, double pixels, double samples) {
 }
 
 [[noreturn]] void refuse_rate(double pixels_per_bit, double bytes, std::uint64_t nearest) {
-    throw Error(
-        ErrorCode::usage,
-        fmt::format("{} pixels per bit were asked for, {} bytes; the {} file of this light field has {}",
-                    pixels_per_bit, bytes, static_cast<double>(nearest) < bytes ? "largest" : "smallest", nearest));
+    throw Error(ErrorCode::usage,
+                fmt::format("{} pixels per bit were asked for, {} bytes; the {} file of this light field has {}{}",
+                            pixels_per_bit, bytes, static_cast<double>(nearest) < bytes ? "largest" : "smallest",
+                            nearest, static_cast<double>(nearest) < bytes ? ", but for --lossless" : ""));
+}
+
+// Where levels or floats are too short for so fine a step, errors are many times as large as it. Throws Error(usage).
+void check_quality(const CompressionTarget& target, const CodingOutcome& outcome, double step,
+                   const std::string& coder) {
+    constexpr double most_steps = 16;
+    const bool too_fine = outcome.error > most_steps * most_steps * step * step * outcome.samples;
+    if (!too_fine && !(target.sqnr && outcome.sqnr() < *target.sqnr)) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("{} asked for, finer than coder {} can be here: it would have {:.2f} dB; expected less, or "
+                            "--lossless",
+                            target.sqnr   ? fmt::format("an SQNR of {} dB was", *target.sqnr)
+                            : target.step ? fmt::format("a step of {} was", *target.step)
+                                          : fmt::format("{} pixels per bit were", *target.pixels_per_bit),
+                            coder, outcome.sqnr()));
 }
 
 // The step of a prediction that makes tiles smallest, by halves and doubles from a likely one.
@@ -337,6 +352,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
         result.step = exact ? smallest_step(compression, target) : *target.step;
         outcome = compression.code(all, result.step, true);
         result.passes = 1;
+        if (target.step) check_quality(target, outcome, result.step, options.method.coder);
     } else {
         const std::vector<std::size_t> some = all.size() >= 3 * sampled ? some_tiles(all.size()) : all;
         const CodingOutcome seen = compression.look(some);
@@ -362,6 +378,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
         outcome = search.outcome();
         result.step = search.step();
         result.passes = search.passes();
+        if (!embedded || target.sqnr) check_quality(target, outcome, result.step, options.method.coder);
         if (target.pixels_per_bit) {
             if (embedded && static_cast<double>(writer.size()) > most) {
                 outcome = compression.code(all, result.step, true, compression.cut(most));

@@ -52,7 +52,8 @@ struct CompressionResult {
 /// that gives the smallest tiles; with the coder hogel alone. Where that cannot be (a light field of few samples), the
 /// file is the smallest that has the SQNR. With a tone curve or coarser chrominance, SQNR and step are those of the
 /// mapped light field that is coded. Depth is coded first, and counts as a part of the file. The file appears when it
-/// is complete. Throws Error(usage) for a target or method that makes no sense, and a rate that no step has,
+/// is complete. Throws Error(usage) for a target or method that makes no sense, a rate that no step has, and a
+/// quality that is finer than the coder can be,
 /// Error(bad_input) for radiance that is not finite (within an error, or lossless: it may be), Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});
