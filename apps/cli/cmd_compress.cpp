@@ -24,8 +24,7 @@ struct Options {
 const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
                                                       {"own", QuantisationTable::own}};
 const std::vector<std::string> tones{"none", "histogram"};
-const std::map<std::string, HemicubeLayout> layouts{{"faces", HemicubeLayout::faces},
-                                                    {"unfolded", HemicubeLayout::unfolded}};
+const std::vector<std::string> layouts{"faces", "unfolded"};
 
 int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
@@ -48,7 +47,7 @@ int compress_file(Options options, const Session& session) {
         compression.method.table = tables.at(options.table);
     }
     compression.metadata = describe_run(session);
-    compression.layout = layouts.at(options.hemicube);
+    if (options.hemicube == "unfolded") compression.layout = StreamLayout::unfolded;
     if (options.tone == "histogram") compression.tone_decades = options.tone_decades;
     compression.with_depth = faces.front()->has_depth() && !options.no_depth;
     if (compression.depth_error > 0 && !compression.with_depth)

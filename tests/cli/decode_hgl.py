@@ -4,7 +4,7 @@ says, slowly and plainly, and compares it with what `hogel decompress --float` m
 to the last bit; with "jpeg4d", whose sums are in no order, to rounding; and every depth, where there is depth. Corners
 of an unfolded hemicube are nobody's.
 
-usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5
+usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5 [STREAM.hgl LIGHT_FIELD.h5 ...]
 """
 import math
 import struct
@@ -813,13 +813,13 @@ def check(data, file, beyond=None):
         source.text(), source.text()
     # Parts: for each its size, and the faces in it as name, columns and rows.
     parts = [(n_u, n_v, tan_u, tan_v, [("radiance", 0, n_u, 0, n_v)])]
-    layers = 1
+    layers, layout = 1, "faces"
     if version > 1:
         layout, sides = source.text(), {}
         for _ in range(source.take("I")):
             name = source.text()
             sides[name] = source.take("QQ4d")
-        if layout == "faces":
+        if layout in ("faces", "gathered"):
             parts += [(u, v, a, b, [(f"{name}/radiance", 0, u, 0, v)]) for name, (u, v, a, b, _, _) in sides.items()]
         else:
             assert layout == "unfolded"
@@ -867,16 +867,21 @@ def check(data, file, beyond=None):
             for s0 in range(0, columns, tile_s):
                 code = next(codes)
                 across, down = min(tile_s, columns - s0), min(tile_t, rows - t0)
-                counts = np.zeros((v, u), bool)
-                for _, u0, u1, v0, v1 in faces:
+                shape = channels, down, across, v, u
+                if layout == "gathered":
+                    shape = (channels, 1, across, down, u) if v == 1 else (channels, 1, down, across, v)
+                counts = np.zeros(shape[3:], bool)
+                for _, u0, u1, v0, v1 in faces if layout != "gathered" else [(None, 0, shape[4], 0, shape[3])]:
                     counts[v0:v1, u0:u1] = True
                 if coder == "hogel":
-                    tile = Tile(version, code, across, down, (channels, v, u), aspect)
-                    tile = joined(tile, (channels, down, across, v, u))
+                    tile = joined(Tile(version, code, shape[2], shape[1], (channels, *shape[3:]), aspect), shape)
                 elif coder == "jpeg4d":
-                    tile = jpeg4d(code, (channels, down, across, v, u))
+                    tile = jpeg4d(code, shape)
                 else:
-                    tile = exact(version, coder, code, (channels, down, across, v, u), aspect, counts)
+                    tile = exact(version, coder, code, shape, aspect, counts)
+                if layout == "gathered" and v == 1:
+                    tile = tile.transpose(0, 3, 2, 1, 4)
+                tile = tile.reshape(channels, down, across, v, u)
                 if beyond is not None:
                     tile = np.where(tile < beyond, tile, f32(np.inf))
                 for name, u0, u1, v0, v1 in faces:
@@ -888,5 +893,10 @@ def check(data, file, beyond=None):
                     assert np.array_equal(face.view("u4"), truth.view("u4")), "samples differ"
 
 
-check(open(sys.argv[1], "rb").read(), h5py.File(sys.argv[2], "r"))
-print("the same")
+pairs = list(zip(sys.argv[1::2], sys.argv[2::2]))
+for stream, light_field in pairs:
+    try:
+        check(open(stream, "rb").read(), h5py.File(light_field, "r"))
+    except Exception as error:
+        sys.exit(f"{stream} and {light_field}: {error!r}")
+print(f"the same: {len(pairs)} streams")

@@ -10,6 +10,8 @@
 #include "hogel/codec/block_kernels_internal.h"
 #include "hogel/codec/depth_internal.h"
 #include "hogel/codec/exact_coder_internal.h"
+#include "hogel/codec/gathered_internal.h"
+#include "hogel/codec/layout_choice_internal.h"
 #include "hogel/codec/step_search_internal.h"
 #include "hogel/codec/stream_header_internal.h"
 #include "hogel/codec/stream_internal.h"
@@ -25,9 +27,7 @@ namespace {
 constexpr double first_tolerance = 0.02, last_tolerance = 0.004;
 // More than a sample has to tell: floats have 24 bits, and what they are multiplied by.
 constexpr double most_bits_of_sample = 24;
-constexpr std::size_t sampled = 8;               // tiles coded to guess the step
-constexpr double likely_bounded_step = 3;        // times the error
-constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
+constexpr std::size_t sampled = 8;  // tiles coded to guess the step
 
 // Sizes that are `room` bytes together, and each the same part of what it was beyond the least.
 std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::size_t least, double room) {
@@ -246,17 +246,31 @@ double most_bytes(double pixels_per_bit, double pixels, double samples) {
 }
 
 [[noreturn]] void refuse_rate(double pixels_per_bit, double bytes, std::uint64_t nearest) {
-    throw Error(
-        ErrorCode::usage,
-        fmt::format("{} pixels per bit were asked for, {} bytes; the {} file of this light field has {}",
-                    pixels_per_bit, bytes, static_cast<double>(nearest) < bytes ? "largest" : "smallest", nearest));
+    throw Error(ErrorCode::usage,
+                fmt::format("{} pixels per bit were asked for, {} bytes; the {} file of this light field has {}{}",
+                            pixels_per_bit, bytes, static_cast<double>(nearest) < bytes ? "largest" : "smallest",
+                            nearest, static_cast<double>(nearest) < bytes ? ", but for --lossless" : ""));
+}
+
+// Where levels or floats are too short for so fine a step, errors are many times as large as it. Throws Error(usage).
+void check_quality(const CompressionTarget& target, const CodingOutcome& outcome, double step,
+                   const std::string& coder) {
+    constexpr double most_steps = 16;
+    const bool too_fine = outcome.error > most_steps * most_steps * step * step * outcome.samples;
+    if (!too_fine && !(target.sqnr && outcome.sqnr() < *target.sqnr)) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("{} asked for, finer than coder {} can be here: it would have {:.2f} dB; expected less, or "
+                            "--lossless",
+                            target.sqnr   ? fmt::format("an SQNR of {} dB was", *target.sqnr)
+                            : target.step ? fmt::format("a step of {} was", *target.step)
+                                          : fmt::format("{} pixels per bit were", *target.pixels_per_bit),
+                            coder, outcome.sqnr()));
 }
 
 // The step of a prediction that makes tiles smallest, by halves and doubles from a likely one.
 double smallest_step(const Compression& compression, const CompressionTarget& target) {
     constexpr int most = 8;
-    double start = target.max_error ? likely_bounded_step * *target.max_error
-                                    : likely_lossless_step * compression.try_middle(1).second;
+    double start = likely_step(target, target.lossless ? compression.try_middle(1).second : 0);
     if (!(start > 0)) start = 1;
     const auto bytes = [&](int power) { return compression.try_middle(std::ldexp(start, power)).first; };
     int best = 0;
@@ -275,8 +289,10 @@ double smallest_step(const Compression& compression, const CompressionTarget& ta
 
 std::unique_ptr<TileCoder> coder_for(const StreamInfo& info, const LightFieldGrid& part,
                                      const CompressionTarget& target) {
-    if (target.max_error) return make_bounded_coder(part, counted(info), *target.max_error);
-    return make_tile_coder(info.method, part, counted(info));
+    if (!target.max_error) return coder_of_part(info, part);
+    return coder_in_layout(info.layout, part, [counted = counted(info), error = *target.max_error](const auto& grid) {
+        return make_bounded_coder(grid, counted, error);
+    });
 }
 
 RadianceMapping mapping_for(std::span<const LightFieldSource* const> faces, const CompressionOptions& options,
@@ -334,19 +350,23 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
     const RadianceMapping mapping = mapping_for(sources, options, progress);
     const MappedFaces mapped(sources, mapping);
     const std::span<const LightFieldSource* const> faces = mapped.faces;
-    StreamInfo info{grid, {}, options.method, options.metadata, {}, options.layout, mapping};
+    StreamInfo info{grid, {}, options.method, options.metadata};
+    info.mapping = mapping;
     if (exact) info.method.coder = options.target.lossless ? "lossless" : "bounded";
     double pixels = 0;
     for (const LightFieldSource* face : faces) {
         if (face != faces.front()) info.sides.push_back(face->grid());
         pixels += static_cast<double>(face->grid().directions()) * static_cast<double>(grid.hogels());
     }
-    if (info.sides.empty()) info.layout = HemicubeLayout::faces;
+    const CoderOfFace coder_of = [&](const StreamInfo& stream, const LightFieldGrid& part) {
+        return coder_for(stream, part, options.target);
+    };
+    info.layout = choose_layout(faces, info, options, coder_of);
     const std::vector<LightFieldGrid> grids = coded_parts(info);
-    const auto unfolded = info.layout == HemicubeLayout::unfolded ? unfold(faces) : std::unique_ptr<LightFieldSource>{};
+    const auto unfolded = info.layout == StreamLayout::unfolded ? unfold(faces) : std::unique_ptr<LightFieldSource>{};
     std::vector<Compression::Part> parts;
     for (std::size_t i = 0; i < grids.size(); ++i)
-        parts.push_back({unfolded ? unfolded.get() : faces[i], coder_for(info, grids[i], options.target)});
+        parts.push_back({unfolded ? unfolded.get() : faces[i], coder_of(info, grids[i])});
     info.tile = options.tile.value_or(parts.front().coder->preferred_tile(grids.front()));
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
@@ -365,12 +385,11 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
         result.step = exact ? smallest_step(compression, target) : *target.step;
         outcome = compression.code(all, result.step, true);
         result.passes = 1;
+        if (target.step) check_quality(target, outcome, result.step, options.method.coder);
     } else {
         const std::vector<std::size_t> some = all.size() >= 3 * sampled ? some_tiles(all.size()) : all;
         const CodingOutcome seen = compression.look(some);
-        // Detail of the step's size everywhere has an error of step²/12.
-        const double rms = std::sqrt(seen.signal / seen.samples);
-        const double likely = rms * (target.sqnr ? std::sqrt(12) * std::pow(10, -*target.sqnr / 20) : 0.1);
+        const double likely = likely_step(target, std::sqrt(seen.signal / seen.samples));
         StepSearch search(likely > 0 ? std::log2(likely) : 0, [&](const CodingOutcome& o) {
             if (target.sqnr) return o.sqnr();
             const double overhead = static_cast<double>(writer.overhead(all.size()));
@@ -392,6 +411,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
         outcome = search.outcome();
         result.step = search.step();
         result.passes = search.passes();
+        if (!embedded || target.sqnr) check_quality(target, outcome, result.step, options.method.coder);
         if (target.pixels_per_bit) {
             if (embedded && static_cast<double>(writer.size()) > most) {
                 outcome = compression.code(all, result.step, true, compression.cut(most));

@@ -22,11 +22,12 @@ struct CompressionTarget {
 struct CompressionOptions {
     CodingMethod method;
     CompressionTarget target;
-    std::optional<HogelRange> tile;                 ///< size of the tiles; by default what suits the coder
-    Metadata metadata;                              ///< no word of the name `filler`
-    HemicubeLayout layout = HemicubeLayout::faces;  ///< of several faces
-    bool with_depth = false;                        ///< whether the sources' depth is stored, too
-    double depth_error = 0;                         ///< of each at most, metres; 0: a 1,000th of the depths' range
+    std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
+    Metadata metadata;               ///< no word of the name `filler`
+    /// By default `gathered` where that can be and the coder is hogel, otherwise `faces`.
+    std::optional<StreamLayout> layout;
+    bool with_depth = false;  ///< whether the sources' depth is stored, too
+    double depth_error = 0;   ///< of each at most, metres; 0: a 1,000th of the depths' range
     /// Decades of luminance that the light field is mapped to before it is coded, by the adjustment of its histogram
     /// (docs/codec.md); one that spans no more is left as it is.
     std::optional<double> tone_decades;
@@ -51,7 +52,8 @@ struct CompressionResult {
 /// that gives the smallest tiles; with the coder hogel alone. Where that cannot be (a light field of few samples), the
 /// file is the smallest that has the SQNR. With a tone curve or coarser chrominance, SQNR and step are those of the
 /// mapped light field that is coded. Depth is coded first, and counts as a part of the file. The file appears when it
-/// is complete. Throws Error(usage) for a target or method that makes no sense, and a rate that no step has,
+/// is complete. Throws Error(usage) for a target or method that makes no sense, a rate that no step has, and a
+/// quality that is finer than the coder can be,
 /// Error(bad_input) for radiance that is not finite (within an error, or lossless: it may be), Error(cannot_write).
 CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});

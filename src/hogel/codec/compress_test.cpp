@@ -122,6 +122,21 @@ TEST(Compress, rates_that_cannot_be_had_are_refused) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
 }
 
+// Floats and levels have an end: finer than that is refused rather than written badly.
+TEST(Compress, quality_that_cannot_be_had_is_refused) {
+    const TestFolder folder;
+    const LightField field = textured_planes(4, 3, 12, 10, 1);
+    for (const char* coder : {"hogel", "threepass"}) {
+        CompressionOptions fine = with_sqnr({coder, std::string(default_transform(coder))}, 100);
+        EXPECT_GE(compress(field, folder / "a.hgl", fine).sqnr, 100);
+        EXPECT_GE(sqnr_of(field, decoded(folder / "a.hgl")), 100);
+        fine.target.sqnr.reset();
+        fine.target.step = 1e-10;
+        EXPECT_EQ(code_of([&] { compress(field, folder / "b.hgl", fine); }), ErrorCode::usage);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.hgl"));
+}
+
 TEST(Compress, sizes_of_all_kinds_come_back) {
     const TestFolder folder;
     struct Case {

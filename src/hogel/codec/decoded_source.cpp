@@ -73,8 +73,7 @@ class DecodedStream {
         try {
             const StreamInfo& info = reader.info();
             std::vector<std::unique_ptr<TileCoder>> coders;
-            for (const LightFieldGrid& part : reader.parts())
-                coders.push_back(make_tile_coder(info.method, part, counted(info), info.version));
+            for (const LightFieldGrid& part : reader.parts()) coders.push_back(coder_of_part(info, part));
             if (info.layer_ends.size() != coders.front()->layers(info.tile))
                 reader.damaged("its header has a wrong number of layers");
             return coders;
@@ -159,7 +158,7 @@ class DecodedFace final : public LightFieldSource {
     DecodedFace(std::shared_ptr<const DecodedStream> stream, std::size_t face,
                 std::unique_ptr<LightFieldSource> depth = {})
         : stream_(std::move(stream)), depth_(std::move(depth)), grid_(stream_->info().faces()[face]), part_(face) {
-        if (stream_->info().layout != HemicubeLayout::unfolded) return;
+        if (stream_->info().layout != StreamLayout::unfolded) return;
         part_ = 0;
         place_ = Unfolding(stream_->info().faces()).place(grid_.face);
     }

@@ -121,7 +121,7 @@ TEST(RadianceMapping, goes_with_hemicubes) {
         fields.push_back(std::move(field));
     }
     for (const LightField& field : fields) faces.push_back(&field);
-    for (const HemicubeLayout layout : {HemicubeLayout::faces, HemicubeLayout::unfolded}) {
+    for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
         CompressionOptions options = mapped({"threepass", "cdf97"}, 2, 2);
         options.layout = layout;
         compress(faces, folder / "a.hgl", options);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "hogel/codec/bytes_internal.h"
+#include "hogel/codec/gathered_internal.h"
 #include "hogel/codec/stream_header_internal.h"
 #include "hogel/codec/stream_internal.h"
 
@@ -43,12 +44,19 @@ std::vector<LightFieldGrid> StreamInfo::faces() const {
 }
 
 std::vector<LightFieldGrid> coded_parts(const StreamInfo& info) {
-    if (info.layout == HemicubeLayout::unfolded) return {Unfolding(info.faces()).grid()};
+    if (info.layout == StreamLayout::unfolded) return {Unfolding(info.faces()).grid()};
     return info.faces();
 }
 
 DirectionCross counted(const StreamInfo& info) {
-    return info.layout == HemicubeLayout::unfolded ? Unfolding(info.faces()).cross() : DirectionCross{};
+    return info.layout == StreamLayout::unfolded ? Unfolding(info.faces()).cross() : DirectionCross{};
+}
+
+std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part) {
+    return coder_in_layout(info.layout, part,
+                           [method = info.method, counted = counted(info), version = info.version](const auto& grid) {
+                               return make_tile_coder(method, grid, counted, version);
+                           });
 }
 
 Tiling::Tiling(const LightFieldGrid& grid, const HogelRange& size)
@@ -173,6 +181,8 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
     info_ = read_header_fields(fields, version);
     if (fields.left() > 0) damaged("its header has bytes left over");
     for (const LightFieldGrid& face : info_.faces()) validate(face, ErrorCode::bad_input, what_);
+    if (info_.layout == StreamLayout::gathered && !can_gather(info_.faces()))
+        damaged("its header gathers hogels with several rows of directions");
     try {
         parts_ = coded_parts(info_);
     } catch (const Error& error) {

@@ -19,7 +19,7 @@ struct StreamInfo {
     CodingMethod method;
     Metadata metadata;
     std::vector<LightFieldGrid> sides = {};  ///< further faces of a hemicube, whose front is `grid`
-    HemicubeLayout layout = HemicubeLayout::faces;
+    StreamLayout layout = StreamLayout::faces;
     RadianceMapping mapping = {};            ///< of what is coded
     std::uint32_t version = latest_version;  ///< of the format
     std::uint64_t filler = 0;                ///< bytes that say nothing, so that the file is as long as was asked for

@@ -1,6 +1,7 @@
 #include "hogel/codec/stream_header_internal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hogel {
@@ -10,9 +11,8 @@ constexpr std::uint32_t most_layers = 64;
 constexpr std::string_view filler_name = "filler";
 static_assert(least_filler == 2 * sizeof(std::uint32_t) + filler_name.size());
 
-constexpr std::string_view layout_name(HemicubeLayout layout) {
-    return layout == HemicubeLayout::faces ? "faces" : "unfolded";
-}
+constexpr std::array<std::pair<StreamLayout, std::string_view>, 3> layout_names{
+    {{StreamLayout::faces, "faces"}, {StreamLayout::unfolded, "unfolded"}, {StreamLayout::gathered, "gathered"}}};
 
 Face take_face(ByteReader& reader) {
     const std::string face = reader.take_text();
@@ -23,7 +23,7 @@ Face take_face(ByteReader& reader) {
 
 // What versions from 2 on have behind the rest.
 void put_sides(ByteWriter& fields, const StreamInfo& info) {
-    fields.put(layout_name(info.layout));
+    fields.put(std::ranges::find(layout_names, info.layout, &std::pair<StreamLayout, std::string_view>::first)->second);
     fields.put(static_cast<std::uint32_t>(info.sides.size()));
     for (const LightFieldGrid& side : info.sides) {
         fields.put(name(side.face));
@@ -34,9 +34,10 @@ void put_sides(ByteWriter& fields, const StreamInfo& info) {
 
 void take_sides(ByteReader& reader, StreamInfo& info) {
     const std::string layout = reader.take_text();
-    for (const HemicubeLayout known : {HemicubeLayout::faces, HemicubeLayout::unfolded})
-        if (layout == layout_name(known)) info.layout = known;
-    if (layout != layout_name(info.layout)) reader.damaged("its header names an unknown layout of a hemicube");
+    const auto* const known =
+        std::ranges::find(layout_names, layout, &std::pair<StreamLayout, std::string_view>::second);
+    if (known == layout_names.end()) reader.damaged("its header names an unknown layout");
+    info.layout = known->first;
     const auto count = reader.take<std::uint32_t>();
     if ((count == 0 && info.version == 2) || count >= all_faces.size())
         reader.damaged("its header has an impossible number of faces");

@@ -36,6 +36,8 @@ constexpr std::size_t most_tile_samples = std::size_t{1} << 28;
 std::vector<LightFieldGrid> coded_parts(const StreamInfo& info);
 // What of such an array is the light field's.
 DirectionCross counted(const StreamInfo& info);
+// The coder of its tiles. Throws Error(usage) for a method that does not exist.
+std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part);
 
 // A tile's layer as a file knows it.
 struct StreamEntry {

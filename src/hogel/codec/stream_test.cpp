@@ -8,6 +8,7 @@
 
 #include "hogel/codec/bytes_internal.h"
 #include "hogel/codec/compress.h"
+#include "hogel/codec/test_damage_internal.h"
 #include "hogel/codec/test_fields_internal.h"
 #include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
@@ -148,19 +149,6 @@ TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
         write_bytes(folder / "b.hgl", {good.begin(), good.begin() + std::ptrdiff_t(info.layer_ends[0] - 1)});
         EXPECT_THROW(read_stream_info(folder / "b.hgl"), Error);
     }
-}
-
-std::size_t end_of_header(const std::vector<std::uint8_t>& stream) {
-    return 16 + (stream[12] | std::size_t{stream[13]} << 8);
-}
-
-// A stream with another number in its header, and a checksum to match.
-std::vector<std::uint8_t> with_number(std::vector<std::uint8_t> stream, std::size_t at, std::uint64_t value) {
-    const std::size_t end = end_of_header(stream);
-    for (std::size_t i = 0; i < 8; ++i) stream[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
-    const std::uint32_t sum = checksum(std::span(std::as_const(stream)).first(end));
-    for (std::size_t i = 0; i < 4; ++i) stream[end + i] = static_cast<std::uint8_t>(sum >> (8 * i));
-    return stream;
 }
 
 // A header whose checksum is right may still lie; it may not make the reader take memory for what it claims.

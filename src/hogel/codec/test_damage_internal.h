@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "hogel/codec/bytes_internal.h"
 #include "hogel/codec/tile_coder.h"
 #include "hogel/core/error.h"
 
@@ -37,6 +39,20 @@ inline void expect_harmless_damage(const TileCoder& coder, const std::vector<std
     std::vector<std::uint8_t> longer = good;
     longer.insert(longer.end(), 8, 0x55);
     EXPECT_TRUE(refuses(coder, longer, tile));
+}
+
+/// Of a stream.
+inline std::size_t end_of_header(const std::vector<std::uint8_t>& stream) {
+    return 16 + (stream[12] | std::size_t{stream[13]} << 8);
+}
+
+/// A stream with another number in its header, and a checksum to match.
+inline std::vector<std::uint8_t> with_number(std::vector<std::uint8_t> stream, std::size_t at, std::uint64_t value) {
+    const std::size_t end = end_of_header(stream);
+    for (std::size_t i = 0; i < 8; ++i) stream[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+    const std::uint32_t sum = checksum(std::span(std::as_const(stream)).first(end));
+    for (std::size_t i = 0; i < 4; ++i) stream[end + i] = static_cast<std::uint8_t>(sum >> (8 * i));
+    return stream;
 }
 
 }  // namespace hogel

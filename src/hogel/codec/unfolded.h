@@ -10,8 +10,9 @@
 
 namespace hogel {
 
-/// How the faces of a hemicube are coded: each by itself, or unfolded into one array, the front in the middle.
-enum class HemicubeLayout { faces, unfolded };
+/// How the faces of a light field are coded: each by itself, or all unfolded into one array, the front in the middle;
+/// or each by itself, its hogels gathered into rows of directions, where it has a single row of them (docs/format.md).
+enum class StreamLayout { faces, unfolded, gathered };
 
 /// Which directions of an array count: of rows begin_v to end_v all, of others those from begin_u to end_u. By default
 /// all of all rows; of an unfolded hemicube its faces without the corners.

@@ -101,7 +101,7 @@ TEST(Unfolding, needs_five_faces_that_fit) {
 TEST(Hemicube, comes_back_in_either_layout) {
     const TestFolder folder;
     const std::vector<LightField> faces = smooth_hemicube(5, 24, 16);
-    for (const HemicubeLayout layout : {HemicubeLayout::faces, HemicubeLayout::unfolded})
+    for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded})
         for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"ezw", "ai33"}, {"jpeg4d", "dct8"}}) {
             CompressionOptions options;
             options.method = method;
@@ -147,7 +147,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
         }
         return false;
     };
-    for (const HemicubeLayout layout : {HemicubeLayout::faces, HemicubeLayout::unfolded}) {
+    for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
         CompressionOptions options;
         options.target.step = 0.02;
         options.layout = layout;

@@ -28,22 +28,6 @@ struct Models {
     std::array<BitModel, b_limit + 1> second;
 };
 
-double squared_error(const Blocks& blocks, std::span<const float> values, double scale) {
-    const Quantisation quantisation = jpegs_quantisation(scale, blocks.axes());
-    double sum = 0;
-    for (std::size_t number = 0; number < blocks.count(); ++number) {
-        const Blocks::Block block = blocks[number];
-        const Blocks::Kind& kind = blocks.kind(block);
-        for (std::size_t entry = 0; entry < kind.offsets.size(); ++entry) {
-            const double step = quantisation.steps[kind.whole[entry]];
-            const double value = values[block.origin + kind.offsets[entry]];
-            const double error = value - step * std::nearbyint(value / step);
-            sum += error * error;
-        }
-    }
-    return sum;
-}
-
 void check_size(const Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
         throw Error(ErrorCode::usage,
@@ -185,24 +169,6 @@ void jpeg4d_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, 
         if (decoder.ended()) damaged("it ends too early or is damaged");
     }
     if (!decoder.all_read()) damaged("bytes are left over");
-}
-
-double jpeg4d_scale_for_sqnr(const Pyramid& pyramid, std::span<const float> values, double sqnr) {
-    check_size(pyramid, values.size());
-    if (!(sqnr > 0 && sqnr <= 130))
-        throw Error(ErrorCode::usage,
-                    fmt::format("jpeg4d: an SQNR of {} dB, expected more than 0 and at most 130", sqnr));
-    const double most = largest_magnitude(values);
-    if (most == 0) return 1;
-    const Blocks blocks(pyramid);
-    const double allowed = energy(values) * std::pow(10, -sqnr / 10);
-    // The table's entries lie between 1 and 121²: the first scale leaves nothing, the last all that a float has.
-    double coarse = 4 * most, fine = most * 0x1p-44;
-    while (coarse > fine * 1.001) {
-        const double scale = std::sqrt(coarse * fine);
-        (squared_error(blocks, values, scale) <= allowed ? fine : coarse) = scale;
-    }
-    return fine;
 }
 
 }  // namespace hogel

@@ -41,8 +41,4 @@ std::vector<std::uint8_t> jpeg4d_encode(const Pyramid& pyramid, std::span<const 
 /// Throws Error(bad_input) when the bytes are not a whole stream; every truncated one is found out.
 void jpeg4d_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values);
 
-/// The largest scale of JPEG's table (to 0.1%) that keeps 10 log10(Σ f² / Σ (f − f')²) at `sqnr` decibels or above,
-/// 0 < sqnr <= 130.
-double jpeg4d_scale_for_sqnr(const Pyramid& pyramid, std::span<const float> values, double sqnr);
-
 }  // namespace hogel

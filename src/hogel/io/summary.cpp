@@ -93,8 +93,9 @@ void describe(const StreamInfo& info, FileSummary& summary) {
     describe(grid, summary);
     if (!info.sides.empty()) {
         describe_faces(info.faces(), summary);
-        summary.text.emplace_back("hemicube", info.layout == HemicubeLayout::unfolded ? "unfolded" : "faces");
+        summary.text.emplace_back("hemicube", info.layout == StreamLayout::unfolded ? "unfolded" : "faces");
     }
+    if (info.layout == StreamLayout::gathered) summary.text.emplace_back("layout", "gathered");
     summary.text.insert(summary.text.end(), {{"format", "hogel compressed light field"}, {"coder", info.method.coder}});
     if (!info.method.transform.empty()) summary.text.emplace_back("transform", info.method.transform);
     if (info.mapping.tone)
