@@ -45,22 +45,30 @@ HWY_INLINE void shade_several(const std::uint64_t* words, const StripShades* str
     transpose(values);
 }
 
+// A vector of samples of a plane. (Lambdas are not inlined where they are called twice.)
+struct ShadeStrips {
+    const StripShades* strips;
+    float first_column, first_direction;
+
+    HWY_INLINE void operator()(const std::uint64_t* words, std::size_t column, std::size_t k,
+                               Floats (&values)[4]) const {
+        const FloatTag d;
+        const NumberTag du;
+        const Floats n = hn::Set(d, first_column + static_cast<float>(column));
+        const Floats K = hn::Iota(d, first_direction + static_cast<float>(k));
+        const auto first = static_cast<std::uint32_t>(words[0]);
+        if (!hn::AllTrue(du, hn::Eq(numbers_of(words), hn::Set(du, first))))
+            shade_several(words, strips, n, K, values);
+        else if (first != EpipolarPlane::nobody)
+            shade_one(strips[first], n, K, values);
+        else
+            for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, strips[EpipolarPlane::nobody].value0[i]);
+    }
+};
+
 void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
-    const FloatTag d;
-    const NumberTag du;
-    const StripShades* const shades = strips.data();
     shade_vectors(plane, out,
-                  [&](const std::uint64_t* words, std::size_t column, std::size_t k, Floats(&values)[4]) HWY_ATTR {
-                      const Floats n = hn::Set(d, static_cast<float>(plane.first_column) + static_cast<float>(column));
-                      const Floats K = hn::Iota(d, plane.first_direction + static_cast<float>(k));
-                      const auto first = static_cast<std::uint32_t>(words[0]);
-                      if (!hn::AllTrue(du, hn::Eq(numbers_of(words), hn::Set(du, first))))
-                          shade_several(words, shades, n, K, values);
-                      else if (first != EpipolarPlane::nobody)
-                          shade_one(shades[first], n, K, values);
-                      else
-                          for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, shades[EpipolarPlane::nobody].value0[i]);
-                  });
+                  ShadeStrips{strips.data(), static_cast<float>(plane.first_column), plane.first_direction});
 }
 #endif
 
