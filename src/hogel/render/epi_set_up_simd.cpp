@@ -43,16 +43,21 @@ HWY_INLINE std::uint64_t bits_of(Mask mask) {
 // Two numbers that stand so far behind each of these places.
 HWY_INLINE void load_pairs(const double* const* places, std::size_t behind, Doubles& first, Doubles& second) {
     const Tag d;
-    const auto load = [&](std::size_t i) HWY_ATTR { return hn::LoadDup128(d, places[i] + behind); };
     // Of every other place, from this one on.
     const auto blocks = [&](std::size_t i) HWY_ATTR {
-        if constexpr (most_lanes == 2)
-            return load(i);
-        else if constexpr (most_lanes == 4)
-            return hn::OddEvenBlocks(load(i + 2), load(i));
-        else
-            return hn::ConcatUpperLower(d, hn::OddEvenBlocks(load(i + 6), load(i + 4)),
-                                        hn::OddEvenBlocks(load(i + 2), load(i)));
+        if constexpr (most_lanes == 2) {
+            return hn::LoadDup128(d, places[i] + behind);
+        } else if constexpr (most_lanes == 4) {
+            return hn::OddEvenBlocks(hn::LoadDup128(d, places[i + 2] + behind), hn::LoadDup128(d, places[i] + behind));
+        } else {
+            // Half by half, for the compiler, as load_blocks().
+            const hn::Half<Tag> dh;
+            const auto half = [&](std::size_t k) HWY_ATTR {
+                return hn::OddEvenBlocks(hn::LoadDup128(dh, places[k + 2] + behind),
+                                         hn::LoadDup128(dh, places[k] + behind));
+            };
+            return hn::Combine(d, half(i + 4), half(i));
+        }
     };
     const Doubles even = blocks(0), odd = blocks(1);
     first = hn::InterleaveLower(d, even, odd);
