@@ -178,6 +178,7 @@ class EpiRenderer final : public LightFieldSource {
 
     // Of the triangles that wait.
     void add_strips(Work& work, const PlanePlace& place) const {
+        if (work.waiting.empty()) return;
         const std::size_t first = work.count;
         make_room(work, work.waiting.size());
         set_up(clusters_, work.waiting, place, &work.strips[first], &work.shades[first],
