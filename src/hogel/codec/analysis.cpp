@@ -81,13 +81,13 @@ void quantise(const BlockSamples& truth, float error, float step, bool from_with
     BlockSamples residual;
     mix_blocks(truth, coded.prediction, 1, -1, residual);
     float most = 0;  // squared steps gained, less what bits are worth
-    for (std::uint8_t basis = 0; basis < bases.size(); ++basis) {
+    for (std::size_t basis = 0; basis < bases.size(); ++basis) {
         Levels levels;
         const float gain = gain_of_levels(residual, step, rounding, beyond_level, bases[basis], levels);
         if (!(gain > most)) continue;
         most = gain;
         coded.any_levels = true;
-        coded.basis = basis;
+        coded.basis = static_cast<std::uint8_t>(basis);
         coded.levels = levels;
     }
     coded.cost = error - most * step * step;
