@@ -83,8 +83,8 @@ namespace {
 // next. Its samples are from the corner on; where the direction leaves it behind, the other edge's are.
 using Edge = std::array<float, 1 + 2 * block_side>;
 float along_direction(const Edge& edge, const Edge& other, int halves, int along, int line) {
-    const int at = 2 * along + halves * (line + 1);
-    if (at < -2) return other[static_cast<std::size_t>(1 + line + 2 * (along + 1) / halves)];
+    const int at = 2 * along + halves * (line + 1), beyond = 1 + line + 2 * (along + 1) / halves;
+    if (at < -2) return other[static_cast<std::size_t>(beyond)];
     const std::size_t index = static_cast<std::size_t>(at + 2) / 2;
     return at % 2 == 0 ? edge[index] : 0.5f * (edge[index] + edge[index + 1]);
 }

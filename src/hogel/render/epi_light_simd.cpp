@@ -113,7 +113,6 @@ class LitSamples {
 
     // Of samples that show different strips or different cells.
     HWY_INLINE void shade_several(const std::uint64_t* words, Floats parts, Floats (&values)[4]) const {
-        const FloatTag d;
         const NumberTag du;
         constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
         const float* from[lanes];
