@@ -27,6 +27,12 @@ CompressionOptions in_layout(StreamLayout layout, std::optional<HogelRange> tile
     return options;
 }
 
+// What reading these bytes as a stream ends in.
+ErrorCode outcome_of(const TestFolder& folder, const std::vector<std::uint8_t>& bytes) {
+    write_bytes(folder / "b.hgl", bytes);
+    return code_of([&] { decoded(folder / "b.hgl"); });
+}
+
 // The same light field with rows for columns, of hogels and of directions.
 LightField transposed(const LightField& field) {
     LightFieldGrid grid = field.grid();
@@ -180,13 +186,9 @@ TEST(Gathered, header_that_lies_is_refused) {
     const TestFolder folder;
     compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::gathered));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
-    const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
-        write_bytes(folder / "b.hgl", bytes);
-        return code_of([&] { decoded(folder / "b.hgl"); });
-    };
-    EXPECT_EQ(fails(good), ErrorCode{0});
-    EXPECT_EQ(fails(with_number(good, 16 + 8 * 4, 2)), ErrorCode::bad_input);  // n_V
-    EXPECT_EQ(fails(with_number(good, 16 + 8 * 2, 1)), ErrorCode::bad_input);  // T
+    EXPECT_EQ(outcome_of(folder, good), ErrorCode{0});
+    EXPECT_EQ(outcome_of(folder, with_number(good, 16 + 8 * 4, 2)), ErrorCode::bad_input);  // n_V
+    EXPECT_EQ(outcome_of(folder, with_number(good, 16 + 8 * 2, 1)), ErrorCode::bad_input);  // T
 }
 
 // Damage ends in an error, also where checksums are right.
@@ -194,16 +196,13 @@ TEST(Gathered, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
     compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::gathered));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
-    const auto outcome = [&](const std::vector<std::uint8_t>& bytes) {
-        write_bytes(folder / "b.hgl", bytes);
-        return code_of([&] { decoded(folder / "b.hgl"); });
-    };
     for (std::size_t length = 0; length < good.size(); length += 3)
-        ASSERT_EQ(outcome({good.begin(), good.begin() + std::ptrdiff_t(length)}), ErrorCode::bad_input) << length;
+        ASSERT_EQ(outcome_of(folder, {good.begin(), good.begin() + std::ptrdiff_t(length)}), ErrorCode::bad_input)
+            << length;
     for (std::size_t at = 0; at < good.size(); at += 2) {
         std::vector<std::uint8_t> bad = good;
         bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
-        ASSERT_EQ(outcome(bad), ErrorCode::bad_input) << at;
+        ASSERT_EQ(outcome_of(folder, bad), ErrorCode::bad_input) << at;
     }
     const LightField field = textured_planes(5, 9, 8, 1, 1);
     const auto coder = coder_in_layout(StreamLayout::gathered, field.grid(),

@@ -30,6 +30,8 @@ struct Probabilities {
 };
 const Probabilities probabilities;
 
+BitModel model_of(int state) { return BitModel(probabilities.zero[place_of(state)]); }
+
 double bits_for(const BitCount& count, int state) {
     const auto& bits = probabilities.bits[place_of(state)];
     return count[0] * bits[0] + count[1] * bits[1];
@@ -58,15 +60,14 @@ ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& be
 
 std::vector<BitModel> ModelStates::models_in_order() const {
     std::vector<BitModel> models;
-    for (const int state : states_) models.emplace_back(probabilities.zero[place_of(state)]);
+    for (const int state : states_) models.push_back(model_of(state));
     return models;
 }
 
 BlockModels ModelStates::models() const {
-    const std::vector<BitModel> in_order = models_in_order();
     BlockModels models;
     std::size_t at = 0;
-    models.for_each([&](BitModel& model) { model = in_order[at++]; }, version_);
+    models.for_each([&](BitModel& model) { model = model_of(states_[at++]); }, version_);
     return models;
 }
 
