@@ -72,25 +72,29 @@ class Stereogram final : public FieldSource {
             return;
         }
         const View<const float, 5> whole = rays_in_memory(hogels);
-        if (whole.size() == 0) read_rays(hogels, room->rays);
         // What one look alone needs stays in the cache, a few hogels at a time.
         const std::size_t values = synthesis_->prepared_size();
         if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
-        for (std::size_t first = 0; first < hogels.hogels(); first += hogels_together) {
-            const View<float, 2> some(room->prepared.data(),
-                                      {std::min(hogels_together, hogels.hogels() - first), values});
-            if (whole.size() > 0)
-                synthesis_->prepare(
-                    {&whole(options_.channel, hogels.t0, hogels.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {},
-                    some);
-            else
-                prepare(room->rays, first, some);
-            write(some, hogels, first, look, region, room->square, out);
-        }
+        for_each_band(hogels, [&](const HogelRange& band) {
+            if (whole.size() == 0) read_rays(band, room->rays);
+            for (std::size_t first = 0; first < band.hogels(); first += hogels_together) {
+                const View<float, 2> some(room->prepared.data(),
+                                          {std::min(hogels_together, band.hogels() - first), values});
+                if (whole.size() > 0)
+                    synthesis_->prepare(
+                        {&whole(options_.channel, band.t0, band.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {},
+                        some);
+                else
+                    prepare(room->rays, first, some);
+                write(some, band, first, look, region, room->square, out);
+            }
+        });
     }
 
   private:
     static constexpr std::size_t hogels_together = 16;
+    // A region has hundreds of hogels, whose rays may be gigabytes: so many are read at a time, or one row of hogels.
+    static constexpr std::size_t most_ray_bytes = std::size_t{1} << 27;
 
     const LightFieldGrid& front() const { return faces_.front()->grid(); }
 
@@ -105,6 +109,17 @@ class Stereogram final : public FieldSource {
     View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
         if (faces_.size() > 1 || needs_depth(options_) || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
         return faces_.front()->in_memory();
+    }
+
+    // Rows of hogels whose rays are read at once, from the first to the last.
+    template <class Use>
+    void for_each_band(const HogelRange& hogels, const Use& use) const {
+        const std::size_t values = front().channels + (needs_depth(options_) ? 1 : 0);
+        const std::size_t row_bytes = hogels.ns * rays_ * values * sizeof(float);
+        const std::size_t most = std::max<std::size_t>(1, most_ray_bytes / row_bytes);
+        const std::size_t bands = (hogels.nt + most - 1) / most, rows = (hogels.nt + bands - 1) / bands;
+        for (std::size_t t = 0; t < hogels.nt; t += rows)
+            use(HogelRange{hogels.s0, hogels.t0 + t, hogels.ns, std::min(rows, hogels.nt - t)});
     }
 
     void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles) const {
@@ -165,12 +180,16 @@ class Stereogram final : public FieldSource {
             for (const auto& entry : recent_)
                 if (entry->range == hogels) return entry;
         }
-        std::vector<LightFieldTile> tiles;
-        read_rays(hogels, tiles);
+        const std::size_t values = synthesis_->prepared_size();
         auto prepared = std::make_shared<Prepared>();
         prepared->range = hogels;
-        prepared->values = Array<float, 2>({hogels.hogels(), synthesis_->prepared_size()});
-        prepare(tiles, 0, prepared->values);
+        prepared->values = Array<float, 2>({hogels.hogels(), values});
+        std::vector<LightFieldTile> tiles;
+        for_each_band(hogels, [&](const HogelRange& band) {
+            read_rays(band, tiles);
+            const std::size_t first = (band.t0 - hogels.t0) * band.ns;
+            prepare(tiles, 0, {prepared->values.data() + first * values, {band.hogels(), values}});
+        });
         const std::lock_guard lock(recent_mutex_);
         recent_.push_front(prepared);
         if (recent_.size() > most_recent) recent_.pop_back();

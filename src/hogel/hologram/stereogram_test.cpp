@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -123,6 +124,50 @@ TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_
     EXPECT_LT(correlation(*stereogram, 1), 0.03);
     options.seed = 2;
     EXPECT_LT(correlation(*make_stereogram(light_field, options), 0), 0.03);
+}
+
+// Rays that are made where they are asked for, and notes of how many were asked for at once.
+struct CountingSource final : LightFieldSource {
+    LightFieldGrid sampled;
+    mutable std::size_t most_bytes = 0, hogels = 0;
+
+    explicit CountingSource(const LightFieldGrid& grid) : sampled(grid) {}
+    const LightFieldGrid& grid() const override { return sampled; }
+    bool has_depth() const override { return false; }
+    HogelRange preferred_tile() const override { return {0, 0, sampled.hogels_s, 1}; }
+    void read(LightFieldTile& tile) const override {
+        const HogelRange& r = tile.range;
+        most_bytes = std::max(most_bytes, tile.radiance.size() * sizeof(float));
+        hogels += r.hogels();
+        float* to = tile.radiance.data();
+        for (std::size_t hogel = 0; hogel < r.hogels(); ++hogel) {
+            const std::size_t number = (r.t0 + hogel / r.ns) * sampled.hogels_s + r.s0 + hogel % r.ns;
+            for (std::size_t i = 0; i < sampled.directions(); ++i) *to++ = float((i * 7 + number * 31) % 64);
+        }
+    }
+};
+
+// However many directions hogels have, a region of the hologram asks for the rays of few at once, and each once.
+TEST(Stereogram, reads_no_more_rays_at_once_than_fit) {
+    const CountingSource source({16, 10, 64_um, 512, 512, 0.1, 0.1, 1});
+    ASSERT_GT(source.grid().samples() * sizeof(float), 1.2 * (1 << 27));
+    for (const std::size_t looks : {1, 2}) {
+        StereogramOptions options;
+        options.pitch = 2_um;
+        options.looks = looks;
+        const auto stereogram = make_stereogram(source, options);
+        const Grid& plane = stereogram->grid().plane;
+        Array<Complex, 2> whole({plane.height, plane.width}), row({32, plane.width});
+        source.most_bytes = source.hogels = 0;
+        stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
+        EXPECT_LE(source.most_bytes, std::size_t{1} << 27) << looks;
+        EXPECT_EQ(source.hogels, source.grid().hogels()) << looks;
+        for (const std::size_t t : {0, 4, 5, 9}) {
+            stereogram->read({0, 32 * t, plane.width, 32}, 0, row);
+            const auto expected = std::span(whole.data(), whole.size()).subspan(32 * t * plane.width, row.size());
+            EXPECT_TRUE(std::ranges::equal(row.elements(), expected)) << looks << " " << t;
+        }
+    }
 }
 
 // A surface of uniform radiance is as bright from everywhere, and as bright as the light field says: no free factor.
