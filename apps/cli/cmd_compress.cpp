@@ -54,12 +54,7 @@ int compress_file(Options options, const Session& session) {
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
     Stage stage(session, "compressing");
     const CompressionResult result = compress(faces, options.output, compression, stage.progress());
-    session.say(fmt::format("{}: {}, {:.2f} dB, {:.4g} pixels per bit, coded {} {}", options.output,
-                            format_bytes(static_cast<double>(result.bytes)), result.sqnr, result.pixels_per_bit,
-                            result.passes, result.passes == 1 ? "time" : "times"));
-    if (compression.with_depth)
-        session.say(fmt::format("of which depth: {}, to within {:.3g} m",
-                                format_bytes(static_cast<double>(result.depth_bytes)), result.depth_error));
+    say_what_was_compressed(session, options.output, result);
     return 0;
 }
 

@@ -21,7 +21,6 @@ struct Options {
         HologramFileOptions file;
         file.type = half ? SampleType::half : SampleType::single;
         file.metadata = describe_run(session);
-        if (resume) file.resume = describe_input(input);
         return file;
     }
 };
@@ -94,17 +93,26 @@ int hologram(Options options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
-    auto faces = open_for_hologram(session, options.input, options.render, options.hologram);
+    HologramFileOptions file = options.file(session);
+    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    if (kind == InputKind::scene) {
+        const Scene scene = load_scene(session, options.input, options.render);
+        if (options.resume) file.resume = describe_input(options.input, scene);
+        faces = render_faces_on_demand(session, scene, options.render);
+    } else {
+        if (options.resume) file.resume = describe_input(options.input);
+        faces = open_for_hologram(options.input, options.hologram);
+    }
     require_holograms(grids_of(faces), options.hologram);
     if (kind == InputKind::scene)
-        faces = render_for_holograms(session, std::move(faces), options.hologram.wavelengths.size(),
-                                     needs_depth(options.hologram));
+        faces = render_for_reading(session, std::move(faces), options.hologram.wavelengths.size(),
+                                   needs_depth(options.hologram));
     if (options.hologram.method == "olas") warn_of_parallax(session, *faces.front(), options.hologram.pitch);
     const auto sources = make_holograms(session, faces, options.hologram, 1);
 
     std::vector<FieldGrid> grids;
     for (const auto& source : sources) grids.push_back(source->grid());
-    const auto sinks = create_hologram(options.output, grids, options.file(session));
+    const auto sinks = create_hologram(options.output, grids, file);
     Stage stage(session, "hologram");
     for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
     say_what_was_made(options, grids, session);

@@ -93,8 +93,8 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     }
     require_holograms(grids_of(faces), options.hologram, cameras);
     if (kind == InputKind::scene)
-        faces = render_for_holograms(session, std::move(faces), options.hologram.wavelengths.size(),
-                                     needs_depth(options.hologram));
+        faces = render_for_reading(session, std::move(faces), options.hologram.wavelengths.size(),
+                                   needs_depth(options.hologram));
     const auto holograms = make_holograms(session, faces, options.hologram, options.looks);
     Stage stage(session, "wave photograph");
     return develop(stage, holograms, cameras, options);

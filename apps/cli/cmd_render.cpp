@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "commands.h"
+#include "hogel/codec/compress.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/units.h"
 #include "hogel/render/region_memory.h"
@@ -18,8 +19,13 @@ struct Options {
     RenderOptions render;
     LightFieldFileOptions file;
     bool single = false, resume = false;
-    Counts region;  // none: what the renderer prefers
+    std::optional<double> sqnr;  // of a compressed light field
+    Counts region;               // none: what the renderer prefers
+
+    bool compressed() const { return std::filesystem::path(output).extension() == ".hgl"; }
 };
+
+using Faces = std::vector<std::unique_ptr<LightFieldSource>>;
 
 // A renderer that is given regions of another size than it prefers.
 class InRegions final : public LightFieldSource {
@@ -77,32 +83,65 @@ void state_memory(const Options& options, const LightFieldSource& source, const 
         session.detail(text);
 }
 
+// As it is rendered, with no file between.
+int write_compressed(const Options& options, Faces rendered, const Session& session) {
+    // It is read several times, in tiles of the coder's own.
+    const Faces sources = render_for_reading(session, std::move(rendered), 2, options.file.with_depth);
+    std::vector<const LightFieldSource*> faces;
+    for (const auto& source : sources) faces.push_back(source.get());
+    CompressionOptions compression;
+    compression.target.sqnr = options.sqnr.value_or(defaults.sqnr);
+    compression.with_depth = options.file.with_depth;
+    compression.metadata = describe_run(session);
+    Stage stage(session, "compressing");
+    const CompressionResult result = compress(faces, options.output, compression, stage.progress());
+    say_what_was_compressed(session, options.output, result);
+    return 0;
+}
+
+int write_hdf5(const Options& options, const Faces& sources, const std::optional<std::string>& resume,
+               const Session& session) {
+    LightFieldFileOptions file = options.file;
+    file.type = options.single ? SampleType::single : SampleType::half;
+    file.metadata = describe_run(session);
+    file.resume = resume;
+    const auto sinks = create_light_field_faces(options.output, grids_of(sources), file);
+    Stage stage(session, "rendering");
+    for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], stage.progress(i, sources.size()));
+    const LightFieldGrid& front = sources.front()->grid();
+    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions{}, {}", options.output, front.hogels_s,
+                            front.hogels_t, front.directions_u, front.directions_v,
+                            sources.size() == 1   ? ""
+                            : sources.size() == 3 ? " and two sides"
+                                                  : " and four sides",
+                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    return 0;
+}
+
 int render(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
+    if (options.compressed() && (options.single || options.resume))
+        throw Error(ErrorCode::usage,
+                    fmt::format("--float, --resume: belong to HDF5 files; {} is a compressed one", options.output));
+    if (options.sqnr && !options.compressed())
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
     require_writable(options.output);
-    const std::vector<LightFieldGrid> grids = options.render.grids();
-    auto sources = render_faces_on_demand(session, load_scene(session, options.scene, options.render), options.render);
+    options.render.grids();  // complains before there is a scene
+    std::optional<std::string> resume;
+    Faces sources = [&] {
+        const Scene scene = load_scene(session, options.scene, options.render);
+        if (options.resume) resume = describe_input(options.scene, scene);
+        return render_faces_on_demand(session, scene, options.render);
+    }();
     const HogelRange block = sources.front()->preferred_tile();
     if (options.region.columns > 0)
         for (auto& source : sources) source = std::make_unique<InRegions>(std::move(source), options.region);
     state_memory(options, *sources.front(), block, session);
-
-    LightFieldFileOptions file = options.file;
-    file.type = options.single ? SampleType::single : SampleType::half;
-    file.metadata = describe_run(session);
-    if (options.resume) file.resume = describe_input(options.scene);
-    const auto sinks = create_light_field_faces(options.output, grids, file);
-    Stage stage(session, "rendering");
-    for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], stage.progress(i, sources.size()));
-    const LightFieldGrid& front = grids.front();
-    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions{}, {}", options.output, front.hogels_s,
-                            front.hogels_t, front.directions_u, front.directions_v,
-                            grids.size() == 1   ? ""
-                            : grids.size() == 3 ? " and two sides"
-                                                : " and four sides",
-                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
-    return 0;
+    return options.compressed() ? write_compressed(options, std::move(sources), session)
+                                : write_hdf5(options, sources, resume, session);
 }
 
 }  // namespace
@@ -112,16 +151,25 @@ void add_render(CLI::App& app, Session& session) {
     CLI::App* command = add_command(app, session, "render", "Render a scene into a light field",
                                     "  hogel render pumpkin -o pumpkin.h5\n"
                                     "  hogel render bunny.ply -o bunny.h5 --hogels 128x128 --size 20mm --depth\n"
-                                    "  hogel render tower -o all.h5 --hemicube --directions 128x128",
+                                    "  hogel render tower -o all.h5 --hemicube --directions 128x128\n"
+                                    "  hogel render pumpkin -o pumpkin.hgl --sqnr 35",
                                     [options, &session] { return render(*options, session); });
     command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
-    command->add_option("-o,--output", options->output, "Light field to write, HDF5")->type_name("FILE")->required();
+    command->add_option("-o,--output", options->output, "Light field to write: HDF5, or compressed if it ends in .hgl")
+        ->type_name("FILE")
+        ->required();
     command->add_flag("--depth", options->file.with_depth, "Store the depth of every ray too");
     command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
+    command
+        ->add_option("--sqnr", options->sqnr,
+                     fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})",
+                                 defaults.sqnr))
+        ->type_name("DB");
     add_resume_flag(command, options->resume);
     add_render_options(command, options->render);
     add_counts(command, "--region", options->region,
                "Hogels that a renderer is given at once (default: what it prefers)")
+        ->default_str("")
         ->group("Light field of a scene");
     add_hemicube_option(command, options->render);
     add_frequencies_option(command, options->render);

@@ -25,9 +25,9 @@
 namespace hogel::cli {
 namespace {
 
-// A light field up to this size is kept in memory rather than rendered again for each colour.
+// A light field up to this size is kept in memory rather than rendered again each time that it is read.
 constexpr double kept_bytes = 2e9;
-// Of a larger one rows of hogels are kept up to this, while the squares that they hold are made into holograms.
+// Of a larger one rows of hogels are kept up to this, while the squares that they hold are read.
 constexpr double kept_tile_bytes = 1e9;
 
 bool is_builtin(const std::string& name) {
@@ -326,10 +326,8 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
     return render_on_demand(session, load_scene(session, name, options), options);
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& session, const std::string& name,
-                                                                 const RenderOptions& render,
-                                                                 HologramOptions& hologram) {
-    if (methods.at(hologram.method) == Method::basis && input_kind(name) == InputKind::light_field && is_stream(name)) {
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramOptions& hologram) {
+    if (methods.at(hologram.method) == Method::basis && is_stream(name)) {
         const StreamInfo info = read_stream_info(name);
         const CodingMethod& stored = info.method;
         if (stored.coder == "fringes" && !info.mapping.changes() &&
@@ -341,7 +339,7 @@ std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& 
             return coefficients;
         }
     }
-    return open_or_render_faces(session, name, render);
+    return open_light_field_faces(name);
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
@@ -357,12 +355,12 @@ bool needs_depth(const HologramOptions& options) {
     return needs_depth(stereogram);
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> render_for_holograms(
-    const Session& session, std::vector<std::unique_ptr<LightFieldSource>> faces, std::size_t colours,
-    bool with_depth) {
+std::vector<std::unique_ptr<LightFieldSource>> render_for_reading(const Session& session,
+                                                                  std::vector<std::unique_ptr<LightFieldSource>> faces,
+                                                                  std::size_t times, bool with_depth) {
     double samples = 0;
     for (const auto& face : faces) samples += face->grid().samples();
-    if (colours == 1 || samples * sizeof(float) > kept_bytes) {
+    if (times == 1 || samples * sizeof(float) > kept_bytes) {
         for (auto& face : faces)
             face = keep_tiles(std::move(face), kept_tile_bytes / static_cast<double>(faces.size()), with_depth);
         return faces;

@@ -89,13 +89,11 @@ std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const
 std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                  const RenderOptions& options);
 
-/// All faces of it, or coefficients instead where a compressed light field has those of the basis fringes that are
-/// asked for, which the options then say.
-std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const Session& session, const std::string& name,
-                                                                 const RenderOptions& render,
-                                                                 HologramOptions& hologram);
+/// All faces of a light field in a file, or coefficients instead where a compressed one has those of the basis fringes
+/// that are asked for, which the options then say.
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramOptions& hologram);
 
-/// The same for all faces, the front first.
+/// All faces of a light field that is rendered where it is read, the front first; or those of either kind.
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
                                                                       const RenderOptions& options);
 std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
@@ -104,11 +102,12 @@ std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Sessio
 /// Whether holograms like this need the depth of every ray.
 bool needs_depth(const HologramOptions& options);
 
-/// Faces of a light field that holograms will read, once a colour, in tiles of their own: rendered in tiles that suit
-/// the renderer, and kept, whole and before, where there are several colours and they fit into a modest part of memory.
-/// With their depths if asked.
-std::vector<std::unique_ptr<LightFieldSource>> render_for_holograms(
-    const Session& session, std::vector<std::unique_ptr<LightFieldSource>> faces, std::size_t colours, bool with_depth);
+/// Faces of a light field that will be read so many times in tiles that suit the reader, such as holograms, which read
+/// it once a colour: rendered in tiles that suit the renderer, and kept, whole and before, where there are several
+/// times and they fit into a modest part of memory. With their depths if asked.
+std::vector<std::unique_ptr<LightFieldSource>> render_for_reading(const Session& session,
+                                                                  std::vector<std::unique_ptr<LightFieldSource>> faces,
+                                                                  std::size_t times, bool with_depth);
 
 std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces);
 

@@ -7,6 +7,7 @@
 
 #include "hogel/core/error.h"
 #include "hogel/core/output_file.h"
+#include "hogel/core/units.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;
@@ -32,6 +33,19 @@ std::string describe_input(const std::string& name) {
     if (none) return name;
     const auto date = fs::last_write_time(name, none).time_since_epoch();
     return fmt::format("{}, {} bytes, {} ns", name, size, std::chrono::nanoseconds(date).count());
+}
+
+std::string describe_input(const std::string& name, const Scene& scene) {
+    return fmt::format("{} showing {:08x}", name, checksum(scene));
+}
+
+void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result) {
+    session.say(fmt::format("{}: {}, {:.2f} dB, {:.4g} pixels per bit, coded {} {}", file,
+                            format_bytes(static_cast<double>(result.bytes)), result.sqnr, result.pixels_per_bit,
+                            result.passes, result.passes == 1 ? "time" : "times"));
+    if (result.depth_bytes > 0)
+        session.say(fmt::format("of which depth: {}, to within {:.3g} m",
+                                format_bytes(static_cast<double>(result.depth_bytes)), result.depth_error));
 }
 
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {

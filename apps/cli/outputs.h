@@ -4,6 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "hogel/codec/compress.h"
+#include "hogel/scene/scene.h"
+#include "session.h"
+
 namespace hogel::cli {
 
 /// Complains now, not after an hour of work, about an output whose folder is missing or not writable.
@@ -16,6 +20,11 @@ void write_text(const std::filesystem::path& file, const std::string& text);
 void add_resume_flag(CLI::App* command, bool& resume);
 /// What tells an input of work that is resumed from another: its name, and the size and date of a file.
 std::string describe_input(const std::string& name);
+/// The same of a scene, which may be told in several files, or in none: its name, and a checksum of all that it shows.
+std::string describe_input(const std::string& name, const Scene& scene);
+
+/// One line on a compressed light field, and one on its depth.
+void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result);
 
 /// Creates a folder and those above it, and removes it again when the work failed before anything was put into it.
 class OutputFolder {

@@ -67,6 +67,10 @@ Bounds bounds(const Scene& scene);
 
 std::size_t triangle_count(const Scene& scene);
 
+/// A number that tells scenes apart by all that is to be seen of them: surfaces, materials, the pixels of textures,
+/// lamps. Names do not matter.
+std::uint32_t checksum(const Scene& scene);
+
 /// Gives every mesh without normals smooth ones (area-weighted averages over triangles that share a vertex position,
 /// split where faces meet at more than `crease` radians).
 void add_missing_normals(Scene& scene, double crease);

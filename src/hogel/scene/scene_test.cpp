@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "hogel/core/error.h"
 #include "hogel/scene/import.h"
@@ -124,6 +126,51 @@ TEST(Scene, bounds_are_those_of_used_vertices) {
     EXPECT_EQ(bounds(scene).high, (Vec3{1, 1, 1}));
     EXPECT_EQ(triangle_count(scene), 12u);
     EXPECT_THROW(bounds(Scene{}), Error);
+}
+
+// Each change makes another scene, all different; names make none.
+TEST(Scene, has_a_checksum_of_all_that_is_to_be_seen) {
+    const auto picture = [](float value) {
+        auto image = std::make_shared<Image>(2, 3, 3);
+        image->pixels(1, 1, 2) = value;
+        return image;
+    };
+    const std::vector<std::function<void(Scene&)>> changes{
+        [](Scene&) {},
+        [](Scene& s) { s.meshes[0].positions[5].y += 1e-15; },
+        [](Scene& s) { std::swap(s.meshes[0].triangles[0], s.meshes[0].triangles[1]); },
+        [](Scene& s) {
+            s.meshes[0].normals.assign(8, {0, 0, 1});
+        },
+        [](Scene& s) {
+            s.meshes[0].colors.assign(8, {1, 1, 1});
+        },
+        [](Scene& s) {
+            s.meshes[0].radiance.assign(8, {1, 1, 1});
+        },
+        [](Scene& s) { s.meshes[0].texture_coordinates.assign(8, {}); },
+        [](Scene& s) { s.meshes[0].material.base_color.g = 0.7f; },
+        [](Scene& s) { s.meshes[0].material.roughness = 0.5f; },
+        [](Scene& s) { s.meshes[0].material.emission.b = 1; },
+        [&](Scene& s) { s.meshes[0].material.base_color_texture = picture(0); },
+        [&](Scene& s) { s.meshes[0].material.base_color_texture = picture(0.5f); },
+        [](Scene& s) { s.meshes.push_back(s.meshes[0]); },
+        [](Scene& s) { s.lights.emplace_back(); },
+        [](Scene& s) { s.lights.emplace_back().casts_shadows = false; },
+        [](Scene& s) { s.lights.emplace_back().position.x = 1; },
+        [](Scene& s) { s.ambient.r = 1; },
+        [](Scene& s) { s.background.r = 1; },
+    };
+    std::set<std::uint32_t> sums;
+    for (const auto& change : changes) {
+        Scene scene = cube(), renamed = cube();
+        change(scene);
+        change(renamed);
+        renamed.meshes[0].name = renamed.name = "other";
+        sums.insert(checksum(scene));
+        EXPECT_EQ(checksum(renamed), checksum(scene));
+    }
+    EXPECT_EQ(sums.size(), changes.size());
 }
 
 TEST(Fit, fills_the_hologram_and_stands_where_it_is_told) {

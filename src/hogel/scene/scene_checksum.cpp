@@ -1,0 +1,68 @@
+#include <initializer_list>
+#include <map>
+#include <span>
+
+#include "hogel/core/checksum.h"
+#include "hogel/scene/scene.h"
+
+namespace hogel {
+namespace {
+
+// Of arrays, one after the other, and of how long they are.
+class Checksums {
+  public:
+    // No T here has bytes between its numbers.
+    template <class T>
+    void add(std::span<const T> values) {
+        sums_.push_back(checksum({reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()}));
+        sums_.push_back(static_cast<std::uint32_t>(values.size()));
+    }
+    void add(std::initializer_list<double> numbers) { add(std::span(numbers.begin(), numbers.size())); }
+    void add(const std::shared_ptr<const Image>& picture) {
+        if (!picture) {
+            sums_.push_back(0);
+            return;
+        }
+        // Many meshes may share one.
+        const auto [known, is_new] = pictures_.try_emplace(picture.get());
+        if (is_new) {
+            const std::span<const float> pixels = picture->pixels.elements();
+            known->second = checksum({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
+        }
+        sums_.push_back(known->second);
+        for (const std::size_t extent : picture->pixels.shape()) sums_.push_back(static_cast<std::uint32_t>(extent));
+    }
+    std::uint32_t sum() const {
+        return checksum({reinterpret_cast<const std::uint8_t*>(sums_.data()), sums_.size() * sizeof(sums_[0])});
+    }
+
+  private:
+    std::vector<std::uint32_t> sums_;
+    std::map<const Image*, std::uint32_t> pictures_;
+};
+
+}  // namespace
+
+std::uint32_t checksum(const Scene& scene) {
+    Checksums sums;
+    for (const Mesh& mesh : scene.meshes) {
+        sums.add(std::span(mesh.positions));
+        sums.add(std::span(mesh.normals));
+        sums.add(std::span(mesh.colors));
+        sums.add(std::span(mesh.radiance));
+        sums.add(std::span(mesh.texture_coordinates));
+        sums.add(std::span(mesh.triangles));
+        const Material& m = mesh.material;
+        sums.add({m.base_color.r, m.base_color.g, m.base_color.b, m.reflectance, m.metallic, m.roughness, m.emission.r,
+                  m.emission.g, m.emission.b});
+        sums.add(m.base_color_texture);
+    }
+    for (const Light& l : scene.lights)
+        sums.add({static_cast<double>(l.kind), l.position.x, l.position.y, l.position.z, l.direction.x, l.direction.y,
+                  l.direction.z, l.intensity.r, l.intensity.g, l.intensity.b, l.casts_shadows ? 1.0 : 0.0});
+    sums.add({scene.ambient.r, scene.ambient.g, scene.ambient.b, scene.background.r, scene.background.g,
+              scene.background.b});
+    return sums.sum();
+}
+
+}  // namespace hogel
