@@ -1,0 +1,180 @@
+// Every renderer against rays, over combinations of what can be asked for: numbers of hogels and directions down to
+// one, faces and off-centre views, samples a ray, culling, and every model of shading, on textures, gloss and shadows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "hogel/core/units.h"
+#include "hogel/render/antialias.h"
+#include "hogel/render/light_spacing.h"
+#include "hogel/render/renderer.h"
+#include "hogel/scene/mesh_builder.h"
+#include "hogel/scene/shapes.h"
+#include "hogel/shading/light_cache.h"
+#include "hogel/shading/shading.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+// A pictured wall that leans, a glossy ball before it, and a matt sheet that shows its back and throws a shadow; `back`
+// behind the hologram plane or about it.
+Scene still_life(double back) {
+    Scene scene;
+    scene.background = {0.1f, 0.2f, 0.3f};
+    scene.ambient = {0.1f, 0.1f, 0.1f};
+    auto picture = std::make_shared<Image>(8, 6, 3);
+    for (std::size_t i = 0; i < picture->pixels.size(); ++i)
+        picture->pixels.data()[i] = 0.5f + 0.4f * std::sin(float(5 * i));
+    Mesh wall;
+    wall.positions = {{-7e-3, -6e-3, -3e-3}, {6e-3, -6.1e-3, -5e-3}, {6.2e-3, 5.9e-3, -5e-3}, {-6.8e-3, 6.2e-3, -3e-3}};
+    wall.texture_coordinates = {{0, 0}, {2, 0}, {2, 1.5f}, {0, 1.5f}};
+    wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+    wall.material.base_color_texture = picture;
+    Mesh sheet;
+    sheet.positions = {{-3.3e-3, 0.2e-3, -1.1e-3}, {-0.6e-3, 0.4e-3, 0.3e-3}, {-2.1e-3, 2.9e-3, -0.4e-3}};
+    sheet.triangles = {{0, 2, 1}};
+    sheet.material.base_color = {0.9f, 0.3f, 0.2f};
+    scene.meshes = {wall, sheet};
+    MeshBuilder builder;
+    add_ball(builder, {1.2e-3, -0.7e-3, -0.9e-3}, 1.7e-3, 14, 9, {0.3f, 0.7f, 0.4f});
+    scene.meshes.push_back(builder.mesh);
+    Material& ball = scene.meshes.back().material;
+    ball.reflectance = 0.3f;
+    ball.roughness = 0.4f;
+    add_missing_normals(scene, 1);
+    Light lamp;
+    lamp.kind = Light::Kind::point;
+    lamp.position = {-4e-3, 5e-3, 6e-3};
+    lamp.intensity = {2e-4f, 1.8e-4f, 1.6e-4f};
+    scene.lights.push_back(lamp);
+    for (Mesh& mesh : scene.meshes)
+        for (Vec3& p : mesh.positions) p.z -= back;
+    scene.lights[0].position.z -= back;
+    return scene;
+}
+
+struct Case {
+    LightFieldGrid front;
+    bool hemicube;
+    SamplesPerRay samples;
+    bool fronts_only;
+    ShadingModel model;
+    double spacing;  // of points where light is kept, 0: anew for each ray
+
+    std::string text() const {
+        return std::to_string(front.hogels_s) + "x" + std::to_string(front.hogels_t) + " hogels, " +
+               std::to_string(front.directions_u) + "x" + std::to_string(front.directions_v) + " directions, samples " +
+               std::to_string(samples.hogel) + "x" + std::to_string(samples.direction) + ", model " +
+               std::to_string(int(model)) + (hemicube ? ", hemicube" : "") + (fronts_only ? ", culled" : "") +
+               (spacing > 0 ? ", light kept" : "");
+    }
+};
+
+// The lists have lengths without common factors, so that each thing meets each other one.
+std::vector<Case> cases() {
+    struct Size {
+        std::size_t hogels_s, hogels_t, directions_u, directions_v;
+    };
+    const Size sizes[] = {{1, 1, 12, 10}, {5, 4, 1, 1}, {1, 7, 9, 4}, {7, 1, 4, 9},  {4, 3, 18, 1}, {3, 4, 1, 17},
+                          {3, 3, 3, 3},   {6, 5, 8, 6}, {1, 1, 1, 1}, {19, 2, 7, 5}, {2, 18, 5, 7}};
+    const SamplesPerRay samples[] = {{1, 1}, {1, 1}, {2, 1}, {1, 3}, {1, 1}, {2, 2}, {1, 1}};
+    const struct {
+        ShadingModel model;
+        double spacing;
+    } light[] = {{ShadingModel::vertex, 0},
+                 {ShadingModel::direct, 0},
+                 {ShadingModel::direct, 0.25},
+                 {ShadingModel::shadowed, 0},
+                 {ShadingModel::shadowed, 0.25}};
+    std::vector<Case> list;
+    for (std::size_t i = 0; i < 55; ++i) {
+        const Size& n = sizes[i % std::size(sizes)];
+        Case one{{n.hogels_s, n.hogels_t, 0.9_mm, n.directions_u, n.directions_v, 0.6, 0.5, i % 4 == 1 ? 1u : 3u},
+                 i % 3 == 1 && n.directions_u % 2 == 0 && (n.directions_v % 2 == 0 || n.directions_v == 1),
+                 samples[i % std::size(samples)],
+                 i % 2 == 1,
+                 light[i % std::size(light)].model,
+                 light[i % std::size(light)].spacing};
+        if (one.hemicube) {
+            one.front.tan_half_u = one.front.tan_half_v = 1;
+        } else if (i % 3 == 2) {
+            one.front.center_u = 0.31;
+            one.front.center_v = -0.23;
+        }
+        list.push_back(one);
+    }
+    return list;
+}
+
+LightField render(std::string_view name, const std::shared_ptr<const ShadedScene>& scene, const LightFieldGrid& grid,
+                  const SamplesPerRay& samples) {
+    LightField light_field(grid, true);
+    copy(*make_renderer(name, scene, grid, samples), light_field);
+    return light_field;
+}
+
+std::vector<std::string> names() {
+    std::vector<std::string> list;
+    for (const RendererInfo& info : renderers())
+        if (info.name != "raytrace") list.emplace_back(info.name);
+    return list;
+}
+
+// Names of tests have no hyphens.
+std::string test_name(std::string name) {
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+class Combinations : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(names()),
+                         [](const auto& parameter) { return test_name(parameter.param); });
+
+// Only rays along an edge may see one thing or the other; and where light is kept on surfaces, epi interpolates between
+// places where the others do, which shows at the edges of shadows.
+TEST_P(Combinations, show_what_rays_see) {
+    const bool straddles = std::ranges::find(renderers(), GetParam(), &RendererInfo::name)->straddles;
+    std::size_t hits = 0, rays = 0, hemicubes = 0;
+    std::size_t number = 0;
+    for (const Case& one : cases()) {
+        if (GetParam() == "simplex" && number++ / 2 % 3 != 0) continue;  // takes its time
+        const Scene scene = still_life(straddles ? 0 : 1e-3);
+        ShadedScene lit = shade(scene, {.model = one.model, .shadow_map = 64});
+        lit.fronts_only = one.fronts_only;
+        if (one.spacing > 0) cache_light(lit, light_spacing(lit, finer(one.front, one.samples), one.spacing));
+        const auto shaded = std::make_shared<const ShadedScene>(std::move(lit));
+        const std::vector<LightFieldGrid> faces = one.hemicube ? hemicube(one.front) : std::vector{one.front};
+        hemicubes += faces.size() > 1 ? 1 : 0;
+        std::size_t off = 0, far_off = 0, depths_off = 0, values = 0;
+        for (const LightFieldGrid& face : faces) {
+            const LightField truth = render("raytrace", shaded, face, one.samples),
+                             seen = render(GetParam(), shaded, face, one.samples);
+            for (std::size_t i = 0; i < truth.depth.size(); ++i) {
+                const float expected = truth.depth.data()[i], found = seen.depth.data()[i];
+                depths_off += found == expected || std::abs(found - expected) < 1e-7f ? 0 : 1;
+                hits += std::isfinite(expected) ? 1 : 0;
+            }
+            for (std::size_t i = 0; i < truth.radiance.size(); ++i) {
+                const float expected = truth.radiance.data()[i], difference = seen.radiance.data()[i] - expected;
+                off += std::abs(difference) < 1e-3f ? 0 : 1;
+                far_off += std::abs(difference) < 0.02f ? 0 : 1;
+            }
+            rays += truth.depth.size();
+            values += truth.radiance.size();
+        }
+        const bool interpolates_otherwise = GetParam() == "epi" && one.spacing > 0;
+        EXPECT_LE(far_off, 1 + values / 300) << one.text();
+        EXPECT_LE(off, 1 + values / (interpolates_otherwise ? 10 : 300)) << one.text();
+        EXPECT_LE(depths_off, 1 + values / 900) << one.text();
+    }
+    EXPECT_GT(hits, rays / 2);
+    EXPECT_GE(hemicubes, 2u);
+}
+
+}  // namespace
+}  // namespace hogel
