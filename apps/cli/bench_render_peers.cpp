@@ -100,10 +100,10 @@ Race race(const Session& session, const std::string& algorithm, const std::vecto
             session.say(fmt::format("{}: left out, {}", info.name, error.what()));
             continue;
         }
-        constexpr double most_differing = 0.05;
+        constexpr double most_differing = 0.005;  // along edges
         const Racer& racer = lanes.back().racer;
         if (racer.differing > most_differing)
-            throw Error(ErrorCode::internal, fmt::format("{} and {} see different pictures: {:.1f} % of samples",
+            throw Error(ErrorCode::internal, fmt::format("{} and {} see different pictures: {:.2g} % of samples",
                                                          algorithm, racer.name, 100 * racer.differing));
     }
     for (std::size_t round = 0; round < limits.rounds; ++round)

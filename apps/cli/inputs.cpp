@@ -150,9 +150,10 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
                      "Where the middle of the view looks behind the hologram: angles to the right and up"));
     group(command
               ->add_option("--front", options.front,
-                           "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all")
-              ->type_name("0..1")
-              ->check(CLI::Range(0.0, 1.0).description(""))
+                           "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all; -0.1: it "
+                           "begins a tenth of its depth behind it")
+              ->type_name("F")
+              ->check(CLI::Range(-100.0, 1.0).description(""))
               ->capture_default_str());
     CLI::Option* as_is = command->add_flag("--as-is", options.as_is,
                                            "Take a mesh file where it is, its numbers as metres, z towards the viewer");
@@ -175,7 +176,8 @@ void add_hemicube_option(CLI::App* command, RenderOptions& options) {
 
 void add_frequencies_option(CLI::App* command, RenderOptions& options) {
     add_length(command, "--frequencies", options.frequencies,
-               "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds")
+               "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
+               "with --algorithm raytrace")
         ->group("Light field of a scene")
         ->excludes("--hemicube")
         ->excludes("--directions")

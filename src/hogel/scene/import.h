@@ -18,7 +18,8 @@ struct Fit {
     double width = 0, height = 0;  ///< the hologram's size, metres: the scene fills `fill` of it when seen head-on
     double fill = 0.85;
     double front = 0;  ///< how much of the scene's depth stands in front of the plane: 0 none (it begins at the
-                       ///< plane), 1 all of it, 0.5 the plane cuts through its middle
+                       ///< plane), 1 all of it, 0.5 the plane cuts through its middle, −1 it begins as far behind
+                       ///< the plane as it is deep
 };
 
 /// Scales a scene uniformly and moves it so that it is centred on the hologram and lies about the plane as `fit` says.
