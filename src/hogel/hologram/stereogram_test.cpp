@@ -211,7 +211,7 @@ TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
     const LightFieldGrid grid{1, 1, 64_um, 41, 37, 0.14, 0.14, 1};
     const double wavelength = 532_nm, step = wavelength / grid.pitch;
     const FrequencyGrid frequencies(grid, 32, wavelength);
-    std::vector<float> radiance(grid.directions()), moduli(32 * 32);
+    std::vector<float> radiance(grid.directions()), moduli(std::size_t{32} * 32);
     for (std::size_t l = 0; l < 37; ++l)
         for (std::size_t k = 0; k < 41; ++k)
             radiance[l * 41 + k] = float(1 + 3 * grid.u(double(k)) - 2 * grid.v(double(l)));
