@@ -257,10 +257,11 @@ TEST_P(EveryTarget, vector_and_plain_shadings_are_the_same) {
         TestPlane plane(columns, directions, -3);
         for (std::uint64_t& word : plane.words)
             if (places.coin()) word = std::uint64_t{12345} << 32 | places.between(0, 19);
-        // Long runs of one strip, as large triangles make them.
-        if (directions % 2 == 0)
-            for (std::size_t k = 0; k < size; ++k)
-                if (k / 37 % 2 == 0) plane.words[k] = std::uint64_t{k} << 32 | (k / 37 + directions) % 20;
+        // Runs of one strip, as large triangles make them: one to three in a vector, or a few more.
+        const std::size_t run = directions % 2 == 0 ? 37 : directions % 3 == 0 ? 7 : 4;
+        for (std::size_t k = 0; k < size; ++k)
+            if (k / run % 2 == 0 || (directions % 4 == 1 && k % 50 < 40))
+                plane.words[k] = std::uint64_t{k} << 32 | (k / run + directions) % 20;
         // A column that sees nothing.
         if (directions % 3 == 0) std::fill_n(plane.words.begin(), directions, EpipolarPlane::nothing);
         // On cache lines, and off them.
