@@ -104,8 +104,18 @@ HWY_INLINE void shade_three(const StripShades& first, const StripShades& middle,
                             hn::Mul(part, in_lanes(first.difference[i], middle.difference[i], last.difference[i])));
 }
 
-// A vector of samples of a plane. (Lambdas are not inlined where they are called twice.)
+// Of samples that all show one.
 template <bool depth>
+HWY_INLINE void shade_one(const StripShades& strip, Floats n, Floats K, Floats (&values)[4]) {
+    const FloatTag d;
+    const Floats part = parts_of_one(strip, n, K);
+    for (int i = 0; i < (depth ? 4 : 3); ++i)
+        values[i] = hn::Add(hn::Set(d, strip.value0[i]), hn::Mul(part, hn::Set(d, strip.difference[i])));
+}
+
+// A vector of samples of a plane. Whether it shows one strip, two or three is more than could be predicted, so there is
+// one way for them all, unless most strips are `large`. (Lambdas are not inlined where they are called twice.)
+template <bool depth, bool large>
 struct ShadeStrips {
     const StripShades* strips;
     float first_column, first_direction;
@@ -121,11 +131,14 @@ struct ShadeStrips {
         const Numbers numbers = numbers_of(words);
         const auto of_first = hn::Eq(numbers, hn::Set(du, first)), of_last = hn::Eq(numbers, hn::Set(du, last));
         const std::uint64_t others = bits_of(hn::Not(hn::Or(of_first, of_last)));
-        if (others == 0 && first == EpipolarPlane::nobody && last == first) {
-            for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, strips[EpipolarPlane::nobody].value0[i]);
+        if ((large || first == EpipolarPlane::nobody) && others == 0 && last == first) {
+            if (large && first != EpipolarPlane::nobody)
+                shade_one<depth>(strips[first], n, K, values);
+            else
+                for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, strips[EpipolarPlane::nobody].value0[i]);
             return;
         }
-        // The last again if there is no other: whether there are one, two or three is more than could be predicted.
+        // The last again if there is no other.
         const std::uint64_t or_last = others | std::uint64_t{1} << (lanes - 1);
         const auto middle = static_cast<std::uint32_t>(words[std::countr_zero(or_last)]);
         const auto of_middle = hn::Eq(numbers, hn::Set(du, middle));
@@ -137,12 +150,21 @@ struct ShadeStrips {
     }
 };
 
-void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
+template <bool depth>
+void shade_strips(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     const auto n_first = static_cast<float>(plane.first_column);
-    if (out.values[3])
-        shade_vectors(plane, out, ShadeStrips<true>{strips.data(), n_first, plane.first_direction});
+    const bool large = strips.size() * hn::Lanes(FloatTag()) <= plane.directions;
+    if (large)
+        shade_vectors(plane, out, ShadeStrips<depth, true>{strips.data(), n_first, plane.first_direction});
     else
-        shade_vectors(plane, out, ShadeStrips<false>{strips.data(), n_first, plane.first_direction});
+        shade_vectors(plane, out, ShadeStrips<depth, false>{strips.data(), n_first, plane.first_direction});
+}
+
+void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
+    if (out.values[3])
+        shade_strips<true>(plane, strips, out);
+    else
+        shade_strips<false>(plane, strips, out);
 }
 #endif
 
