@@ -248,7 +248,7 @@ class EpiRenderer final : public LightFieldSource {
         if (needs_samples_)
             shade_lit(plane, work.shades, work.lit, PlaneSamples(*this, work, first), out);
         else
-            shade(plane, work.shades, out);
+            shade(plane, std::span(work.shades).first(work.count), out);
     }
 
     // What is worked out for single samples of a plane.

@@ -16,8 +16,9 @@ struct Strip {
     float x0, z0, x1, z1;
 };
 
-/// What a strip shows: values that are linear along it from its end 0 to its end 1. The background is one, too.
-struct StripShades {
+/// What a strip shows: values that are linear along it from its end 0 to its end 1. The background is one, too. A whole
+/// cache line, so that one load brings all of it.
+struct alignas(64) StripShades {
     float x0, z0, dx, dz;            ///< end 0, and the way to end 1
     float value0[4], difference[4];  ///< R, G, B (or the only channel first), depth ζ in metres
 };

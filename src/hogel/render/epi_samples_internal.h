@@ -109,9 +109,9 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out
         std::uint64_t* words = plane.words + column * directions;
         float* to[4];
         for (int i = 0; i < 4; ++i) to[i] = out.values[i] ? out.values[i] + column * out.strides[i] : nullptr;
-        Floats values[4];
         std::size_t k = 0;
         for (; aligned && k + lanes <= directions; k += lanes, words += lanes) {
+            Floats values[4];
             shade_vector(words, column, k, values);
             hn::StoreU(nothing, d64, words);
             hn::StoreU(nothing, d64, words + lanes / 2);
@@ -126,6 +126,7 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out
             HWY_ALIGN std::uint64_t some_words[hn::MaxLanes(d)] = {};
             std::copy_n(words, count, some_words);
             std::fill_n(words, count, EpipolarPlane::nothing);
+            Floats values[4];
             shade_vector(some_words, column, k, values);
             for (int i = 0; i < 4; ++i) {
                 if (!to[i]) continue;
