@@ -166,44 +166,44 @@ void along_directions(const Drawing& on, float K_begin, float K_end) {
     }
 }
 
-// One column a lane: candidates are the directions from K_0 to K_1, the ends' own, and a margin to either side. Where
-// only a few lanes have one, they are kept.
-void along_columns(const Drawing& on, float n_begin, float n_end, float per_z0, float per_z1, float margin) {
+// How far along_columns has come: a vector's first column, and how many directions of each of its columns are done.
+struct Progress {
+    float begin, directions;
+};
+
+// One column a lane: candidates are the directions from K_0 to K_1, the ends' own, and a margin to either side. False
+// where it has to go on when those that wait have been drawn.
+bool along_columns(const Drawing& on, float n_end, float per_z0, float per_z1, float margin, Progress& at) {
     const FloatTag d;
-    const IntTag di;
-    const StripLanes strip = in_all_lanes(on.strip);
-    const Floats steep0 = hn::Set(d, per_z0), steep1 = hn::Set(d, per_z1), margins = hn::Set(d, margin);
-    const Floats one = hn::Set(d, 1.0f), k_first = hn::Set(d, on.extent.k_first),
-                 n_first = hn::Set(d, on.extent.n_first);
-    const Floats k_last = hn::Set(d, on.extent.k_last - on.extent.k_first), none = hn::Set(d, -1.0f),
-                 columns_end = hn::Set(d, n_end);
-    const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
-    const std::size_t few = hn::Lanes(d) / 4;
-    const bool fronts_only = on.plane.fronts_only;
-    for (float begin = n_begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d))) {
+    Candidates& candidates = on.candidates;
+    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1);
+    const Floats steep0 = hn::Set(d, per_z0), steep1 = hn::Set(d, per_z1);
+    const Floats before = hn::Set(d, on.extent.k_first + margin), beyond = hn::Set(d, on.extent.k_first - margin);
+    const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f), none = hn::Set(d, -1.0f);
+    const Floats k_last = hn::Set(d, on.extent.k_last - on.extent.k_first), columns_end = hn::Set(d, n_end);
+    std::size_t count = candidates.begin();
+    float done = at.directions;
+    for (float begin = at.begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d)), done = 0) {
         const Floats n = hn::Iota(d, begin);
-        const Floats K0 = hn::Mul(hn::Sub(strip.x0, n), steep0), K1 = hn::Mul(hn::Sub(strip.x1, n), steep1);
-        const Floats low = hn::Sub(hn::Sub(hn::Min(K0, K1), margins), k_first);
-        const Floats high = hn::Sub(hn::Add(hn::Max(K0, K1), margins), k_first);
+        const Floats K0 = hn::Mul(hn::Sub(x0, n), steep0), K1 = hn::Mul(hn::Sub(x1, n), steep1);
+        const Floats low = hn::Sub(hn::Min(K0, K1), before), high = hn::Sub(hn::Max(K0, K1), beyond);
         const Floats end = hn::IfThenElse(hn::Le(n, columns_end), hn::Min(k_last, high), none);
-        const Ints rows = hn::Mul(hn::ConvertTo(di, hn::Sub(n, n_first)), directions);
-        Floats k = hn::Max(hn::Zero(d), hn::Ceil(low));
-        FloatMask candidate = hn::Le(k, end);
-        std::size_t count = hn::CountTrue(d, candidate);
-        do {
-            if (count <= few) {
-                on.candidates.add(candidate, n, k, on.index);
-            } else {
-                const Floats K = hn::Add(k, k_first), c0 = strip.c0(K), c1 = strip.c1(K, c0, fronts_only);
-                const FloatMask hit = hn::And(candidate, StripLanes::covers(n, c0, c1));
-                on.hits.add(hit, strip.depth(n, c0, strip.slope(c0, c1)), hn::Add(rows, hn::ConvertTo(di, k)),
-                            on.number);
-            }
+        Floats k = hn::Add(hn::Max(zero, hn::Ceil(low)), hn::Set(d, done));
+        // Most have one or two.
+        count += candidates.add(n, k, end, count);
+        for (std::size_t more = 1; more != 0;) {
             k = hn::Add(k, one);
-            candidate = hn::Le(k, end);
-            count = hn::CountTrue(d, candidate);
-        } while (count != 0);
+            done += 1;
+            more = candidates.add(n, k, end, count);
+            count += more;
+            if (HWY_LIKELY(!Candidates::is_full(count))) continue;
+            at = {begin, done + 1};
+            candidates.end(on.index, count);
+            return false;
+        }
     }
+    candidates.end(on.index, count);
+    return true;
 }
 
 // @param ends  x0, z0, x1, z1 of a vector of strips
@@ -232,7 +232,8 @@ void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
         const Floats back = hn::Mul(hn::Set(d, -1e-6f), size);
         seen = hn::And(seen, hn::Or(hn::Ge(hn::Sub(c[2], c[0]), back), hn::Ge(hn::Sub(c[3], c[1]), back)));
     }
-    const Floats n_begin = hn::Max(n_first, hn::Floor(low)), n_end = hn::Min(n_last, hn::Floor(high));
+    // c is monotonic in K, also as it is rounded.
+    const Floats n_begin = hn::Max(n_first, hn::Add(hn::Floor(low), one)), n_end = hn::Min(n_last, hn::Floor(high));
 
     // Column n sees p in direction (x_p − n) / z_p. If both ends lie on one side of the hologram, the directions that
     // see the strip lie between; else outside, up to infinity.
@@ -273,7 +274,8 @@ void bound_strips(const float* ends, const Extent& plane, Bounded& to) {
     const FloatMask rows = hn::And(bounded, hn::Lt(by_rows, hn::Min(by_directions, by_columns)));
     way = hn::IfThenElse(hn::RebindMask(di, rows), hn::Set(di, Bounded::rows), way);
 #endif
-    way = hn::IfThenElseZero(hn::RebindMask(di, hn::And(seen, hn::Le(K_begin, K_end))), way);
+    seen = hn::And(seen, hn::And(hn::Le(n_begin, n_end), hn::Le(K_begin, K_end)));
+    way = hn::IfThenElseZero(hn::RebindMask(di, seen), way);
     hn::Store(n_begin, d, to.n_begin);
     hn::Store(n_end, d, to.n_end);
     hn::Store(per_z0, d, to.per_z0);
@@ -317,8 +319,9 @@ void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane&
                     along_directions(on, bounded.K_begin[i], bounded.K_end[i]);
                     break;
                 case Bounded::columns:
-                    along_columns(on, bounded.n_begin[i], bounded.n_end[i], bounded.per_z0[i], bounded.per_z1[i],
-                                  bounded.margin[i]);
+                    for (Progress at{bounded.n_begin[i], 0}; !along_columns(on, bounded.n_end[i], bounded.per_z0[i],
+                                                                            bounded.per_z1[i], bounded.margin[i], at);)
+                        candidates.draw();
                     break;
                 default:
                     break;

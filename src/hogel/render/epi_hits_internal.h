@@ -82,18 +82,19 @@ class Hits {
   public:
     explicit Hits(const EpipolarPlane& plane) : words_(plane.words) {}
 
-    // The lanes that are hits; `offsets` are those of the words.
-    HWY_INLINE void add(FloatMask hit, Floats z, Ints offsets, Ints numbers) {
-        const IntTag di;
-        add_compressed(hit, z, offsets, hn::Compress(numbers, hn::RebindMask(di, hit)));
-    }
-
-    // The same of a single strip.
+    // The lanes that are hits of a strip; `offsets` are those of the words.
     HWY_INLINE void add(FloatMask hit, Floats z, Ints offsets, std::uint32_t number) {
-        add_compressed(hit, z, offsets, hn::Set(IntTag(), static_cast<std::int32_t>(number)));
+        const IntTag di;
+        const auto mask = hn::RebindMask(di, hit);
+        const Ints depths = hn::Compress(ordered_bits_of(z), mask);
+        static_assert(std::endian::native == std::endian::little, "a word's lower half comes first");
+        hn::StoreInterleaved2(hn::Set(di, static_cast<std::int32_t>(number)), depths, di, seen_[count_]);
+        hn::StoreU(hn::Compress(offsets, mask), di, offsets_ + count_);
+        count_ += hn::CountTrue(FloatTag(), hit);
+        if (count_ >= most_waiting) draw();
     }
 
-    void draw() {
+    HWY_NOINLINE void draw() {
         for (std::size_t i = 0; i < count_; ++i) {
             std::uint64_t& word = words_[offsets_[i]];
             std::uint64_t seen;
@@ -104,64 +105,67 @@ class Hits {
     }
 
   private:
-    HWY_INLINE void add_compressed(FloatMask hit, Floats z, Ints offsets, Ints numbers) {
-        const IntTag di;
-        const auto mask = hn::RebindMask(di, hit);
-        const Ints depths = hn::Compress(ordered_bits_of(z), mask);
-        static_assert(std::endian::native == std::endian::little, "a word's lower half comes first");
-        hn::StoreInterleaved2(numbers, depths, di, seen_[count_]);
-        hn::StoreU(hn::Compress(offsets, mask), di, offsets_ + count_);
-        count_ += hn::CountTrue(FloatTag(), hit);
-        if (count_ >= most_waiting) draw();
-    }
-
     std::uint64_t* words_;
     std::size_t count_ = 0;
     HWY_ALIGN std::int32_t offsets_[most_waiting + vector_room];
     HWY_ALIGN std::int32_t seen_[most_waiting + vector_room][2];  // as words
 };
 
-// Samples that thin strips may cover, of many strips together, for each has few of a vector's.
+// Samples that thin strips may cover. They are found for many strips before the first is tested: what is tested does
+// not have to wait for what is found, and where a strip has more or fewer of them than the processor guessed, it has
+// other work. Those of a strip fill vectors, whichever columns they are from.
 class Candidates {
   public:
     Candidates(const EpipolarPlane& plane, std::span<const Strip> strips, std::size_t first, Hits& hits)
         : plane_(plane), strips_(strips), first_(first), hits_(hits) {}
 
-    // The lanes that are candidates, in columns n and directions k.
-    HWY_INLINE void add(FloatMask candidate, Floats n, Floats k, std::uint32_t strip) {
+    // Where those of another strip begin.
+    HWY_INLINE std::size_t begin() const { return vectors_ * hn::Lanes(FloatTag()); }
+
+    // Puts the lanes whose directions k are not behind `end`, in columns n, at `count`, and returns how many there are.
+    HWY_INLINE std::size_t add(Floats n, Floats k, Floats end, std::size_t count) {
         const FloatTag d;
-        hn::StoreU(hn::Compress(n, candidate), d, n_ + count_);
-        hn::StoreU(hn::Compress(k, candidate), d, k_ + count_);
-        hn::StoreU(hn::Set(NumberTag(), strip), NumberTag(), of_ + count_);
-        count_ += hn::CountTrue(d, candidate);
-        if (count_ >= most_waiting) draw();
+        const FloatMask candidate = hn::Le(k, end);
+        hn::StoreU(hn::Compress(n, candidate), d, n_ + count);
+        hn::StoreU(hn::Compress(k, candidate), d, k_ + count);
+        return hn::CountTrue(d, candidate);
     }
 
-    void draw() {
+    // All up to `count` that have been added since begin() are of this strip.
+    HWY_INLINE void end(std::uint32_t strip, std::size_t count) {
+        const FloatTag d;
+        const NumberTag du;
+        const std::size_t lanes = hn::Lanes(d), vectors = (count + lanes - 1) / lanes;
+        // What fills up the last vector is no sample.
+        hn::StoreU(hn::Set(d, std::numeric_limits<float>::quiet_NaN()), d, k_ + count);
+        for (std::size_t i = vectors_; i < vectors; i += lanes) hn::StoreU(hn::Set(du, strip), du, of_ + i);
+        vectors_ = vectors;
+    }
+
+    // Whether they must be drawn before there are more.
+    static HWY_INLINE bool is_full(std::size_t count) { return count >= most_waiting; }
+
+    HWY_NOINLINE void draw() {
         const FloatTag d;
         const IntTag di;
         const std::size_t lanes = hn::Lanes(d);
-        if (count_ == 0) return;
-        // What fills up the last vector is no sample.
-        hn::StoreU(hn::Zero(NumberTag()), NumberTag(), of_ + count_);
-        hn::StoreU(hn::Set(d, -1.0f), d, k_ + count_);
-        hn::StoreU(hn::Zero(d), d, n_ + count_);
-        for (std::size_t i = 0; i < count_ + lanes - 1; ++i) std::memcpy(ends_[i], &strips_[of_[i]], sizeof(Strip));
         const Floats k_first = hn::Set(d, plane_.first_direction);
-        const Floats n_first = hn::Set(d, static_cast<float>(plane_.first_column));
+        // Whole numbers below 2²³ are the last bits of their sum with it.
+        constexpr float to_whole = 1 << 23;
+        const Floats to_column = hn::Set(d, to_whole - static_cast<float>(plane_.first_column));
+        const Floats to_direction = hn::Set(d, to_whole);
+        const Ints others = hn::BitCast(di, to_direction);
         const Ints directions = hn::Set(di, static_cast<std::int32_t>(plane_.directions));
-        for (std::size_t i = 0; i < count_; i += lanes) {
-            const StripLanes strip = strip_a_lane(ends_[i]);
-            const Floats n = hn::Load(d, n_ + i), k = hn::Load(d, k_ + i), K = hn::Add(k, k_first);
+        for (std::size_t i = 0; i < vectors_; ++i) {
+            const StripLanes strip = in_all_lanes(strips_[of_[i]]);
+            const Floats n = hn::Load(d, n_ + i * lanes), k = hn::Load(d, k_ + i * lanes), K = hn::Add(k, k_first);
             const Floats c0 = strip.c0(K), c1 = strip.c1(K, c0, plane_.fronts_only);
-            const FloatMask hit = hn::And(hn::Ge(k, hn::Zero(d)), StripLanes::covers(n, c0, c1));
-            const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
-            hits_.add(hit, strip.depth(n, c0, strip.slope(c0, c1)),
-                      hn::Add(hn::Mul(column, directions), hn::ConvertTo(di, k)),
-                      hn::Add(hn::Load(di, reinterpret_cast<const std::int32_t*>(of_ + i)),
-                              hn::Set(di, static_cast<std::int32_t>(first_))));
+            const Ints column = hn::Sub(hn::BitCast(di, hn::Add(n, to_column)), others);
+            const Ints direction = hn::Sub(hn::BitCast(di, hn::Add(k, to_direction)), others);
+            hits_.add(StripLanes::covers(n, c0, c1), strip.depth(n, c0, strip.slope(c0, c1)),
+                      hn::Add(hn::Mul(column, directions), direction), static_cast<std::uint32_t>(first_) + of_[i]);
         }
-        count_ = 0;
+        vectors_ = 0;
     }
 
   private:
@@ -169,10 +173,9 @@ class Candidates {
     std::span<const Strip> strips_;
     std::size_t first_;
     Hits& hits_;
-    std::size_t count_ = 0;
-    HWY_ALIGN float n_[most_waiting + 2 * vector_room], k_[most_waiting + 2 * vector_room];
-    HWY_ALIGN std::uint32_t of_[most_waiting + 2 * vector_room];
-    HWY_ALIGN float ends_[most_waiting + 2 * vector_room][4];
+    std::size_t vectors_ = 0;
+    HWY_ALIGN float n_[most_waiting + 4 * vector_room], k_[most_waiting + 4 * vector_room];
+    std::uint32_t of_[most_waiting + 4 * vector_room];
 };
 
 }  // namespace HWY_NAMESPACE

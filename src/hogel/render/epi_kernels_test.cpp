@@ -82,6 +82,38 @@ TEST_P(EveryTarget, vector_and_plain_drawings_are_the_same) {
     EXPECT_GT(covered, 50000u);
 }
 
+// Close to the hologram a column sees a strip in many directions: in more than are kept at once, of one vector of
+// columns. And many thin strips at once, some of which are seen by nobody.
+TEST_P(EveryTarget, what_is_found_in_parts_is_the_same_as_drawn_at_once) {
+    Places places(9);
+    std::size_t covered = 0, in_a_column = 0;
+    for (int round = 0; round < 40; ++round) {
+        const bool wide = round % 2 == 0;
+        const std::size_t columns = places.between(1, 40), directions = wide ? places.between(1500, 2500) : 70;
+        const auto first = static_cast<std::int32_t>(places.between(0, 40)) - 30;
+        TestPlane fast(columns, directions, first), plain(columns, directions, first);
+        fast.plane.fronts_only = plain.plane.fronts_only = round % 3 == 0;
+        std::vector<Strip> strips(wide ? places.between(1, 4) : 1500);
+        for (Strip& strip : strips) {
+            const float x = float(first) + 0.5f * float(columns) + places.uniform(0.6f * float(columns));
+            const float z = (places.coin() ? 1.0f : -1.0f) * (wide ? 4e-3f + std::abs(places.uniform(6e-3f)) : 0.3f);
+            strip = {x, z, x + places.uniform(wide ? 0.9f : 0.1f), z + places.uniform(wide ? 1e-4f : 1e-2f)};
+        }
+        draw(strips, 3, fast.plane);
+        draw_plain(strips, 3, plain.plane);
+        ASSERT_EQ(fast.words, plain.words) << round;
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::uint64_t* words = &plain.words[column * directions];
+            const auto nothing = std::count(words, words + directions, EpipolarPlane::nothing);
+            const std::size_t seen = directions - static_cast<std::size_t>(nothing);
+            covered += seen;
+            if (wide) in_a_column = std::max(in_a_column, seen);
+        }
+    }
+    EXPECT_GT(covered, 30000u);
+    EXPECT_GT(in_a_column, 100u);
+}
+
 // Strips in layers one behind the other and across each other, as wide as cells and wider: what is passed over because
 // of what was drawn before is what cannot be seen.
 TEST_P(EveryTarget, what_is_drawn_over_what_is_known_is_the_same_as_drawn_at_once) {
