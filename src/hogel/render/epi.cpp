@@ -22,7 +22,7 @@ constexpr std::size_t most_words = std::size_t{96} << 10;
 // So many triangles, or a few more, are set up together.
 constexpr std::size_t most_waiting = 64;
 
-// The boxes of clusters are asked for so many clusters ahead.
+// What is known of clusters' boxes is asked for so many clusters ahead.
 constexpr std::size_t boxes_ahead = 8;
 
 // A thread that copies a light field holds one tile.
@@ -63,7 +63,8 @@ class EpiRenderer final : public LightFieldSource {
     void read(LightFieldTile& tile) const override {
         const HogelRange& range = tile.range;
         const std::size_t hogels = axes_.fast_hogels(range), directions = axes_.fast_directions();
-        const std::size_t columns = std::min(hogels, std::max<std::size_t>(16, most_words / directions));
+        const std::size_t columns =
+            std::min({hogels, std::max<std::size_t>(16, most_words / directions), CellColumns::most});
         const std::size_t first_row = axes_.turned() ? range.s0 : range.t0;
         const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
         std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions + EpipolarPlane::spare,
@@ -79,6 +80,9 @@ class EpiRenderer final : public LightFieldSource {
                                           frame_.first_column() + static_cast<std::int32_t>(first_column + column),
                                           frame_.first_direction(),
                                           scene_->fronts_only};
+                // Which the same samples of all its planes see.
+                const EpipolarFrame::Plane any = frame_.plane(first_row + row, 0);
+                see_boxes(clusters_.boxes, plane, any.shift, any.z0, work.boxes);
                 for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
                     const std::size_t of_slab = slow % RowRays::most_planes;
                     if (of_slab == 0) find_crossings(clusters_, rays_of(plane, first_row + row, slow), work.crossings);
@@ -111,6 +115,7 @@ class EpiRenderer final : public LightFieldSource {
         LitStrips lit;  // empty where all light comes from the ends
         Occlusion occlusion;
         Crossings crossings;                       // of some planes
+        SeenBoxes boxes;                           // of all clusters
         std::vector<std::uint32_t> waiting;        // triangles on their way from memory
         std::array<std::vector<float>, 4> turned;  // values of a plane whose columns lie far apart in the tile
     };
@@ -152,8 +157,8 @@ class EpiRenderer final : public LightFieldSource {
         };
         for (std::size_t i = 0; i < crossings.size(); ++i) {
             const auto [triangles, cluster] = crossings[i];
-            __builtin_prefetch(&clusters_.boxes[crossings[std::min(i + boxes_ahead, crossings.size() - 1)].cluster]);
-            if (work.occlusion.hides(clusters_.boxes[cluster], plane, place.shift, place.z0)) continue;
+            work.boxes.prefetch(crossings[std::min(i + boxes_ahead, crossings.size() - 1)].cluster);
+            if (work.occlusion.hides(work.boxes[cluster], plane)) continue;
             const std::size_t first = cluster * cluster_size;
             for (std::uint64_t rest = triangles; rest != 0; rest &= rest - 1) {
                 const std::size_t next = first + static_cast<std::size_t>(std::countr_zero(rest));

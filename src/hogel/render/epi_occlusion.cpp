@@ -20,35 +20,62 @@ void Occlusion::update(const EpipolarPlane& plane) {
     worth_asking_ = 4 * static_cast<std::size_t>(covered) >= cells.size();
 }
 
-bool Occlusion::hides(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0) const {
-    if (!worth_asking_) return false;
-    const double z_low = box.z_low - z0, z_high = box.z_high - z0;
-    const double x_low = box.x_low + shift, x_high = box.x_high + shift;
+BoxBounds::BoxBounds(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0)
+    : x_low(static_cast<float>(box.x_low + shift)),
+      x_high(static_cast<float>(box.x_high + shift)),
+      z_low(static_cast<float>(box.z_low - z0)),
+      z_high(static_cast<float>(box.z_high - z0)) {
+    const double depth = box.z_low - z0;
     // Depths of strips are rounded to single precision, and may be differences of larger numbers; this is beyond any
     // rounding.
-    const auto nearest = static_cast<float>(z_low - 1e-6 * std::abs(z_low) - 1e-12 * std::abs(z0));
+    nearest = ordered_bits(static_cast<float>(depth - 1e-6 * std::abs(depth) - 1e-12 * std::abs(z0)));
     const double steepest =
         1 + std::abs(static_cast<double>(plane.first_direction)) + static_cast<double>(plane.directions);
-    const double reach = std::max(std::abs(x_low), std::abs(x_high)) + std::abs(shift) +
-                         steepest * (std::max(std::abs(z_low), std::abs(z_high)) + 1e-6 * std::abs(z0));
-    return cells_hide(plane, {static_cast<float>(x_low), static_cast<float>(x_high), static_cast<float>(z_low),
-                              static_cast<float>(z_high), static_cast<float>(1e-6 * reach), ordered_bits(nearest)});
+    const double reach = std::max(std::abs(box.x_low + shift), std::abs(box.x_high + shift)) + std::abs(shift) +
+                         steepest * (std::max(std::abs(depth), std::abs(box.z_high - z0)) + 1e-6 * std::abs(z0));
+    margin = static_cast<float>(1e-6 * reach);
 }
 
-bool cells_hide_plain(const EpipolarPlane& plane, const SeenBox& box) {
+void SeenBoxes::make_room(std::size_t boxes, const EpipolarPlane& plane) {
+    lines = (PlaneCells::rows(plane.directions) + CellColumns::rows - 1) / CellColumns::rows;
+    columns.resize(boxes * lines);
+    depths.resize(boxes);
+}
+
+void see_boxes_plain(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0,
+                     SeenBoxes& to) {
     const auto first = static_cast<float>(plane.first_column);
     const float last = first + static_cast<float>(plane.columns) - 1;
     const float K_last = plane.first_direction + static_cast<float>(plane.directions) - 1;
+    to.make_room(boxes.size(), plane);
+    std::ranges::fill(to.columns, CellColumns{});
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const BoxBounds box(boxes[i], plane, shift, z0);
+        std::uint16_t widest = 0;
+        for (std::size_t row = 0; row < PlaneCells::rows(plane.directions); ++row) {
+            // The columns that see the box in the cells' directions.
+            const float Ka = plane.first_direction + static_cast<float>(row * cell_directions);
+            const float Kb = std::min(K_last, Ka + static_cast<float>(cell_directions - 1));
+            const auto [least, most] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});
+            const float begin = std::max(first, std::ceil((box.x_low - most) - box.margin));
+            const float end = std::min(last, std::floor((box.x_high - least) + box.margin));
+            if (!(begin <= end)) continue;
+            CellColumns& line = to.columns[i * to.lines + row / CellColumns::rows];
+            line.first[row % CellColumns::rows] = static_cast<std::uint16_t>(begin - first);
+            widest =
+                std::max(widest, line.count[row % CellColumns::rows] = static_cast<std::uint16_t>(end - begin + 1));
+        }
+        to.depths[i] = {box.nearest, widest};
+    }
+}
+
+bool cells_hide_plain(const EpipolarPlane& plane, const SeenBox& box) {
     for (std::size_t row = 0; row < PlaneCells::rows(plane.directions); ++row) {
-        // The columns that see the box in the cells' directions.
-        const float Ka = plane.first_direction + static_cast<float>(row * cell_directions);
-        const float Kb = std::min(K_last, Ka + static_cast<float>(cell_directions - 1));
-        const auto [least, most] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});
-        const float begin = std::max(first, std::ceil((box.x_low - most) - box.margin));
-        const float end = std::min(last, std::floor((box.x_high - least) + box.margin));
-        for (float n = begin; n <= end; ++n)
-            if (plane.cells->farthest[row * plane.columns + static_cast<std::size_t>(n - first)] >= box.nearest)
-                return false;
+        const CellColumns& line = box.columns[row / CellColumns::rows];
+        const std::uint32_t* cells =
+            plane.cells->farthest.data() + row * plane.columns + line.first[row % CellColumns::rows];
+        for (std::size_t i = 0; i < line.count[row % CellColumns::rows]; ++i)
+            if (cells[i] >= box.depth.nearest) return false;
     }
     return true;
 }

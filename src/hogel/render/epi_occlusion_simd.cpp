@@ -1,5 +1,5 @@
-// The vector twins of find_farthest_plain in epi_kernels.cpp and of cells_hide_plain in epi_occlusion.cpp, compiled for
-// every instruction set and chosen when first called.
+// The vector twins of find_farthest_plain in epi_kernels.cpp and of see_boxes_plain and cells_hide_plain in
+// epi_occlusion.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi_occlusion_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -7,6 +7,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include "hogel/render/epi_occlusion_internal.h"
 
@@ -18,6 +20,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 // A single lane holds no four columns.
 void FindFarthest(const EpipolarPlane& plane) { find_farthest_plain(plane); }
+void SeeBoxes(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0, SeenBoxes& to) {
+    see_boxes_plain(boxes, plane, shift, z0, to);
+}
 bool CellsHide(const EpipolarPlane& plane, const SeenBox& box) { return cells_hide_plain(plane, box); }
 #else
 using Tag = hn::CappedTag<std::uint32_t, cell_directions>;
@@ -78,38 +83,78 @@ void FindFarthest(const EpipolarPlane& plane) {
     }
 }
 
-// First the columns that see the box from a vector of rows of cells, then row by row a vector of columns.
-bool CellsHide(const EpipolarPlane& plane, const SeenBox& box) {
-    const Tag d;
+// A row of cells a lane.
+void SeeBoxes(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0, SeenBoxes& to) {
     const hn::RebindToFloat<Tag> df;
     const hn::RebindToSigned<Tag> di;
-    const std::size_t lanes = hn::Lanes(d), rows = PlaneCells::rows(plane.directions);
+    const hn::Rebind<std::uint16_t, Tag> d16;
+    to.make_room(boxes.size(), plane);
     const auto n_first = static_cast<float>(plane.first_column), columns = static_cast<float>(plane.columns);
-    const auto first = hn::Set(df, n_first), last = hn::Set(df, n_first + columns - 1);
+    const auto first = hn::Set(df, n_first), last = hn::Set(df, n_first + columns - 1), one = hn::Set(df, 1.0f);
     const auto K_last = hn::Set(df, plane.first_direction + static_cast<float>(plane.directions) - 1);
-    const auto z_low = hn::Set(df, box.z_low), z_high = hn::Set(df, box.z_high), margin = hn::Set(df, box.margin);
-    const Depths nearest = hn::Set(d, box.nearest);
-    HWY_ALIGN std::int32_t begins[hn::MaxLanes(d)], counts[hn::MaxLanes(d)];
-    for (std::size_t group = 0; group < rows; group += lanes) {
-        const auto Ka = hn::Add(hn::Set(df, plane.first_direction + static_cast<float>(group * cell_directions)),
-                                hn::Mul(hn::Iota(df, 0), hn::Set(df, static_cast<float>(cell_directions))));
-        const auto Kb = hn::Min(K_last, hn::Add(Ka, hn::Set(df, static_cast<float>(cell_directions - 1))));
-        const auto a = hn::Mul(Ka, z_low), b = hn::Mul(Ka, z_high), c = hn::Mul(Kb, z_low), e = hn::Mul(Kb, z_high);
-        const auto least = hn::Min(hn::Min(a, b), hn::Min(c, e)), most = hn::Max(hn::Max(a, b), hn::Max(c, e));
-        const auto low = hn::Sub(hn::Sub(hn::Set(df, box.x_low), most), margin);
-        const auto high = hn::Add(hn::Sub(hn::Set(df, box.x_high), least), margin);
-        const auto begin = hn::Max(first, hn::Ceil(low)), end = hn::Min(last, hn::Floor(high));
-        // None where the box is not seen at all, however far away that is.
-        const auto count = hn::Max(hn::Zero(df), hn::Add(hn::Sub(end, begin), hn::Set(df, 1.0f)));
-        hn::Store(hn::ConvertTo(di, hn::Sub(hn::Min(begin, last), first)), di, begins);
-        hn::Store(hn::ConvertTo(di, count), di, counts);
-        for (std::size_t row = group; row < std::min(rows, group + lanes); ++row) {
-            const std::uint32_t* cells = plane.cells->farthest.data() + row * plane.columns + begins[row - group];
-            for (auto rest = static_cast<std::size_t>(counts[row - group]); rest != 0;
-                 rest -= std::min(rest, lanes), cells += lanes) {
-                const auto covered = hn::Lt(hn::LoadU(d, cells), nearest);
-                if (!hn::AllFalse(d, hn::AndNot(covered, hn::FirstN(d, rest)))) return false;
-            }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const BoxBounds box(boxes[i], plane, shift, z0);
+        const auto x_low = hn::Set(df, box.x_low), x_high = hn::Set(df, box.x_high), margin = hn::Set(df, box.margin);
+        const auto z_low = hn::Set(df, box.z_low), z_high = hn::Set(df, box.z_high);
+        auto widest = hn::Zero(di);
+        for (std::size_t row = 0; row < to.lines * CellColumns::rows; row += hn::Lanes(di)) {
+            const auto Ka = hn::Add(hn::Set(df, plane.first_direction + static_cast<float>(row * cell_directions)),
+                                    hn::Mul(hn::Iota(df, 0), hn::Set(df, static_cast<float>(cell_directions))));
+            const auto Kb = hn::Min(K_last, hn::Add(Ka, hn::Set(df, static_cast<float>(cell_directions - 1))));
+            const auto a = hn::Mul(Ka, z_low), b = hn::Mul(Ka, z_high), c = hn::Mul(Kb, z_low), e = hn::Mul(Kb, z_high);
+            const auto least = hn::Min(hn::Min(a, b), hn::Min(c, e)), most = hn::Max(hn::Max(a, b), hn::Max(c, e));
+            const auto begin = hn::Max(first, hn::Ceil(hn::Sub(hn::Sub(x_low, most), margin)));
+            const auto end = hn::Min(last, hn::Floor(hn::Add(hn::Sub(x_high, least), margin)));
+            // None where the box is not seen, however far away that is, and none of rows that are not there.
+            const auto seen = hn::And(hn::Le(begin, end), hn::Le(Ka, K_last));
+            const auto number = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Add(hn::Sub(end, begin), one)));
+            widest = hn::Max(widest, number);
+            CellColumns& line = to.columns[i * to.lines + row / CellColumns::rows];
+            const auto from = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Sub(begin, first)));
+            hn::StoreU(hn::DemoteTo(d16, from), d16, line.first + row % CellColumns::rows);
+            hn::StoreU(hn::DemoteTo(d16, number), d16, line.count + row % CellColumns::rows);
+        }
+        to.depths[i] = {box.nearest, static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(di, widest)))};
+    }
+}
+
+// Numbers of which the lowest bits are set.
+constexpr auto lowest_bits = [] {
+    std::array<std::uint64_t, cell_directions + 1> bits{};
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = (std::uint64_t{1} << i) - 1;
+    return bits;
+}();
+
+// The first cells, no more than a vector of them, that do not hide what is no nearer.
+HWY_INLINE hn::Mask<Tag> open_cells(const std::uint32_t* cells, std::size_t count, Depths nearest) {
+    const Tag d;
+    const auto first = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&lowest_bits[count]));
+    return hn::AndNot(hn::Lt(hn::LoadU(d, cells), nearest), first);
+}
+
+// A vector of columns, four rows at a time, for what is found in one is not to be predicted.
+bool CellsHide(const EpipolarPlane& plane, const SeenBox& box) {
+    const Tag d;
+    const std::size_t lanes = hn::Lanes(d), rows = PlaneCells::rows(plane.directions);
+    const Depths nearest = hn::Set(d, box.depth.nearest);
+    const std::uint32_t* cells = plane.cells->farthest.data();
+    std::size_t row = 0;
+    if (box.depth.widest <= lanes)
+        for (; row + 4 <= rows; row += 4, cells += 4 * plane.columns) {
+            const CellColumns& line = box.columns[row / CellColumns::rows];
+            const std::uint16_t* first = line.first + row % CellColumns::rows;
+            const std::uint16_t* count = line.count + row % CellColumns::rows;
+            const auto open = [&](std::size_t i) HWY_ATTR {
+                return open_cells(cells + i * plane.columns + first[i], count[i], nearest);
+            };
+            if (!hn::AllFalse(d, hn::Or(hn::Or(open(0), open(1)), hn::Or(open(2), open(3))))) return false;
+        }
+    for (; row < rows; ++row, cells += plane.columns) {
+        const CellColumns& line = box.columns[row / CellColumns::rows];
+        const std::uint32_t* of_row = cells + line.first[row % CellColumns::rows];
+        for (std::size_t rest = line.count[row % CellColumns::rows]; rest != 0; rest -= std::min(rest, lanes)) {
+            if (!hn::AllFalse(d, open_cells(of_row, std::min(rest, lanes), nearest))) return false;
+            of_row += lanes;
         }
     }
     return true;
@@ -124,9 +169,14 @@ HWY_AFTER_NAMESPACE();
 namespace hogel {
 
 HWY_EXPORT(FindFarthest);
+HWY_EXPORT(SeeBoxes);
 HWY_EXPORT(CellsHide);
 
 void find_farthest(const EpipolarPlane& plane) { HWY_DYNAMIC_DISPATCH(FindFarthest)(plane); }
+
+void see_boxes(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0, SeenBoxes& to) {
+    HWY_DYNAMIC_DISPATCH(SeeBoxes)(boxes, plane, shift, z0, to);
+}
 
 bool cells_hide(const EpipolarPlane& plane, const SeenBox& box) { return HWY_DYNAMIC_DISPATCH(CellsHide)(plane, box); }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "hogel/render/test_plane_internal.h"
@@ -30,7 +31,9 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
         for (int offer = 0; offer < 50; ++offer) {
             const double x = uniform(-60, 60), z = offer % 5 == 0 ? 0.5 : uniform(-2, 3);
             const ClusterBox box{x, x + uniform(0, 9), 0, 0, z, z + uniform(0, 0.3f)};
-            const bool hides = occlusion.hides(box, drawn.plane);
+            SeenBoxes seen;
+            see_boxes({&box, 1}, drawn.plane, 0, 0, seen);
+            const bool hides = occlusion.hides(seen[0], drawn.plane);
             (hides ? hidden : visible) += 1;
             if (!hides) continue;
             const std::vector<std::uint64_t> before = drawn.words;
@@ -53,40 +56,57 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
     EXPECT_GT(visible, 1000u);
 }
 
-TEST(Occlusion, vector_and_plain_cells_hide_the_same) {
+// Boxes before, in and behind the hologram, near and far aside, in planes with and without whole lines of cells.
+TEST(Occlusion, vector_and_plain_boxes_are_seen_and_hidden_alike) {
     std::mt19937 random(3);
     const auto uniform = [&](double low, double high) {
-        return float(std::uniform_real_distribution<double>(low, high)(random));
+        return std::uniform_real_distribution<double>(low, high)(random);
     };
-    std::size_t hidden = 0, visible = 0;
+    std::size_t hidden = 0, visible = 0, wide = 0;
     for (int round = 0; round < 200; ++round) {
         TestPlane drawn(1 + random() % 60, 1 + random() % 400, std::int32_t(random() % 40) - 30);
-        drawn.cells.clear(drawn.plane.columns, drawn.plane.directions);
-        for (std::uint32_t& cell : drawn.cells.farthest) cell = random() % 50 == 0 ? 3000 : random() % 2000;
-        for (int offer = 0; offer < 20; ++offer) {
-            const float x = uniform(-60, 60), z = uniform(-1, 1) * (offer % 3 == 0 ? 1e-3f : 1);
-            const SeenBox box{
-                x, x + uniform(0, 9), z, z + uniform(0, 0.1), uniform(0, 0.01), std::uint32_t(1500 + random() % 1500)};
-            const bool plain = cells_hide_plain(drawn.plane, box);
-            (plain ? hidden : visible) += 1;
-            for (const std::int64_t target : kernel_targets()) {
-                use_kernel_target(target);
-                EXPECT_EQ(cells_hide(drawn.plane, box), plain) << target << " " << round << " " << offer;
-                use_kernel_target(0);
+        for (std::uint32_t& cell : drawn.cells.farthest) cell = random() % 50 == 0 ? ~0u : random() % 2000;
+        std::vector<ClusterBox> boxes(21);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const double x = uniform(-60, 60) * (i % 7 == 0 ? 1e9 : 1), z = uniform(-1, 1) * (i % 3 == 0 ? 1e-3 : 1);
+            boxes[i] = {x, x + uniform(0, i % 5 == 0 ? 40 : 9), 0, 0, z, z + uniform(0, 0.1)};
+        }
+        const double shift = uniform(-3, 3), z0 = round % 2 == 0 ? 0 : uniform(-1, 1);
+        SeenBoxes plain;
+        see_boxes_plain(boxes, drawn.plane, shift, z0, plain);
+        for (const std::int64_t target : kernel_targets()) {
+            use_kernel_target(target);
+            SeenBoxes fast;
+            see_boxes(boxes, drawn.plane, shift, z0, fast);
+            for (std::size_t i = 0; i < boxes.size(); ++i) {
+                ASSERT_EQ(std::memcmp(fast[i].columns, plain[i].columns, plain.lines * sizeof(CellColumns)), 0)
+                    << target << " " << round << " " << i;
+                ASSERT_EQ(fast[i].depth.nearest, plain[i].depth.nearest);
+                ASSERT_EQ(fast[i].depth.widest, plain[i].depth.widest);
+                wide += plain[i].depth.widest > 16;
+                // Of any depth, for what is hidden has one above all.
+                const SeenBox some{plain[i].columns, {std::uint32_t(1500 + random() % 1500), plain[i].depth.widest}};
+                const bool hides = cells_hide_plain(drawn.plane, some);
+                (hides ? hidden : visible) += 1;
+                EXPECT_EQ(cells_hide(drawn.plane, some), hides) << target << " " << round << " " << i;
             }
+            use_kernel_target(0);
         }
     }
     EXPECT_GT(hidden, 500u);
     EXPECT_GT(visible, 500u);
+    EXPECT_GT(wide, 500u);
 }
 
 TEST(Occlusion, an_empty_plane_hides_nothing) {
     TestPlane drawn(8, 16, 0);
     Occlusion occlusion;
     const ClusterBox far{0, 1, 0, 1, 1e6, 2e6};
-    EXPECT_FALSE(occlusion.hides(far, drawn.plane));
+    SeenBoxes seen;
+    see_boxes({&far, 1}, drawn.plane, 0, 0, seen);
+    EXPECT_FALSE(occlusion.hides(seen[0], drawn.plane));
     occlusion.update(drawn.plane);
-    EXPECT_FALSE(occlusion.hides(far, drawn.plane));
+    EXPECT_FALSE(occlusion.hides(seen[0], drawn.plane));
 }
 
 TEST(Occlusion, cells_hold_the_farthest_depth_in_all_kernels) {

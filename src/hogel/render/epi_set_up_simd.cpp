@@ -129,7 +129,13 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
             end->z = hn::Sub(end->z, hn::Set(d, plane.z0));
         }
         const auto x0 = hn::DemoteTo(df, end0.x), z0 = hn::DemoteTo(df, end0.z);
-        hn::StoreInterleaved4(x0, z0, hn::DemoteTo(df, end1.x), hn::DemoteTo(df, end1.z), df, ends[0]);
+        const auto x1 = hn::DemoteTo(df, end1.x), z1 = hn::DemoteTo(df, end1.z);
+        if (count == lanes) {
+            hn::StoreInterleaved4(x0, z0, x1, z1, df, &strips[begin].x0);
+        } else {
+            hn::StoreInterleaved4(x0, z0, x1, z1, df, ends[0]);
+            std::memcpy(strips + begin, ends, count * sizeof(Strip));
+        }
         hn::StoreInterleaved4(x0, z0, hn::DemoteTo(df, hn::Sub(end1.x, end0.x)),
                               hn::DemoteTo(df, hn::Sub(end1.z, end0.z)), df, steps[0]);
         const Doubles depth = hn::Set(d, plane.depth);
@@ -144,7 +150,6 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
         hn::Store(numbers(2, 1, 0), di, lones);
         hn::Store(hn::IfThenElse(hn::RebindMask(di, upwards), numbers(1, 0, 2), numbers(0, 2, 1)), di, nexts);
 
-        std::memcpy(strips + begin, ends, count * sizeof(Strip));
         for (std::size_t i = 0; i < count; ++i) {
             if ((crossed >> i & 1) == 0) {
                 strips[begin + i] = nowhere;
