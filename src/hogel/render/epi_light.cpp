@@ -71,6 +71,7 @@ float StripLight::cells() const {
 void LitStrips::clear(const StripShades& background) {
     lines_.clear();
     waits_.clear();
+    has_points_ = false;
     used_ = 0;
     take_nodes(2);
     nodes_[0] = nodes_[1] = {0, 0, 0, not_yet};
@@ -90,6 +91,7 @@ void LitStrips::add_line(const StripShades& strip, LightFrom from, std::uint32_t
     Line& line = lines_.emplace_back(Line{strip.x0, strip.z0, strip.dx, strip.dz, 0, 0, 0, from});
     line.set_nodes(first_node, 1);
     waits_.push_back(from == LightFrom::points ? 1 : 0);
+    has_points_ |= from == LightFrom::points;
 }
 
 void LitStrips::add_lit_at_ends(const StripShades& strip) {

@@ -103,7 +103,8 @@ class LitStrips {
     std::uint32_t add_nodes(std::size_t number, float cells);
     void add_unmade_nodes(std::size_t number, float cells);
 
-    /// For each strip whether it is LightFrom::points and nobody has looked for its nodes.
+    /// For each strip whether it is LightFrom::points and nobody has looked for its nodes; and whether any was.
+    bool has_points() const { return has_points_; }
     std::uint8_t* waits() { return waits_.data(); }
 
   private:
@@ -114,6 +115,7 @@ class LitStrips {
     std::vector<Node, CacheLineAllocator<Node>> nodes_;  // of which so many are in use:
     std::size_t used_ = 0;
     std::vector<std::uint8_t> waits_;
+    bool has_points_ = false;
 };
 
 /// Makes nodes of all strips that these words show and that wait, as far as no points have to be made for it, and not

@@ -230,6 +230,7 @@ class NodesOnGrids {
 
 void MakeNodesOfSeen(std::span<const std::uint64_t> words, std::span<const StripShades> strips, LitStrips& lit,
                      const SampleSource& samples, bool colour) {
+    if (!lit.has_points()) return;
     thread_local std::vector<std::uint32_t> found;
     found.resize(strips.size() + 1);
     const std::size_t count = find_waiting(words, lit.waits(), found.data());
