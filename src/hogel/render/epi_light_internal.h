@@ -63,10 +63,10 @@ class LitStrips {
     struct alignas(32) Line {
         float x0, z0, dx, dz;  ///< of StripShades
         std::uint32_t first;   ///< number of its first node, less the bits of LightGrid::to_whole
-        float cells, last;     ///< how many there are, with a node more; and what is held below `last` rounds to one
+        float cells, last;     ///< how many there are, one less than nodes; as of LightGrid::Axis
         LightFrom from;
 
-        /// From `first_node` on, which are left out where the strip has none yet.
+        /// @param first_node  `unmade` where the strip has none yet
         void set_nodes(std::uint32_t first_node, float count) {
             first = first_node - std::bit_cast<std::uint32_t>(LightGrid::to_whole);
             cells = count;
@@ -103,7 +103,7 @@ class LitStrips {
     std::uint32_t add_nodes(std::size_t number, float cells);
     void add_unmade_nodes(std::size_t number, float cells);
 
-    /// For each strip whether it is LightFrom::points and nobody has looked for its nodes; and whether any was.
+    /// Whether there are strips LightFrom::points, and for each strip whether it is one that has no nodes yet.
     bool has_points() const { return has_points_; }
     std::uint8_t* waits() { return waits_.data(); }
 
