@@ -113,14 +113,14 @@ HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32
     const Floats ends[2][2] = {{hn::Sub(one, of_corner[0]), hn::Sub(one, of_corner[1])}, {of_last[0], of_last[1]}};
     Floats most = zero;
     for (int i = 0; i < 2; ++i) {
-        const Floats count = hn::ConvertTo(d, hn::BitCast(di, grid[2 + i]));
-        const Floats cells = hn::Max(count, one), scale = hn::Add(cells, hn::Set(d, 2 * LightGrid::inset));
+        const Floats cells_there = hn::ConvertTo(d, hn::BitCast(di, grid[2 + i]));
+        const Floats on_axis = hn::Max(cells_there, one), scale = hn::Add(on_axis, hn::Set(d, 2 * LightGrid::inset));
         const Floats change = hn::Sub(ends[i][1], ends[i][0]);
-        most = hn::Max(most, hn::IfThenElseZero(hn::Gt(count, zero), hn::Mul(hn::Abs(change), scale)));
+        most = hn::Max(most, hn::IfThenElseZero(hn::Gt(cells_there, zero), hn::Mul(hn::Abs(change), scale)));
         hn::Store(ends[i][0], d, to.place[i]);
         hn::Store(change, d, to.change[i]);
         hn::Store(scale, d, to.scale[i]);
-        hn::Store(hn::Sub(cells, hn::Set(d, 1.25f)), d, to.last[i]);
+        hn::Store(hn::Sub(on_axis, hn::Set(d, 1.25f)), d, to.last[i]);
     }
     const Floats cells =
         hn::Min(hn::Mul(hn::Set(d, StripLight::per_cell), most), hn::Set(d, StripLight::most_cells - 1));
