@@ -195,7 +195,7 @@ class EpiRenderer final : public LightFieldSource {
                 work.lit.add_lit_at_ends(work.shades[first + i]);
                 continue;
             }
-            work.lit.add_lit(from);
+            work.lit.add_lit(work.shades[first + i], from);
             if (from == LightFrom::points)
                 __builtin_prefetch(&scene_->light_cache->grid(work.origins[first + i].triangle));
         }
@@ -275,10 +275,7 @@ class EpiRenderer final : public LightFieldSource {
             return radiance_at(*renderer_.scene_, from.triangle, b0, b1, b2, sight);
         }
 
-        void find_light(std::size_t strip, StripLight& light) const override {
-            const StripOrigin& from = work_.origins[strip];
-            light.set(renderer_.scene_->light_cache->grid(from.triangle), from.weights(0), from.weights(1));
-        }
+        Grids grids() const override { return {work_.origins.data(), renderer_.scene_->light_cache->grids().data()}; }
 
         LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
             return renderer_.scene_->light_cache->corners(*renderer_.scene_, work_.origins[strip].triangle, row,

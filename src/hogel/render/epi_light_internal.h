@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "hogel/core/array.h"
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/epi_set_up_internal.h"
 #include "hogel/shading/light_cache.h"
 
 namespace hogel {
@@ -20,33 +22,18 @@ enum class LightFrom : std::uint32_t {
 };
 
 /// How a strip LightFrom::points crosses the grid on its triangle (LightGrid).
-struct alignas(64) StripLight {
+struct StripLight {
     /// Rows and columns: `towards` and `last` at end 0, and from there to end 1.
     float place[2], change[2];
-    float scale[2], last_cell[2];  ///< of LightGrid::Axis
+    LightGrid::Axis axis[2];
     const std::uint32_t* points;
     std::uint32_t down, right;  ///< words from a point to the next, where there are several
 
-    /// @param weights0, weights1  of the triangle's vertices, at the strip's ends
-    void set(const LightGrid& grid, const std::array<float, 3>& weights0, const std::array<float, 3>& weights1) {
-        const LightGrid::Axis rows(grid.rows), columns(grid.columns);
-        place[0] = grid.towards(weights0);
-        place[1] = grid.last(weights0);
-        change[0] = grid.towards(weights1) - place[0];
-        change[1] = grid.last(weights1) - place[1];
-        scale[0] = rows.scale;
-        scale[1] = columns.scale;
-        last_cell[0] = rows.last;
-        last_cell[1] = columns.last;
-        points = grid.points;
-        down = grid.rows > 0 ? grid.down : 0;
-        right = grid.columns > 0 ? grid.right : 0;
-    }
-
+    StripLight(const LightGrid& grid, const StripOrigin& strip);
     /// So many cells along the strip are at most half as long as those of the grid, unless they were more than
     /// `most_cells`.
     float cells() const;
-    static constexpr float most_cells = 1 << 16;
+    static constexpr float most_cells = 1 << 16, per_cell = 2;
 };
 
 /// What is worked out for single samples, points and strips while a plane is shaded.
@@ -55,31 +42,49 @@ class SampleSource {
     virtual ~SampleSource() = default;
     /// The radiance of sample (column, k) of the plane, `part` of the way along a strip LightFrom::samples.
     virtual Rgb radiance(std::size_t strip, float part, std::size_t column, std::size_t k) const = 0;
-    /// Of a strip LightFrom::points.
-    virtual void find_light(std::size_t strip, StripLight& light) const = 0;
+    /// Where the strips lie on their triangles, and the grids on those. For strips LightFrom::points.
+    struct Grids {
+        const StripOrigin* of_strips;
+        const LightGrid* of_triangles;
+    };
+    virtual Grids grids() const = 0;
     /// The light of four points that are not made yet (LightCache::corners).
     virtual LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const = 0;
 };
 
 /// What the strips of one plane show where they do not all have their light from their ends: each has nodes at equal
 /// distances along it, and between two nodes all values are linear. Nodes of strips LightFrom::points are made of what
-/// is kept on their triangles when the first sample needs them; there are far fewer nodes that are seen than samples.
+/// is kept on their triangles, once it is known which strips are seen; there are far fewer nodes than samples.
 class LitStrips {
   public:
     /// R, G, B (or the only channel first), depth ζ in metres: NaN of a node that has yet to be made.
     using Node = std::array<float, 4>;
-    struct Line {
-        std::uint32_t first;  ///< node, of cells + 1; of `unmade` where the strip has none yet
-        float cells, last;    ///< how many there are, and the number of the last
+    /// All that is asked for each sample, side by side.
+    struct alignas(32) Line {
+        float x0, z0, dx, dz;  ///< of StripShades
+        std::uint32_t first;   ///< number of its first node, less the bits of LightGrid::to_whole
+        float cells, last;     ///< how many there are, one less than nodes; as of LightGrid::Axis
         LightFrom from;
+
+        /// @param first_node  `unmade` where the strip has none yet
+        void set_nodes(std::uint32_t first_node, float count) {
+            first = first_node - std::bit_cast<std::uint32_t>(LightGrid::to_whole);
+            cells = count;
+            last = count - 1.25f;
+        }
+        std::uint32_t first_node() const { return first + std::bit_cast<std::uint32_t>(LightGrid::to_whole); }
     };
     /// Where part of the way along a strip lies.
     struct Place {
-        float cell, beyond;
+        std::uint32_t cell;
+        float beyond;
 
-        Place(const Line& line, float part)
-            : cell(std::min(static_cast<float>(static_cast<std::int32_t>(part * line.cells)), line.last)),
-              beyond(part * line.cells - cell) {}
+        Place(const Line& line, float part) {
+            const float at = part * line.cells;
+            const float rounded = std::min(at - 0.5f, line.last) + LightGrid::to_whole;
+            cell = std::bit_cast<std::uint32_t>(rounded) & LightGrid::node_bits;
+            beyond = at - (rounded - LightGrid::to_whole);
+        }
     };
     /// Two nodes that are never made.
     static constexpr std::uint32_t unmade = 0;
@@ -88,19 +93,40 @@ class LitStrips {
     void clear(const StripShades& background);
     void add_lit_at_ends(const StripShades& strip);
     /// @param from  not LightFrom::ends
-    void add_lit(LightFrom from) { lines_.push_back({unmade, 1, 0, from}); }
+    void add_lit(const StripShades& strip, LightFrom from);
 
     const Line* lines() const { return lines_.data(); }
     const Node* nodes() const { return nodes_.data(); }
     Node* nodes() { return nodes_.data(); }
-    /// Of strip `number`, LightFrom::points, which from now on has nodes.
-    const StripLight& light(std::size_t number, const SampleSource& samples);
+    /// Gives strip `number`, LightFrom::points, nodes, which hold anything at first, or which have yet to be made.
+    /// Returns the number of the first.
+    std::uint32_t add_nodes(std::size_t number, float cells);
+    void add_unmade_nodes(std::size_t number, float cells);
+
+    /// Whether there are strips LightFrom::points, and for each strip whether it is one that has no nodes yet.
+    bool has_points() const { return has_points_; }
+    std::uint8_t* waits() { return waits_.data(); }
 
   private:
-    std::vector<Line> lines_;
-    std::vector<Node, CacheLineAllocator<Node>> nodes_;
-    std::vector<StripLight> lights_;  // of strips that have nodes of points, under their numbers
+    void add_line(const StripShades& strip, LightFrom from, std::uint32_t first_node);
+    std::uint32_t take_nodes(std::size_t count);
+
+    std::vector<Line, CacheLineAllocator<Line>> lines_;
+    std::vector<Node, CacheLineAllocator<Node>> nodes_;  // of which so many are in use:
+    std::size_t used_ = 0;
+    std::vector<std::uint8_t> waits_;
+    bool has_points_ = false;
 };
+
+/// Makes nodes of all strips that these words show and that wait, as far as no points have to be made for it, and not
+/// of strips of very many cells, of which little may be seen. Strips of which some are missing have them when a sample
+/// needs them.
+void make_nodes_of_seen(std::span<const std::uint64_t> words, std::span<const StripShades> strips, LitStrips& lit,
+                        const SampleSource& samples, bool colour);
+
+/// Makes the nodes around part of strip `number`, LightFrom::points, of which some are missing.
+void make_nodes_around(float part, std::size_t number, const StripShades& strip, LitStrips& lit,
+                       const SampleSource& samples, bool colour);
 
 /// As `shade` (epi_kernels_internal.h). `lit` has as many strips. Twins that give the same bits.
 void shade_lit_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, LitStrips& lit,

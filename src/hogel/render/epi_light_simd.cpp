@@ -23,113 +23,95 @@ void ShadeLit(const EpipolarPlane& plane, std::span<const StripShades> strips, L
     shade_lit_plain(plane, strips, lit, samples, out);
 }
 #else
-using Four = hn::Full128<float>;
-
-// A place on the grid that a strip crosses, and the points around it.
-struct GridPlace {
-    std::uint32_t row, column;
-    hn::Vec<Four> beyond;  // lane 0: of the row, lane 1: of the column
-    const std::uint32_t *upper, *lower;
-
-    HWY_INLINE GridPlace(const StripLight& light, float part) {
-        const Four d;
-        const hn::Full128<std::uint64_t> d64;
-        // Lane 0: towards the side opposite the corner, lane 1: along the row. LightGrid::along and LightGrid::Place.
-        const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
-        const auto ends = hn::Load(d, light.place), axes = hn::Load(d, light.scale);
-        const auto place = hn::Add(ends, hn::Mul(hn::Set(d, part), hn::Shuffle1032(ends)));
-        const auto row_width = hn::Max(hn::Broadcast<0>(place), hn::Set(d, 1e-30f));
-        const auto in_row = hn::IfThenElse(hn::FirstN(d, 1), place, hn::Div(place, row_width));
-        const auto parts = hn::Min(hn::Max(in_row, zero), one);
-        const auto at = hn::Sub(hn::Mul(parts, axes), hn::Set(d, LightGrid::inset + 0.5f));
-        const auto to_whole = hn::Set(d, LightGrid::to_whole);
-        const auto rounded = hn::Add(hn::Min(hn::Max(at, hn::Set(d, -0.25f)), hn::Shuffle1032(axes)), to_whole);
-        beyond = hn::Add(hn::Sub(at, hn::Sub(rounded, to_whole)), half);
-        const std::uint64_t nodes = hn::GetLane(hn::BitCast(d64, rounded));
-        row = static_cast<std::uint32_t>(nodes) & LightGrid::node_bits;
-        column = static_cast<std::uint32_t>(nodes >> 32) & LightGrid::node_bits;
-        upper = light.points + std::uint64_t{row} * light.down + std::uint64_t{column} * light.right;
-        lower = upper + light.down;
-    }
-};
-
-// Vectors of samples of a plane.
+// Vectors of samples of a plane, column by column. Where the nodes of a column's samples lie is worked out for all of
+// them before any is loaded, or else each vector would wait for it.
 class LitSamples {
   public:
     LitSamples(const EpipolarPlane& plane, std::span<const StripShades> strips, LitStrips& lit,
-               const SampleSource& samples, bool colour)
-        : plane_(plane), strips_(strips.data()), lit_(lit), samples_(samples), colour_(colour) {}
+               const SampleSource& samples, const ShadedPlane& out, std::uint32_t* offsets, float* beyonds)
+        : plane_(plane),
+          strips_(strips.data()),
+          lit_(lit),
+          samples_(samples),
+          colour_(out.values[1] != nullptr),
+          depth_(out.values[3] != nullptr),
+          offsets_(offsets),
+          beyonds_(beyonds) {}
 
-    // The first in column and direction k, and what their words say.
-    HWY_INLINE void shade(const std::uint64_t* words, std::size_t column, std::size_t k, Floats (&values)[4]) {
+    HWY_INLINE void begin(std::size_t column) const {
         const FloatTag d;
         const NumberTag du;
+        const LitStrips::Line* lines = lit_.lines();
         const Floats n = hn::Set(d, static_cast<float>(plane_.first_column) + static_cast<float>(column));
-        const Floats K = hn::Iota(d, plane_.first_direction + static_cast<float>(k));
-        const Numbers numbers = numbers_of(words);
-        const auto first = static_cast<std::uint32_t>(words[0]);
-        const auto nobody = hn::RebindMask(d, hn::Eq(numbers, hn::Set(du, EpipolarPlane::nobody)));
-        const Floats endless = hn::Set(d, strips_[EpipolarPlane::nobody].value0[3]);
-        if (!hn::AllTrue(du, hn::Eq(numbers, hn::Set(du, first)))) {
-            const float* from[hn::MaxLanes(FloatTag())];
-            for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) from[i] = &strips_[words[i] & 0xffffffff].x0;
-            const Floats parts = parts_of_several(from, n, K);
-            shade_several(words, parts, values);
-            // Unmade nodes have no depth.
-            if (HWY_UNLIKELY(!hn::AllFalse(d, hn::IsNaN(values[3])))) shade_slowly(words, column, k, parts, values);
-            values[3] = hn::IfThenElse(nobody, endless, values[3]);
-        } else if (first != EpipolarPlane::nobody) {
-            const Floats parts = parts_of_one(strips_[first], n, K);
-            if (!shade_one(first, parts, values)) shade_several(words, parts, values);
-            if (HWY_UNLIKELY(!hn::AllFalse(d, hn::IsNaN(values[3])))) shade_slowly(words, column, k, parts, values);
-        } else {
-            for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, strips_[EpipolarPlane::nobody].value0[i]);
+        const std::uint64_t* words = plane_.words + column * plane_.directions;
+        // What is read beyond the column is of the next, or spare.
+        for (std::size_t k = 0; k < plane_.directions; k += hn::Lanes(d), words += hn::Lanes(d)) {
+            const Floats K = hn::Iota(d, plane_.first_direction + static_cast<float>(k));
+            const Numbers numbers = numbers_of(words);
+            const auto first = static_cast<std::uint32_t>(words[0]);
+            Floats place[4], line[4];
+            if (!hn::AllTrue(du, hn::Eq(numbers, hn::Set(du, first)))) {
+                const float* from[hn::MaxLanes(FloatTag())];
+                for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) from[i] = &lines[words[i] & 0xffffffff].x0;
+                for (std::size_t i = 0; i < 4; ++i) {
+                    place[i] = load_blocks(from + i, 0);
+                    line[i] = load_blocks(from + i, 4);
+                }
+                transpose(place);
+                transpose(line);
+            } else {
+                const float* from = &lines[first].x0;
+                for (std::size_t i = 0; i < 4; ++i) {
+                    place[i] = hn::Set(d, from[i]);
+                    line[i] = hn::Set(d, from[4 + i]);
+                }
+            }
+            const Floats at = hn::Mul(parts_of_strips(n, K, place), line[1]);
+            const Floats to_whole = hn::Set(d, LightGrid::to_whole);
+            const Floats rounded = hn::Add(hn::Min(hn::Sub(at, hn::Set(d, 0.5f)), line[2]), to_whole);
+            hn::Store(hn::Sub(at, hn::Sub(rounded, to_whole)), d, beyonds_ + k);
+            hn::Store(hn::ShiftLeft<4>(hn::Add(hn::BitCast(du, line[0]), hn::BitCast(du, rounded))), du, offsets_ + k);
         }
+    }
+
+    // The first in column and direction k, and what their words say.
+    HWY_INLINE void operator()(const std::uint64_t* words, std::size_t column, std::size_t k,
+                               Floats (&values)[4]) const {
+        const FloatTag d;
+        const NumberTag du;
+        interpolate(k, values);
+        // Unmade nodes have no depth.
+        if (HWY_UNLIKELY(!hn::AllFalse(d, hn::IsNaN(values[3])))) {
+            // A copy, so that values can stay in registers.
+            Floats some[4] = {values[0], values[1], values[2], values[3]};
+            shade_slowly(words, column, k, some);
+            for (int i = 0; i < 4; ++i) values[i] = some[i];
+        }
+        if (!depth_) return;
+        const auto nobody = hn::RebindMask(d, hn::Eq(numbers_of(words), hn::Set(du, EpipolarPlane::nobody)));
+        values[3] = hn::IfThenElse(nobody, hn::Set(d, strips_[EpipolarPlane::nobody].value0[3]), values[3]);
     }
 
   private:
-    // As LitStrips::Place: returns the cells.
-    static HWY_INLINE Floats place_on_lines(Floats parts, Floats cells, Floats last, Floats& beyond) {
-        const Floats at = hn::Mul(parts, cells), cell = hn::Min(hn::Floor(at), last);
-        beyond = hn::Sub(at, cell);
-        return cell;
-    }
-
-    // Of samples that all show one strip; false, and nothing done, where they lie in different cells.
-    HWY_INLINE bool shade_one(std::uint32_t number, Floats parts, Floats (&values)[4]) const {
+    HWY_INLINE void interpolate(std::size_t k, Floats (&values)[4]) const {
         const FloatTag d;
-        const LitStrips::Line& line = lit_.lines()[number];
-        Floats beyond;
-        const Floats cells = place_on_lines(parts, hn::Set(d, line.cells), hn::Set(d, line.last), beyond);
-        const float cell = hn::GetLane(cells);
-        if (!hn::AllTrue(d, hn::Eq(cells, hn::Set(d, cell)))) return false;
-        const LitStrips::Node* node = lit_.nodes() + line.first + static_cast<std::size_t>(cell);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const Floats here = hn::Set(d, node[0][i]);
-            values[i] = hn::Add(here, hn::Mul(beyond, hn::Sub(hn::Set(d, node[1][i]), here)));
-        }
-        return true;
-    }
-
-    // Of samples that show different strips or different cells.
-    HWY_INLINE void shade_several(const std::uint64_t* words, Floats parts, Floats (&values)[4]) const {
         const NumberTag du;
-        constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
-        const float* from[lanes];
-        const auto* lines = reinterpret_cast<const float*>(lit_.lines());
-        for (std::size_t i = 0; i < lanes; ++i) from[i] = lines + 4 * (words[i] & 0xffffffff);
-        Floats line[4] = {load_blocks(from + 0, 0), load_blocks(from + 1, 0), load_blocks(from + 2, 0),
-                          load_blocks(from + 3, 0)};
-        transpose(line);
-        Floats beyond;
-        const Floats cells = place_on_lines(parts, line[1], line[2], beyond);
-        const hn::RebindToSigned<FloatTag> di;
-        HWY_ALIGN std::uint32_t nodes[lanes];
-        hn::Store(hn::Add(hn::BitCast(du, line[0]), hn::BitCast(du, hn::ConvertTo(di, cells))), du, nodes);
-        const auto* values_of_nodes = reinterpret_cast<const float*>(lit_.nodes());
-        for (std::size_t i = 0; i < lanes; ++i) from[i] = values_of_nodes + 4 * std::size_t{nodes[i]};
+        const auto* nodes = reinterpret_cast<const char*>(lit_.nodes());
+        const std::uint32_t* offsets = offsets_ + k;
+        const Floats beyond = hn::Load(d, beyonds_ + k);
+        const auto node = [nodes](std::uint32_t offset, std::size_t behind)
+                              HWY_ATTR { return reinterpret_cast<const float*>(nodes + offset) + behind; };
+        if (hn::AllTrue(du, hn::Eq(hn::Load(du, offsets), hn::Set(du, offsets[0])))) {
+            const float* here = node(offsets[0], 0);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Floats from = hn::Set(d, here[i]);
+                values[i] = hn::Add(from, hn::Mul(beyond, hn::Sub(hn::Set(d, here[4 + i]), from)));
+            }
+            return;
+        }
         const auto interpolated = [&](std::size_t i, Floats part) HWY_ATTR {
-            const Floats here = load_blocks(from + i, 0), next = load_blocks(from + i, 4);
+            const Floats here = load_blocks([=](std::size_t k) { return node(offsets[i + k], 0); }),
+                         next = load_blocks([=](std::size_t k) { return node(offsets[i + k], 4); });
             return hn::Add(here, hn::Mul(part, hn::Sub(next, here)));
         };
         values[0] = interpolated(0, hn::Broadcast<0>(beyond));
@@ -147,116 +129,57 @@ class LitSamples {
     }
 
     // Makes the nodes that are missing, and asks for the samples that have none.
-    HWY_NOINLINE void shade_slowly(const std::uint64_t* words, std::size_t column, std::size_t k, Floats parts,
-                                   Floats (&values)[4]) {
+    HWY_NOINLINE void shade_slowly(const std::uint64_t* words, std::size_t column, std::size_t k,
+                                   Floats (&values)[4]) const {
         const FloatTag d;
         constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
         static_assert(lanes <= 16);
-        HWY_ALIGN float part[lanes], value[4][lanes];
-        hn::Store(parts, d, part);
-        const std::uint64_t missing = lanes_without_depth(values);
-        // Several strips at a time wait for memory.
-        bool points = false;
-        for (std::uint64_t rest = missing; rest != 0; rest &= rest - 1) {
+        HWY_ALIGN float value[4][lanes];
+        const float n = static_cast<float>(plane_.first_column) + static_cast<float>(column);
+        const auto part_of = [&](std::size_t i) {
+            return part_of_strip(strips_[words[i] & 0xffffffff], n, plane_.first_direction + static_cast<float>(k + i));
+        };
+        for (std::uint64_t rest = lanes_without_depth(values); rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const std::size_t number = words[i] & 0xffffffff;
-            const LitStrips::Line& line = lit_.lines()[number];
-            if (line.from != LightFrom::points) continue;
-            points = true;
-            if (line.first != LitStrips::unmade) continue;
-            const GridPlace place(lit_.light(number, samples_), part[i]);
-            __builtin_prefetch(place.upper);
-            __builtin_prefetch(place.lower);
+            if (lit_.lines()[number].from == LightFrom::points)
+                make_nodes_around(part_of(i), number, strips_[number], lit_, samples_, colour_);
         }
-        if (points) {
-            for (std::uint64_t rest = missing; rest != 0; rest &= rest - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                const std::size_t number = words[i] & 0xffffffff;
-                if (lit_.lines()[number].from == LightFrom::points) make_nodes(number, part[i]);
-            }
-            shade_several(words, parts, values);
-        }
+        interpolate(k, values);
         std::uint64_t rest = lanes_without_depth(values);
         if (rest == 0) return;
         for (int i = 0; i < 4; ++i) hn::Store(values[i], d, value[i]);
         for (; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const std::size_t number = words[i] & 0xffffffff;
-            const Rgb radiance = samples_.radiance(number, part[i], column, k + i);
+            const float part = part_of(i);
+            const Rgb radiance = samples_.radiance(number, part, column, k + i);
             value[0][i] = colour_ ? radiance.r : luminance(radiance);
             value[1][i] = radiance.g;
             value[2][i] = radiance.b;
-            value[3][i] = strips_[number].value0[3] + part[i] * strips_[number].difference[3];
+            value[3][i] = strips_[number].value0[3] + part * strips_[number].difference[3];
         }
         for (int i = 0; i < 4; ++i) values[i] = hn::Load(d, value[i]);
-    }
-
-    // Around part of a strip LightFrom::points; and, as others will be asked for soon, all nodes in that stretch of the
-    // strip for which no points have to be made.
-    void make_nodes(std::size_t number, float part) {
-        const LitStrips::Line& line = lit_.lines()[number];
-        const auto cell = static_cast<std::size_t>(LitStrips::Place(line, part).cell);
-        if (const LitStrips::Node* around = lit_.nodes() + line.first + cell;
-            !std::isnan(around[0][3]) && !std::isnan(around[1][3]))
-            return;
-        const StripLight& light = lit_.light(number, samples_);
-        const StripShades& strip = strips_[number];
-        constexpr std::size_t stretch = 8;
-        const std::size_t first = cell / stretch * stretch,
-                          last = std::min(first + stretch, static_cast<std::size_t>(line.cells));
-        LitStrips::Node* const nodes = lit_.nodes() + line.first;
-        for (std::size_t i = first; i <= last; ++i) {
-            if (!std::isnan(nodes[i][3])) continue;
-            const float at = static_cast<float>(i) / line.cells;
-            if (!light_of_points(light, at, number, i == cell || i == cell + 1, nodes[i])) continue;
-            if (!colour_) nodes[i] = {luminance({nodes[i][0], nodes[i][1], nodes[i][2]}), 0, 0, 0};
-            nodes[i][3] = strip.value0[3] + at * strip.difference[3];
-        }
-    }
-
-    // The light part of the way along a strip, and a zero; false where points for it have to be made and it is not
-    // needed.
-    HWY_INLINE bool light_of_points(const StripLight& light, float part, std::size_t strip, bool needed,
-                                    LitStrips::Node& value) const {
-        const Four d;
-        const GridPlace place(light, part);
-        hn::Vec<Four> corner[4];
-        if (LightGrid::are_made(place.upper, place.upper + light.right, place.lower, place.lower + light.right)) {
-            // The word that says so is −0 as a float.
-            const auto load = [d](const std::uint32_t* point)
-                                  HWY_ATTR { return hn::Load(d, reinterpret_cast<const float*>(point)); };
-            corner[0] = load(place.upper);
-            corner[1] = load(place.upper + light.right);
-            corner[2] = load(place.lower);
-            corner[3] = load(place.lower + light.right);
-        } else if (needed) {
-            const LightCache::Corners made = samples_.corners(strip, place.row, place.column);
-            for (std::size_t k = 0; k < 4; ++k) corner[k] = hn::LoadU(d, made[k].data());
-        } else {
-            return false;
-        }
-        const auto right = hn::Broadcast<1>(place.beyond), down = hn::Broadcast<0>(place.beyond);
-        const auto between = [](hn::Vec<Four> v, hn::Vec<Four> w, hn::Vec<Four> to_w)
-                                 HWY_ATTR { return hn::Add(v, hn::Mul(to_w, hn::Sub(w, v))); };
-        hn::StoreU(hn::Max(between(between(corner[0], corner[1], right), between(corner[2], corner[3], right), down),
-                           hn::Zero(d)),
-                   d, value.data());
-        return true;
     }
 
     const EpipolarPlane& plane_;
     const StripShades* strips_;
     LitStrips& lit_;
     const SampleSource& samples_;
-    bool colour_;
+    bool colour_, depth_;
+    std::uint32_t* offsets_;  // of a column: bytes before the first node of each sample
+    float* beyonds_;          // and how far it lies on from there, in cells
 };
 
 void ShadeLit(const EpipolarPlane& plane, std::span<const StripShades> strips, LitStrips& lit,
               const SampleSource& samples, const ShadedPlane& out) {
-    LitSamples lit_samples(plane, strips, lit, samples, out.values[1] != nullptr);
-    shade_vectors(plane, out,
-                  [&](const std::uint64_t* words, std::size_t column, std::size_t k, Floats(&values)[4])
-                      HWY_ATTR { lit_samples.shade(words, column, k, values); });
+    make_nodes_of_seen({plane.words, plane.columns * plane.directions}, strips, lit, samples, out.values[1] != nullptr);
+    thread_local std::vector<std::uint32_t, CacheLineAllocator<std::uint32_t> > offsets;
+    thread_local std::vector<float, CacheLineAllocator<float> > beyonds;
+    constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
+    offsets.resize(plane.directions + lanes);
+    beyonds.resize(plane.directions + lanes);
+    shade_vectors(plane, out, LitSamples(plane, strips, lit, samples, out, offsets.data(), beyonds.data()));
 }
 #endif
 

@@ -31,11 +31,12 @@ using NumberTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Numbers = hn::Vec<NumberTag>;
 
-// Four floats so far behind each fourth of these places, one after the other.
-HWY_INLINE Floats load_blocks(const float* const* places, std::size_t behind) {
+// Four floats at place(0), place(4), …, one after the other.
+template <class Place>
+HWY_INLINE Floats load_blocks(const Place& place) {
     const FloatTag d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
-    const auto in_all_blocks = [&](std::size_t i) HWY_ATTR { return hn::LoadDup128(d, places[i] + behind); };
+    const auto in_all_blocks = [&](std::size_t i) HWY_ATTR { return hn::LoadDup128(d, place(i)); };
     if constexpr (lanes == 4)
         return in_all_blocks(0);
     else if constexpr (lanes == 8)
@@ -44,11 +45,15 @@ HWY_INLINE Floats load_blocks(const float* const* places, std::size_t behind) {
         // Half by half: g++ 12 fails inside on blends of blocks that are already in a register.
         const hn::Half<FloatTag> dh;
         const auto half = [&](std::size_t i) HWY_ATTR {
-            return hn::OddEvenBlocks(hn::LoadDup128(dh, places[i + 4] + behind),
-                                     hn::LoadDup128(dh, places[i] + behind));
+            return hn::OddEvenBlocks(hn::LoadDup128(dh, place(i + 4)), hn::LoadDup128(dh, place(i)));
         };
         return hn::Combine(d, half(8), half(0));
     }
+}
+
+// Four floats so far behind each fourth of these places.
+HWY_INLINE Floats load_blocks(const float* const* places, std::size_t behind) {
+    return load_blocks([=](std::size_t i) { return places[i] + behind; });
 }
 
 // Four vectors, whose block b holds four floats of sample 4 b + i, become those floats of all samples: and back.
@@ -97,7 +102,7 @@ HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
 
 // Turns all words of a plane into values and empties it. `shade_vector` takes the words of a vector of samples, of
 // which those beyond the plane show nothing, and their column and the first of their directions, and gives their
-// values.
+// values. If it has a function `begin`, that is told of each column before.
 template <class ShadeVector>
 HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out, const ShadeVector& shade_vector) {
     const FloatTag d;
@@ -109,6 +114,7 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out
         std::uint64_t* words = plane.words + column * directions;
         float* to[4];
         for (int i = 0; i < 4; ++i) to[i] = out.values[i] ? out.values[i] + column * out.strides[i] : nullptr;
+        if constexpr (requires { shade_vector.begin(column); }) shade_vector.begin(column);
         std::size_t k = 0;
         for (; aligned && k + lanes <= directions; k += lanes, words += lanes) {
             Floats values[4];

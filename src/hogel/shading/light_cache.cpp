@@ -49,7 +49,7 @@ LightCache::LightCache(const ShadedScene& scene, std::span<const float> spacing,
         const double columns = cells(side[corner], spacing[i]);
         const double words = (rows + 1) * (columns + 1) * static_cast<double>(words_of(size));
         if (!(rows < most_cells && columns < most_cells && bytes() + words * sizeof(std::uint32_t) <= most_bytes &&
-              (columns + 1) * static_cast<double>(words_of(size)) < 0x1p32)) {
+              words < 0x1p31)) {
             ++without_room_;
             continue;
         }

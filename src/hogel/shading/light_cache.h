@@ -16,13 +16,13 @@ namespace hogel {
 /// Where the light of a triangle is kept: at points in rows along its shortest side, from the corner opposite on, the
 /// rows narrower the nearer to that corner; so it suits slivers and lies within the triangle. A row or a column of
 /// points alone runs through the middle.
-struct LightGrid {
+struct alignas(32) LightGrid {
     /// The outermost points lie this part of a cell within the triangle: just at its corners and sides it touches
     /// others, and shadows of what touches say little about what is around. Four points on a small triangle are about
     /// where Gauss puts them.
     static constexpr float inset = 0.25f;
 
-    const std::uint32_t* points = nullptr;  ///< row after row; null: the triangle has no grid
+    const std::uint32_t* points = nullptr;  ///< row after row, less than 2³¹ words; null: the triangle has no grid
     std::uint32_t rows = 0, columns = 0;    ///< of cells between points
     std::uint32_t down = 0, right = 0;      ///< words from a point to the next in its column, and in its row
     std::uint32_t corner = 0;               ///< 0, 1 or 2
@@ -95,6 +95,7 @@ class LightCache {
 
     /// For loops that read by themselves.
     const LightGrid& grid(std::size_t index) const { return grids_[index]; }
+    std::span<const LightGrid> grids() const { return grids_; }
     /// The first three numbers of four points, made if need be: of a point of triangle `index`, the next in its row,
     /// and the two in the next row; each followed by a zero.
     using Corners = std::array<std::array<float, 4>, 4>;
