@@ -152,6 +152,8 @@ class LitSamples {
         for (; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const std::size_t number = words[i] & 0xffffffff;
+            // A lane beyond the column, where begin() saw the next one.
+            if (number == EpipolarPlane::nobody) continue;
             const float part = part_of(i);
             const Rgb radiance = samples_.radiance(number, part, column, k + i);
             value[0][i] = colour_ ? radiance.r : luminance(radiance);

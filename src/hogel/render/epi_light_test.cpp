@@ -88,6 +88,7 @@ struct Strips final : SampleSource {
     }
 
     Rgb radiance(std::size_t strip, float part, std::size_t column, std::size_t k) const override {
+        EXPECT_NE(strip, EpipolarPlane::nobody);
         return {float(strip) + part, float(column), float(k)};
     }
     Weights weights_at(std::size_t strip, float part) const { return origins[strip].weights(part); }
