@@ -21,6 +21,7 @@ struct Strip {
 struct alignas(64) StripShades {
     float x0, z0, dx, dz;            ///< end 0, and the way to end 1
     float value0[4], difference[4];  ///< R, G, B (or the only channel first), depth ζ in metres
+    float unused[4] = {};            ///< fills the line
 };
 
 /// Samples of a column that lie side by side, of which it is known how far the farthest of them is.
