@@ -123,9 +123,7 @@ class LitSamples {
 
     // Which lanes have no depth, as bits.
     static HWY_INLINE std::uint64_t lanes_without_depth(const Floats (&values)[4]) {
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(FloatTag(), hn::IsNaN(values[3]), bytes);
-        return bytes[0] | std::uint64_t{bytes[1]} << 8;
+        return bits_of(hn::RebindMask(NumberTag(), hn::IsNaN(values[3])));
     }
 
     // Makes the nodes that are missing, and asks for the samples that have none.

@@ -92,6 +92,15 @@ HWY_INLINE Floats parts_of_several(const float* const* strips, Floats n, Floats 
     return parts_of_strips(n, K, place);
 }
 
+// Which lanes are true, as bits.
+HWY_INLINE std::uint64_t bits_of(hn::Mask<NumberTag> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(NumberTag(), mask, bytes);
+    std::uint64_t bits;
+    std::memcpy(&bits, bytes, sizeof(bits));
+    return bits;
+}
+
 // The numbers of a vector of words.
 HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
     const NumberTag du;

@@ -8,7 +8,6 @@
 
 #include <bit>
 #include <cstddef>
-#include <cstring>
 
 #include "hogel/render/epi_kernels_internal.h"
 #include "hogel/render/epi_samples_internal.h"
@@ -24,15 +23,6 @@ void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, cons
 }
 #else
 using FloatMask = hn::Mask<FloatTag>;
-
-// Which lanes are true, as bits.
-HWY_INLINE std::uint64_t bits_of(hn::Mask<NumberTag> mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(NumberTag(), mask, bytes);
-    std::uint64_t bits;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    return bits;
-}
 
 // The strips of a vector of samples. Vector i of each sort holds those of samples 4 b + i in its blocks b of four
 // lanes.
