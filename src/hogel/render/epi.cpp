@@ -82,7 +82,7 @@ class EpiRenderer final : public LightFieldSource {
                                           scene_->fronts_only};
                 // Which the same samples of all its planes see.
                 const EpipolarFrame::Plane any = frame_.plane(first_row + row, 0);
-                see_boxes(clusters_.boxes, plane, any.shift, any.z0, work.boxes);
+                work.boxes.begin_row(clusters_.boxes, plane, any.shift, any.z0);
                 for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
                     const std::size_t of_slab = slow % RowRays::most_planes;
                     if (of_slab == 0) find_crossings(clusters_, rays_of(plane, first_row + row, slow), work.crossings);
@@ -158,7 +158,7 @@ class EpiRenderer final : public LightFieldSource {
         for (std::size_t i = 0; i < crossings.size(); ++i) {
             const auto [triangles, cluster] = crossings[i];
             work.boxes.prefetch(crossings[std::min(i + boxes_ahead, crossings.size() - 1)].cluster);
-            if (work.occlusion.hides(work.boxes[cluster], plane)) continue;
+            if (work.occlusion.hides(work.boxes, cluster, plane)) continue;
             const std::size_t first = cluster * cluster_size;
             for (std::uint64_t rest = triangles; rest != 0; rest &= rest - 1) {
                 const std::size_t next = first + static_cast<std::size_t>(std::countr_zero(rest));

@@ -36,37 +36,38 @@ BoxBounds::BoxBounds(const ClusterBox& box, const EpipolarPlane& plane, double s
     margin = static_cast<float>(1e-6 * reach);
 }
 
-void SeenBoxes::make_room(std::size_t boxes, const EpipolarPlane& plane) {
-    lines = (PlaneCells::rows(plane.directions) + CellColumns::rows - 1) / CellColumns::rows;
-    columns.resize(boxes * lines);
-    depths.resize(boxes);
+void SeenBoxes::begin_row(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0) {
+    boxes_ = boxes;
+    plane_ = &plane;
+    shift_ = shift;
+    z0_ = z0;
+    ++row_;
+    lines_ = CellColumns::lines(plane.directions);
+    columns_.resize(boxes.size() * lines_);
+    known_.resize(boxes.size());
 }
 
-void see_boxes_plain(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0,
-                     SeenBoxes& to) {
+BoxDepth see_box_plain(const ClusterBox& cluster, const EpipolarPlane& plane, double shift, double z0,
+                       CellColumns* columns) {
     const auto first = static_cast<float>(plane.first_column);
     const float last = first + static_cast<float>(plane.columns) - 1;
     const float K_last = plane.first_direction + static_cast<float>(plane.directions) - 1;
-    to.make_room(boxes.size(), plane);
-    std::ranges::fill(to.columns, CellColumns{});
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const BoxBounds box(boxes[i], plane, shift, z0);
-        std::uint16_t widest = 0;
-        for (std::size_t row = 0; row < PlaneCells::rows(plane.directions); ++row) {
-            // The columns that see the box in the cells' directions.
-            const float Ka = plane.first_direction + static_cast<float>(row * cell_directions);
-            const float Kb = std::min(K_last, Ka + static_cast<float>(cell_directions - 1));
-            const auto [least, most] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});
-            const float begin = std::max(first, std::ceil((box.x_low - most) - box.margin));
-            const float end = std::min(last, std::floor((box.x_high - least) + box.margin));
-            if (!(begin <= end)) continue;
-            CellColumns& line = to.columns[i * to.lines + row / CellColumns::rows];
-            line.first[row % CellColumns::rows] = static_cast<std::uint16_t>(begin - first);
-            widest =
-                std::max(widest, line.count[row % CellColumns::rows] = static_cast<std::uint16_t>(end - begin + 1));
-        }
-        to.depths[i] = {box.nearest, widest};
+    std::fill_n(columns, CellColumns::lines(plane.directions), CellColumns{});
+    const BoxBounds box(cluster, plane, shift, z0);
+    std::uint16_t widest = 0;
+    for (std::size_t row = 0; row < PlaneCells::rows(plane.directions); ++row) {
+        // The columns that see the box in the cells' directions.
+        const float Ka = plane.first_direction + static_cast<float>(row * cell_directions);
+        const float Kb = std::min(K_last, Ka + static_cast<float>(cell_directions - 1));
+        const auto [least, most] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});
+        const float begin = std::max(first, std::ceil((box.x_low - most) - box.margin));
+        const float end = std::min(last, std::floor((box.x_high - least) + box.margin));
+        if (!(begin <= end)) continue;
+        CellColumns& line = columns[row / CellColumns::rows];
+        line.first[row % CellColumns::rows] = static_cast<std::uint16_t>(begin - first);
+        widest = std::max(widest, line.count[row % CellColumns::rows] = static_cast<std::uint16_t>(end - begin + 1));
     }
+    return {box.nearest, widest};
 }
 
 bool cells_hide_plain(const EpipolarPlane& plane, const SeenBox& box) {

@@ -25,6 +25,9 @@ struct alignas(64) CellColumns {
     static constexpr std::size_t rows = 16;
     static constexpr std::size_t most = 0xffff;  ///< columns that a plane may have
     std::uint16_t first[rows], count[rows];
+
+    /// So many for all rows of a plane's cells.
+    static std::size_t lines(std::size_t directions) { return (PlaneCells::rows(directions) + rows - 1) / rows; }
 };
 
 /// Ordered bits of a depth in front of all that is in a box, and how many columns of one row at most see it.
@@ -38,25 +41,45 @@ struct SeenBox {
     BoxDepth depth;
 };
 
-/// Where the hogels of a row see the boxes of all clusters, which is the same in all its planes.
-struct SeenBoxes {
-    std::size_t lines = 0;  ///< so many CellColumns for each
-    std::vector<CellColumns, CacheLineAllocator<CellColumns>> columns;
-    std::vector<BoxDepth> depths;
+/// Finds where the hogels and directions of a plane see a box, which is moved by (shift, −z0) first. The twins find the
+/// same.
+/// @param columns  of CellColumns::lines(plane.directions)
+BoxDepth see_box_plain(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
+                       CellColumns* columns);
+BoxDepth see_box(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0, CellColumns* columns);
 
-    void make_room(std::size_t boxes, const EpipolarPlane& plane);
-    SeenBox operator[](std::size_t box) const { return {&columns[box * lines], depths[box]}; }
+/// Where the hogels of a row see the boxes of all clusters, which is the same in all its planes: found of a box when it
+/// is first asked for.
+class SeenBoxes {
+  public:
+    /// From now on of the hogels and directions of this plane, the boxes moved by (shift, −z0) first.
+    void begin_row(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0);
+    SeenBox operator[](std::size_t box) {
+        CellColumns* columns = &columns_[box * lines_];
+        Known& known = known_[box];
+        if (known.row != row_) known = {see_box(boxes_[box], *plane_, shift_, z0_, columns), row_};
+        return {columns, known.depth};
+    }
     /// Asks for what is known of a box before it is needed.
     void prefetch(std::size_t box) const {
-        __builtin_prefetch(&columns[box * lines]);
-        __builtin_prefetch(&depths[box]);
+        __builtin_prefetch(&columns_[box * lines_]);
+        __builtin_prefetch(&known_[box]);
     }
-};
 
-/// Finds that for the hogels and directions of a plane; boxes are moved by (shift, −z0) first. The twins find the same.
-void see_boxes_plain(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0,
-                     SeenBoxes& to);
-void see_boxes(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0, SeenBoxes& to);
+  private:
+    struct Known {
+        BoxDepth depth;
+        std::uint32_t row;  // of which it is known
+    };
+
+    std::span<const ClusterBox> boxes_;
+    const EpipolarPlane* plane_ = nullptr;
+    double shift_ = 0, z0_ = 0;
+    std::uint32_t row_ = 0;  // counted from 1
+    std::size_t lines_ = 0;  // so many CellColumns for each box
+    std::vector<CellColumns, CacheLineAllocator<CellColumns>> columns_;
+    std::vector<Known> known_;
+};
 
 /// Whether all samples that may see into the box lie in cells whose farthest sample is in front of it. The twins say
 /// the same.
@@ -72,7 +95,9 @@ class Occlusion {
     void update(const EpipolarPlane& plane);
     /// Whether every sample of the plane that may see into the box sees something in front of it. Never true of a box
     /// that holds something visible, or just as near as what is seen.
-    bool hides(const SeenBox& box, const EpipolarPlane& plane) const { return worth_asking_ && cells_hide(plane, box); }
+    bool hides(SeenBoxes& boxes, std::size_t box, const EpipolarPlane& plane) const {
+        return worth_asking_ && cells_hide(plane, boxes[box]);
+    }
 
   private:
     bool worth_asking_ = false;

@@ -1,4 +1,4 @@
-// The vector twins of find_farthest_plain in epi_kernels.cpp and of see_boxes_plain and cells_hide_plain in
+// The vector twins of find_farthest_plain in epi_kernels.cpp and of see_box_plain and cells_hide_plain in
 // epi_occlusion.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi_occlusion_simd.cpp"
@@ -20,8 +20,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 // A single lane holds no four columns.
 void FindFarthest(const EpipolarPlane& plane) { find_farthest_plain(plane); }
-void SeeBoxes(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0, SeenBoxes& to) {
-    see_boxes_plain(boxes, plane, shift, z0, to);
+BoxDepth SeeBox(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0, CellColumns* columns) {
+    return see_box_plain(box, plane, shift, z0, columns);
 }
 bool CellsHide(const EpipolarPlane& plane, const SeenBox& box) { return cells_hide_plain(plane, box); }
 #else
@@ -84,38 +84,36 @@ void FindFarthest(const EpipolarPlane& plane) {
 }
 
 // A row of cells a lane.
-void SeeBoxes(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0, SeenBoxes& to) {
+BoxDepth SeeBox(const ClusterBox& cluster, const EpipolarPlane& plane, double shift, double z0, CellColumns* columns) {
     const hn::RebindToFloat<Tag> df;
     const hn::RebindToSigned<Tag> di;
     const hn::Rebind<std::uint16_t, Tag> d16;
-    to.make_room(boxes.size(), plane);
-    const auto n_first = static_cast<float>(plane.first_column), columns = static_cast<float>(plane.columns);
-    const auto first = hn::Set(df, n_first), last = hn::Set(df, n_first + columns - 1), one = hn::Set(df, 1.0f);
+    const auto n_first = static_cast<float>(plane.first_column), n_count = static_cast<float>(plane.columns);
+    const auto first = hn::Set(df, n_first), last = hn::Set(df, n_first + n_count - 1), one = hn::Set(df, 1.0f);
     const auto K_last = hn::Set(df, plane.first_direction + static_cast<float>(plane.directions) - 1);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const BoxBounds box(boxes[i], plane, shift, z0);
-        const auto x_low = hn::Set(df, box.x_low), x_high = hn::Set(df, box.x_high), margin = hn::Set(df, box.margin);
-        const auto z_low = hn::Set(df, box.z_low), z_high = hn::Set(df, box.z_high);
-        auto widest = hn::Zero(di);
-        for (std::size_t row = 0; row < to.lines * CellColumns::rows; row += hn::Lanes(di)) {
-            const auto Ka = hn::Add(hn::Set(df, plane.first_direction + static_cast<float>(row * cell_directions)),
-                                    hn::Mul(hn::Iota(df, 0), hn::Set(df, static_cast<float>(cell_directions))));
-            const auto Kb = hn::Min(K_last, hn::Add(Ka, hn::Set(df, static_cast<float>(cell_directions - 1))));
-            const auto a = hn::Mul(Ka, z_low), b = hn::Mul(Ka, z_high), c = hn::Mul(Kb, z_low), e = hn::Mul(Kb, z_high);
-            const auto least = hn::Min(hn::Min(a, b), hn::Min(c, e)), most = hn::Max(hn::Max(a, b), hn::Max(c, e));
-            const auto begin = hn::Max(first, hn::Ceil(hn::Sub(hn::Sub(x_low, most), margin)));
-            const auto end = hn::Min(last, hn::Floor(hn::Add(hn::Sub(x_high, least), margin)));
-            // None where the box is not seen, however far away that is, and none of rows that are not there.
-            const auto seen = hn::And(hn::Le(begin, end), hn::Le(Ka, K_last));
-            const auto number = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Add(hn::Sub(end, begin), one)));
-            widest = hn::Max(widest, number);
-            CellColumns& line = to.columns[i * to.lines + row / CellColumns::rows];
-            const auto from = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Sub(begin, first)));
-            hn::StoreU(hn::DemoteTo(d16, from), d16, line.first + row % CellColumns::rows);
-            hn::StoreU(hn::DemoteTo(d16, number), d16, line.count + row % CellColumns::rows);
-        }
-        to.depths[i] = {box.nearest, static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(di, widest)))};
+    const BoxBounds box(cluster, plane, shift, z0);
+    const auto x_low = hn::Set(df, box.x_low), x_high = hn::Set(df, box.x_high), margin = hn::Set(df, box.margin);
+    const auto z_low = hn::Set(df, box.z_low), z_high = hn::Set(df, box.z_high);
+    auto widest = hn::Zero(di);
+    const std::size_t rows = CellColumns::lines(plane.directions) * CellColumns::rows;
+    for (std::size_t row = 0; row < rows; row += hn::Lanes(di)) {
+        const auto Ka = hn::Add(hn::Set(df, plane.first_direction + static_cast<float>(row * cell_directions)),
+                                hn::Mul(hn::Iota(df, 0), hn::Set(df, static_cast<float>(cell_directions))));
+        const auto Kb = hn::Min(K_last, hn::Add(Ka, hn::Set(df, static_cast<float>(cell_directions - 1))));
+        const auto a = hn::Mul(Ka, z_low), b = hn::Mul(Ka, z_high), c = hn::Mul(Kb, z_low), e = hn::Mul(Kb, z_high);
+        const auto least = hn::Min(hn::Min(a, b), hn::Min(c, e)), most = hn::Max(hn::Max(a, b), hn::Max(c, e));
+        const auto begin = hn::Max(first, hn::Ceil(hn::Sub(hn::Sub(x_low, most), margin)));
+        const auto end = hn::Min(last, hn::Floor(hn::Add(hn::Sub(x_high, least), margin)));
+        // None where the box is not seen, however far away that is, and none of rows that are not there.
+        const auto seen = hn::And(hn::Le(begin, end), hn::Le(Ka, K_last));
+        const auto number = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Add(hn::Sub(end, begin), one)));
+        widest = hn::Max(widest, number);
+        CellColumns& line = columns[row / CellColumns::rows];
+        const auto from = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Sub(begin, first)));
+        hn::StoreU(hn::DemoteTo(d16, from), d16, line.first + row % CellColumns::rows);
+        hn::StoreU(hn::DemoteTo(d16, number), d16, line.count + row % CellColumns::rows);
     }
+    return {box.nearest, static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(di, widest)))};
 }
 
 // Numbers of which the lowest bits are set.
@@ -169,13 +167,13 @@ HWY_AFTER_NAMESPACE();
 namespace hogel {
 
 HWY_EXPORT(FindFarthest);
-HWY_EXPORT(SeeBoxes);
+HWY_EXPORT(SeeBox);
 HWY_EXPORT(CellsHide);
 
 void find_farthest(const EpipolarPlane& plane) { HWY_DYNAMIC_DISPATCH(FindFarthest)(plane); }
 
-void see_boxes(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0, SeenBoxes& to) {
-    HWY_DYNAMIC_DISPATCH(SeeBoxes)(boxes, plane, shift, z0, to);
+BoxDepth see_box(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0, CellColumns* columns) {
+    return HWY_DYNAMIC_DISPATCH(SeeBox)(box, plane, shift, z0, columns);
 }
 
 bool cells_hide(const EpipolarPlane& plane, const SeenBox& box) { return HWY_DYNAMIC_DISPATCH(CellsHide)(plane, box); }

@@ -32,8 +32,8 @@ TEST(Occlusion, hides_only_what_cannot_be_seen_and_hides_something) {
             const double x = uniform(-60, 60), z = offer % 5 == 0 ? 0.5 : uniform(-2, 3);
             const ClusterBox box{x, x + uniform(0, 9), 0, 0, z, z + uniform(0, 0.3f)};
             SeenBoxes seen;
-            see_boxes({&box, 1}, drawn.plane, 0, 0, seen);
-            const bool hides = occlusion.hides(seen[0], drawn.plane);
+            seen.begin_row({&box, 1}, drawn.plane, 0, 0);
+            const bool hides = occlusion.hides(seen, 0, drawn.plane);
             (hides ? hidden : visible) += 1;
             if (!hides) continue;
             const std::vector<std::uint64_t> before = drawn.words;
@@ -72,20 +72,21 @@ TEST(Occlusion, vector_and_plain_boxes_are_seen_and_hidden_alike) {
             boxes[i] = {x, x + uniform(0, i % 5 == 0 ? 40 : 9), 0, 0, z, z + uniform(0, 0.1)};
         }
         const double shift = uniform(-3, 3), z0 = round % 2 == 0 ? 0 : uniform(-1, 1);
-        SeenBoxes plain;
-        see_boxes_plain(boxes, drawn.plane, shift, z0, plain);
+        const std::size_t lines = CellColumns::lines(drawn.plane.directions);
+        SeenBoxes fast;
         for (const std::int64_t target : kernel_targets()) {
             use_kernel_target(target);
-            SeenBoxes fast;
-            see_boxes(boxes, drawn.plane, shift, z0, fast);
+            fast.begin_row(boxes, drawn.plane, shift, z0);
             for (std::size_t i = 0; i < boxes.size(); ++i) {
-                ASSERT_EQ(std::memcmp(fast[i].columns, plain[i].columns, plain.lines * sizeof(CellColumns)), 0)
+                std::vector<CellColumns, CacheLineAllocator<CellColumns>> columns(lines);
+                const BoxDepth plain = see_box_plain(boxes[i], drawn.plane, shift, z0, columns.data());
+                ASSERT_EQ(std::memcmp(fast[i].columns, columns.data(), lines * sizeof(CellColumns)), 0)
                     << target << " " << round << " " << i;
-                ASSERT_EQ(fast[i].depth.nearest, plain[i].depth.nearest);
-                ASSERT_EQ(fast[i].depth.widest, plain[i].depth.widest);
-                wide += plain[i].depth.widest > 16;
+                ASSERT_EQ(fast[i].depth.nearest, plain.nearest);
+                ASSERT_EQ(fast[i].depth.widest, plain.widest);
+                wide += plain.widest > 16;
                 // Of any depth, for what is hidden has one above all.
-                const SeenBox some{plain[i].columns, {std::uint32_t(1500 + random() % 1500), plain[i].depth.widest}};
+                const SeenBox some{columns.data(), {std::uint32_t(1500 + random() % 1500), plain.widest}};
                 const bool hides = cells_hide_plain(drawn.plane, some);
                 (hides ? hidden : visible) += 1;
                 EXPECT_EQ(cells_hide(drawn.plane, some), hides) << target << " " << round << " " << i;
@@ -103,10 +104,10 @@ TEST(Occlusion, an_empty_plane_hides_nothing) {
     Occlusion occlusion;
     const ClusterBox far{0, 1, 0, 1, 1e6, 2e6};
     SeenBoxes seen;
-    see_boxes({&far, 1}, drawn.plane, 0, 0, seen);
-    EXPECT_FALSE(occlusion.hides(seen[0], drawn.plane));
+    seen.begin_row({&far, 1}, drawn.plane, 0, 0);
+    EXPECT_FALSE(occlusion.hides(seen, 0, drawn.plane));
     occlusion.update(drawn.plane);
-    EXPECT_FALSE(occlusion.hides(seen[0], drawn.plane));
+    EXPECT_FALSE(occlusion.hides(seen, 0, drawn.plane));
 }
 
 TEST(Occlusion, cells_hold_the_farthest_depth_in_all_kernels) {
