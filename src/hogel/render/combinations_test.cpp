@@ -11,6 +11,7 @@
 #include "hogel/render/antialias.h"
 #include "hogel/render/light_spacing.h"
 #include "hogel/render/renderer.h"
+#include "hogel/render/test_names_internal.h"
 #include "hogel/scene/mesh_builder.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/shading/light_cache.h"
@@ -123,12 +124,6 @@ std::vector<std::string> names() {
     for (const RendererInfo& info : renderers())
         if (info.name != "raytrace") list.emplace_back(info.name);
     return list;
-}
-
-// Names of tests have no hyphens.
-std::string test_name(std::string name) {
-    std::ranges::replace(name, '-', '_');
-    return name;
 }
 
 class Combinations : public ::testing::TestWithParam<std::string> {};

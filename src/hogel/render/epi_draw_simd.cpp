@@ -94,7 +94,7 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
             for (std::int32_t count = counts[row - group]; count > 0;
                  count -= static_cast<std::int32_t>(lanes), first += static_cast<float>(lanes), column += lanes) {
                 std::uint64_t open =
-                    bits_of(hn::Not(hn::Lt(hn::LoadU(du, farthest + row * plane_columns + column), nearest)));
+                    bits_of(du, hn::Not(hn::Lt(hn::LoadU(du, farthest + row * plane_columns + column), nearest)));
                 open &= ~std::uint64_t{0} >> (64 - std::min(count, 32));
                 if (open == 0) continue;
                 drawn += static_cast<std::size_t>(std::popcount(open));

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/lane_bits_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
@@ -62,15 +63,6 @@ HWY_INLINE Ints ordered_bits_of(Floats z) {
     const IntTag di;
     const Ints bits = hn::BitCast(di, z);
     return hn::Xor(bits, hn::Or(hn::BroadcastSignBit(bits), hn::Set(di, std::numeric_limits<std::int32_t>::min())));
-}
-
-// Which lanes are true, as bits.
-HWY_INLINE std::uint64_t bits_of(hn::Mask<NumberTag> mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(NumberTag(), mask, bytes);
-    std::uint64_t bits;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    return bits;
 }
 
 // How many hits or candidates are kept before they are worked off, and what a vector may write beyond them.

@@ -123,7 +123,7 @@ class LitSamples {
 
     // Which lanes have no depth, as bits.
     static HWY_INLINE std::uint64_t lanes_without_depth(const Floats (&values)[4]) {
-        return bits_of(hn::RebindMask(NumberTag(), hn::IsNaN(values[3])));
+        return bits_of(FloatTag(), hn::IsNaN(values[3]));
     }
 
     // Makes the nodes that are missing, and asks for the samples that have none.

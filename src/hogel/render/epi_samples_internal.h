@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "hogel/render/epi_kernels_internal.h"
+#include "hogel/render/lane_bits_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
@@ -79,26 +80,11 @@ HWY_INLINE Floats parts_of_strips(Floats n, Floats K, const Floats (&place)[4]) 
     return hn::IfThenElse(hn::Lt(positive, one), positive, one);
 }
 
-// Of samples that all show one strip, and of samples that show different ones.
+// Of samples that all show one strip.
 HWY_INLINE Floats parts_of_one(const StripShades& strip, Floats n, Floats K) {
     const FloatTag d;
     return parts_of_strips(n, K,
                            {hn::Set(d, strip.x0), hn::Set(d, strip.z0), hn::Set(d, strip.dx), hn::Set(d, strip.dz)});
-}
-HWY_INLINE Floats parts_of_several(const float* const* strips, Floats n, Floats K) {
-    Floats place[4] = {load_blocks(strips + 0, 0), load_blocks(strips + 1, 0), load_blocks(strips + 2, 0),
-                       load_blocks(strips + 3, 0)};
-    transpose(place);
-    return parts_of_strips(n, K, place);
-}
-
-// Which lanes are true, as bits.
-HWY_INLINE std::uint64_t bits_of(hn::Mask<NumberTag> mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(NumberTag(), mask, bytes);
-    std::uint64_t bits;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    return bits;
 }
 
 // The numbers of a vector of words.

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "hogel/render/epi_set_up_internal.h"
+#include "hogel/render/lane_bits_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {
@@ -33,12 +34,6 @@ using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
 constexpr std::size_t most_lanes = hn::MaxLanes(Tag());
-
-HWY_INLINE std::uint64_t bits_of(Mask mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Tag(), mask, bytes);
-    return bytes[0];
-}
 
 // Two numbers that stand so far behind each of these places.
 HWY_INLINE void load_pairs(const double* const* places, std::size_t behind, Doubles& first, Doubles& second) {
@@ -116,7 +111,7 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
         const Doubles zero = hn::Zero(d);
         const Mask below0 = hn::Lt(corner[0].height, zero), below1 = hn::Lt(corner[1].height, zero),
                    below2 = hn::Lt(corner[2].height, zero);
-        const std::uint64_t crossed = bits_of(hn::Or(hn::Xor(below0, below1), hn::Xor(below1, below2)));
+        const std::uint64_t crossed = bits_of(d, hn::Or(hn::Xor(below0, below1), hn::Xor(below1, below2)));
         const Mask alone2 = hn::Not(hn::Xor(below0, below1)), alone1 = hn::Not(hn::Xor(below0, below2));
         const Corner lone = choose(alone2, corner[2], choose(alone1, corner[1], corner[0]));
         const Corner after = choose(alone2, corner[0], choose(alone1, corner[2], corner[1]));

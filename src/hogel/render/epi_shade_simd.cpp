@@ -120,7 +120,7 @@ struct ShadeStrips {
         const auto first = static_cast<std::uint32_t>(words[0]), last = static_cast<std::uint32_t>(words[lanes - 1]);
         const Numbers numbers = numbers_of(words);
         const auto of_first = hn::Eq(numbers, hn::Set(du, first)), of_last = hn::Eq(numbers, hn::Set(du, last));
-        const std::uint64_t others = bits_of(hn::Not(hn::Or(of_first, of_last)));
+        const std::uint64_t others = bits_of(du, hn::Not(hn::Or(of_first, of_last)));
         if ((large || first == EpipolarPlane::nobody) && others == 0 && last == first) {
             if (large && first != EpipolarPlane::nobody)
                 shade_one<depth>(strips[first], n, K, values);

@@ -9,6 +9,7 @@
 
 #include "hogel/core/units.h"
 #include "hogel/render/renderer.h"
+#include "hogel/render/test_names_internal.h"
 
 namespace hogel {
 namespace {
@@ -50,11 +51,6 @@ std::vector<std::string> names() {
     std::vector<std::string> list;
     for (const RendererInfo& info : renderers()) list.emplace_back(info.name);
     return list;
-}
-// Names of tests have no hyphens.
-std::string test_name(std::string name) {
-    std::ranges::replace(name, '-', '_');
-    return name;
 }
 INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(names()),
                          [](const auto& parameter) { return test_name(parameter.param); });

@@ -12,6 +12,7 @@
 #include "hogel/core/units.h"
 #include "hogel/render/oblique_triangle_internal.h"
 #include "hogel/render/simplex_volume_internal.h"
+#include "hogel/render/test_names_internal.h"
 
 namespace hogel {
 namespace {
@@ -72,12 +73,6 @@ ShadedScene random_scene(std::mt19937& random, std::size_t count, bool behind) {
         add_triangle(scene, a, b, c, [&](Vec3) { return flat; });
     }
     return scene;
-}
-
-// Names of tests have no hyphens.
-std::string test_name(std::string name) {
-    std::ranges::replace(name, '-', '_');
-    return name;
 }
 
 class EveryRenderer : public ::testing::TestWithParam<std::string> {};

@@ -1,0 +1,31 @@
+// Masks as whole numbers; included after hwy/highway.h, once for every instruction set.
+#if defined(HOGEL_RENDER_LANE_BITS) == defined(HWY_TARGET_TOGGLE)
+#ifdef HOGEL_RENDER_LANE_BITS
+#undef HOGEL_RENDER_LANE_BITS
+#else
+#define HOGEL_RENDER_LANE_BITS
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel {
+namespace HWY_NAMESPACE {
+
+// Which lanes are true, the first in the lowest bit.
+template <class D>
+HWY_INLINE std::uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
+    std::uint8_t bytes[8] = {};
+    hwy::HWY_NAMESPACE::StoreMaskBits(d, mask, bytes);
+    std::uint64_t bits;
+    std::memcpy(&bits, bytes, sizeof(bits));
+    return bits;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel
+HWY_AFTER_NAMESPACE();
+#endif

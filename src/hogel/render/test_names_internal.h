@@ -1,0 +1,14 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+namespace hogel {
+
+/// Names of tests have no hyphens.
+inline std::string test_name(std::string name) {
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+}  // namespace hogel
