@@ -13,10 +13,10 @@
 #include <random>
 
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/capture.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/units.h"
 
 namespace {
 

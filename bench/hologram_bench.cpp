@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "hogel/core/error.h"
-#include "hogel/direct/scene_hologram.h"
-#include "hogel/hologram/stereogram.h"
-#include "hogel/image/compare.h"
-#include "hogel/optics/photograph.h"
-#include "hogel/render/renderer.h"
+#include "hogel/error.h"
+#include "hogel/hologram.h"
+#include "hogel/image.h"
+#include "hogel/photograph.h"
+#include "hogel/renderer.h"
+#include "hogel/scene_hologram.h"
 #include "hogel/trace/ray_caster.h"
 
 namespace {

@@ -11,12 +11,12 @@
 #include <ctime>
 #include <numbers>
 
-#include "hogel/core/error.h"
-#include "hogel/hologram/pattern.h"
-#include "hogel/hologram/stereogram.h"
-#include "hogel/image/compare.h"
-#include "hogel/lightfield/photograph.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/error.h"
+#include "hogel/hologram.h"
+#include "hogel/image.h"
+#include "hogel/pattern.h"
+#include "hogel/photograph.h"
+#include "hogel/ray_photograph.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
-#include "hogel/render/renderer.h"
+#include "hogel/renderer.h"
 
 namespace {
 

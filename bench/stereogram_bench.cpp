@@ -13,7 +13,7 @@
 #include <random>
 
 #include "hogel/core/parallel.h"
-#include "hogel/hologram/stereogram.h"
+#include "hogel/hologram.h"
 #include "hogel/math/fft.h"
 
 namespace {

@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "hogel/core/units.h"
-#include "hogel/hologram/stereogram.h"
-#include "hogel/image/compare.h"
-#include "hogel/lightfield/photograph.h"
-#include "hogel/optics/photograph.h"
-#include "hogel/render/renderer.h"
-#include "hogel/scene/builtin.h"
-#include "hogel/shading/shading.h"
+#include "hogel/hologram.h"
+#include "hogel/image.h"
+#include "hogel/photograph.h"
+#include "hogel/ray_photograph.h"
+#include "hogel/renderer.h"
+#include "hogel/scenes.h"
+#include "hogel/shading.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "defaults.h"
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
 namespace {

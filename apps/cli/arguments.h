@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hogel/math/vec.h"
+#include "hogel/geometry.h"
 
 namespace hogel::cli {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/codec/compress.h"
+#include "hogel/compress.h"
 #include "hogel/core/parallel.h"
 #include "resources.h"
 #include "temporary_folder.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "hogel/lightfield/light_field.h"
+#include "hogel/light_field.h"
 
 namespace hogel::cli {
 

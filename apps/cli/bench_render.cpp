@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/render/renderer.h"
+#include "hogel/renderer.h"
 #include "resources.h"
 
 namespace hogel::cli {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "hogel/lightfield/light_field.h"
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/light_field.h"
+#include "hogel/shading.h"
 #include "plot.h"
 
 namespace hogel::cli {

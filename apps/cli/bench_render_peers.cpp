@@ -10,7 +10,7 @@
 #include "bench_render_options.h"
 #include "bench_rows.h"
 #include "hogel/core/parallel.h"
-#include "hogel/render/renderer.h"
+#include "hogel/renderer.h"
 #include "resources.h"
 
 namespace hogel::cli {

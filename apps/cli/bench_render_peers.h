@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading.h"
 #include "render_peers.h"
 #include "session.h"
 

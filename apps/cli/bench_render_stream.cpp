@@ -9,8 +9,8 @@
 #include "bench_rows.h"
 #include "hogel/core/half.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
-#include "hogel/render/renderer.h"
+#include "hogel/renderer.h"
+#include "hogel/units.h"
 #include "resources.h"
 
 namespace hogel::cli {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "hogel/lightfield/light_field.h"
+#include "hogel/light_field.h"
 
 namespace hogel::cli {
 

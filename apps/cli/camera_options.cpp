@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 #include "defaults.h"
-#include "hogel/image/camera.h"
+#include "hogel/camera.h"
 
 namespace hogel::cli {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "hogel/scene/write_radiance.h"
-#include "hogel/shading/bake.h"
+#include "hogel/bake.h"
+#include "hogel/scenes.h"
 #include "inputs.h"
 #include "outputs.h"
 

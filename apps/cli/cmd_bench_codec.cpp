@@ -7,7 +7,7 @@
 #include "bench_codec.h"
 #include "bench_field.h"
 #include "commands.h"
-#include "hogel/codec/compress.h"
+#include "hogel/compress.h"
 #include "hogel/core/output_file.h"
 #include "hogel/transform/transform.h"
 #include "inputs.h"

@@ -7,7 +7,7 @@
 
 #include "bench_render_options.h"
 #include "commands.h"
-#include "hogel/render/renderer.h"
+#include "hogel/renderer.h"
 #include "hogel/scene/tessellate.h"
 #include "outputs.h"
 #include "render_peers.h"

@@ -7,8 +7,8 @@
 
 #include "commands.h"
 #include "hogel/core/parallel.h"
-#include "hogel/image/compare.h"
-#include "hogel/io/files.h"
+#include "hogel/files.h"
+#include "hogel/image.h"
 
 namespace hogel::cli {
 namespace {

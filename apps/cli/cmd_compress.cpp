@@ -4,7 +4,7 @@
 #include <map>
 
 #include "commands.h"
-#include "hogel/codec/compress.h"
+#include "hogel/compress.h"
 #include "hogel/transform/transform.h"
 #include "inputs.h"
 #include "outputs.h"

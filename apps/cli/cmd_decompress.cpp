@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "hogel/codec/stream.h"
+#include "hogel/compress.h"
 #include "inputs.h"
 #include "outputs.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "commands.h"
-#include "hogel/direct/scene_hologram.h"
 #include "hogel/hologram/parallax.h"
+#include "hogel/scene_hologram.h"
 #include "inputs.h"
 #include "outputs.h"
 

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "hogel/image/image.h"
-#include "hogel/io/files.h"
-#include "hogel/scene/import.h"
+#include "hogel/files.h"
+#include "hogel/image.h"
+#include "hogel/scenes.h"
 
 namespace hogel::cli {
 namespace {

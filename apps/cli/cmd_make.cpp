@@ -6,8 +6,8 @@
 
 #include "commands.h"
 #include "hogel/core/parallel.h"
-#include "hogel/lightfield/photograph.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/photograph.h"
+#include "hogel/ray_photograph.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "report.h"

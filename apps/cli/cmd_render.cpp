@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "commands.h"
-#include "hogel/codec/compress.h"
+#include "hogel/compress.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
-#include "hogel/render/region_memory.h"
+#include "hogel/renderer.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "resources.h"

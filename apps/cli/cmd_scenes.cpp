@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "hogel/scene/builtin.h"
-#include "hogel/shading/bake.h"
+#include "hogel/bake.h"
+#include "hogel/scenes.h"
 
 namespace hogel::cli {
 

@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "commands.h"
-#include "hogel/hologram/pattern.h"
-#include "hogel/image/levels.h"
+#include "hogel/image.h"
+#include "hogel/pattern.h"
 #include "inputs.h"
 #include "outputs.h"
 

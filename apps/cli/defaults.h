@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "hogel/core/units.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
 

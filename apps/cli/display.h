@@ -2,8 +2,8 @@
 
 #include <complex>
 
-#include "hogel/core/array.h"
-#include "hogel/image/image.h"
+#include "hogel/array.h"
+#include "hogel/image.h"
 
 namespace hogel::cli {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel::cli {
 namespace {

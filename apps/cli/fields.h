@@ -1,7 +1,6 @@
 #pragma once
 
-#include "hogel/io/files.h"
-#include "hogel/io/foreign.h"
+#include "hogel/files.h"
 #include "session.h"
 
 namespace hogel::cli {

@@ -8,18 +8,16 @@
 #include <map>
 #include <numbers>
 
-#include "hogel/codec/stream.h"
-#include "hogel/direct/scene_hologram.h"
-#include "hogel/lightfield/keep_tiles.h"
-#include "hogel/optics/photograph.h"
-#include "hogel/render/antialias.h"
-#include "hogel/render/light_spacing.h"
-#include "hogel/render/renderer.h"
-#include "hogel/scene/builtin.h"
-#include "hogel/scene/import.h"
-#include "hogel/shading/bake.h"
+#include "hogel/bake.h"
+#include "hogel/compress.h"
+#include "hogel/light_field.h"
+#include "hogel/photograph.h"
+#include "hogel/render/cache_spacing.h"
+#include "hogel/renderer.h"
+#include "hogel/scene_hologram.h"
+#include "hogel/scenes.h"
+#include "hogel/shading.h"
 #include "hogel/shading/light_cache.h"
-#include "hogel/shading/shading.h"
 #include "hogel/transform/transform.h"
 
 namespace hogel::cli {

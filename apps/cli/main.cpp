@@ -6,8 +6,8 @@
 
 #include "commands.h"
 #include "help.h"
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 #include "session.h"
 
 namespace {

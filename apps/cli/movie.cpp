@@ -11,8 +11,8 @@
 #include <sstream>
 #include <vector>
 
-#include "hogel/core/error.h"
 #include "hogel/core/output_file.h"
+#include "hogel/error.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;

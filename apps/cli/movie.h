@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "hogel/image/image.h"
+#include "hogel/image.h"
 
 namespace hogel::cli {
 

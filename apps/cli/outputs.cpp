@@ -5,9 +5,9 @@
 
 #include <chrono>
 
-#include "hogel/core/error.h"
 #include "hogel/core/output_file.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;

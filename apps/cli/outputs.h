@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "hogel/codec/compress.h"
-#include "hogel/scene/scene.h"
+#include "hogel/compress.h"
+#include "hogel/scene.h"
 #include "session.h"
 
 namespace hogel::cli {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 #include "render_peers.h"
 
 namespace hogel::cli {

@@ -1,7 +1,7 @@
 // The only file that knows EGL and OpenGL.
 #include <fmt/format.h>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 #include "render_peers.h"
 
 #ifndef HOGEL_EGL

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bench_rows.h"
-#include "hogel/lightfield/light_field.h"
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/light_field.h"
+#include "hogel/shading.h"
 
 namespace hogel::cli {
 

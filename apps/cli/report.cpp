@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "hogel/core/units.h"
+#include "hogel/units.h"
 #include "report_page.h"
 
 namespace hogel::cli {

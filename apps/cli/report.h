@@ -4,11 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/image/camera.h"
-#include "hogel/image/compare.h"
-#include "hogel/image/image.h"
-#include "hogel/lightfield/light_field.h"
-#include "hogel/optics/field.h"
+#include "hogel/camera.h"
+#include "hogel/field.h"
+#include "hogel/image.h"
+#include "hogel/light_field.h"
 
 namespace hogel::cli {
 

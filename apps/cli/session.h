@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "hogel/core/progress.h"
-#include "hogel/image/image.h"
+#include "hogel/image.h"
+#include "hogel/progress.h"
 
 namespace hogel::cli {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel::cli {
 

@@ -1,8 +1,8 @@
 #include <cstdio>
 #include <string>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/units.h"
 
 using namespace hogel;
 

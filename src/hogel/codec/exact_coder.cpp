@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "hogel/codec/bytes_internal.h"
-#include "hogel/codec/exact_coder_internal.h"
-#include "hogel/codec/hogel_coder_internal.h"
-#include "hogel/codec/residuals_internal.h"
+#include "hogel/codec/exact_coder.h"
+#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/format/residuals.h"
+#include "hogel/codec/hogel_coder.h"
 #include "hogel/core/parallel.h"
 
 namespace hogel {

@@ -1,14 +1,14 @@
-#include "hogel/codec/exact_coder_internal.h"
+#include "hogel/codec/exact_coder.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 
-#include "hogel/codec/compress.h"
-#include "hogel/codec/test_damage_internal.h"
-#include "hogel/codec/test_fields_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/codec/test_damage.h"
+#include "hogel/codec/test_fields.h"
+#include "hogel/compress.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

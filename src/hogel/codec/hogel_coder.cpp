@@ -1,4 +1,4 @@
-#include "hogel/codec/hogel_coder_internal.h"
+#include "hogel/codec/hogel_coder.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +10,14 @@
 #include <numeric>
 #include <optional>
 
-#include "hogel/codec/analysis_internal.h"
-#include "hogel/codec/bytes_internal.h"
-#include "hogel/codec/chained_hogels_internal.h"
-#include "hogel/codec/hogel_decoder_internal.h"
-#include "hogel/codec/model_states_internal.h"
-#include "hogel/codec/pictures_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/codec/decode/hogel_decoder.h"
+#include "hogel/codec/encode/analysis.h"
+#include "hogel/codec/encode/chained_hogels.h"
+#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/format/model_states.h"
+#include "hogel/codec/format/pictures.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

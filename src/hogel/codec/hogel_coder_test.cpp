@@ -1,4 +1,4 @@
-#include "hogel/codec/hogel_coder_internal.h"
+#include "hogel/codec/hogel_coder.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/codec/analysis_internal.h"
-#include "hogel/codec/level_syntax_internal.h"
-#include "hogel/codec/test_damage_internal.h"
-#include "hogel/codec/test_fields_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/codec/encode/analysis.h"
+#include "hogel/codec/format/level_syntax.h"
+#include "hogel/codec/test_damage.h"
+#include "hogel/codec/test_fields.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/codec/stream.h"
+#include "hogel/compress.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,11 @@
 #include <functional>
 #include <limits>
 
-#include "hogel/codec/bytes_internal.h"
-#include "hogel/codec/compress.h"
-#include "hogel/codec/test_damage_internal.h"
-#include "hogel/codec/test_fields_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/test_damage.h"
+#include "hogel/codec/test_fields.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "hogel/codec/classic_internal.h"
-#include "hogel/codec/exact_coder_internal.h"
-#include "hogel/codec/hogel_coder_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/codec/baselines/classic_coders.h"
+#include "hogel/codec/exact_coder.h"
+#include "hogel/codec/hogel_coder.h"
+#include "hogel/error.h"
 
 namespace hogel {
 

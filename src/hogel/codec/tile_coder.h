@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hogel/codec/unfolded.h"
+#include "hogel/codec/format/unfolded.h"
 #include "hogel/coding/jpeg4d.h"
-#include "hogel/lightfield/light_field.h"
+#include "hogel/light_field.h"
 
 namespace hogel {
 

@@ -5,10 +5,10 @@
 #include <array>
 
 #include "hogel/coding/arithmetic.h"
-#include "hogel/coding/bytes_internal.h"
-#include "hogel/coding/ezw_internal.h"
+#include "hogel/coding/ezw_passes.h"
+#include "hogel/coding/header_bytes.h"
 #include "hogel/coding/quantise.h"
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

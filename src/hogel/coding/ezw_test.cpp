@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/coding/ezw_internal.h"
+#include "hogel/coding/ezw_passes.h"
 #include "hogel/coding/quantise.h"
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
 namespace hogel {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "hogel/coding/arithmetic.h"
-#include "hogel/coding/bytes_internal.h"
-#include "hogel/coding/jpeg4d_internal.h"
-#include "hogel/coding/jpeg4d_table_internal.h"
+#include "hogel/coding/header_bytes.h"
+#include "hogel/coding/jpeg4d_blocks.h"
+#include "hogel/coding/jpeg4d_table.h"
 #include "hogel/coding/quantise.h"
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <numeric>
 
-#include "hogel/coding/jpeg4d_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/coding/jpeg4d_blocks.h"
+#include "hogel/error.h"
 #include "hogel/transform/dct.h"
 
 namespace hogel {

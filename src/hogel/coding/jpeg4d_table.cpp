@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/coding/jpeg4d_table_internal.h"
+#include "hogel/coding/jpeg4d_table.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/coding/jpeg4d_table_internal.h"
+#include "hogel/coding/jpeg4d_table.h"
 
 #include <gtest/gtest.h>
 

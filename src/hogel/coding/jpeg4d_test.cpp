@@ -6,9 +6,9 @@
 #include <numeric>
 #include <random>
 
-#include "hogel/coding/jpeg4d_internal.h"
+#include "hogel/coding/jpeg4d_blocks.h"
 #include "hogel/coding/quantise.h"
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
 namespace hogel {

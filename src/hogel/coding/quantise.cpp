@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 

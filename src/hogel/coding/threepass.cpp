@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "hogel/coding/arithmetic.h"
-#include "hogel/coding/bytes_internal.h"
-#include "hogel/coding/threepass_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/coding/header_bytes.h"
+#include "hogel/coding/three_pass_trees.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

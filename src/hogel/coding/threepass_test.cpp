@@ -5,8 +5,8 @@
 #include <cstring>
 #include <random>
 
-#include "hogel/coding/threepass_internal.h"
-#include "hogel/core/error.h"
+#include "hogel/coding/three_pass_trees.h"
+#include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
 namespace hogel {

@@ -1,4 +1,4 @@
-#include "hogel/core/array.h"
+#include "hogel/array.h"
 
 #include <sys/mman.h>
 

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "hogel/core/checksum.h"
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

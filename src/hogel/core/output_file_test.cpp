@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "hogel/core/error.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -1,8 +1,8 @@
-#include "hogel/core/units.h"
+#include "hogel/units.h"
 
 #include <gtest/gtest.h>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -1,12 +1,12 @@
-#include "hogel/direct/depth_planes_internal.h"
+#include "hogel/direct/depth_planes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 namespace hogel {
 

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
-#include "hogel/direct/exact_sums_internal.h"
+#include "hogel/direct/exact_sums.h"
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
-#include "hogel/direct/scene_points_internal.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/direct/scene_points.h"
+#include "hogel/error.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/direct/exact_sums_internal.h"
+#include "hogel/direct/exact_sums.h"
 
 namespace hogel {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-#include "hogel/direct/exact_sums_internal.h"
+#include "hogel/direct/exact_sums.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
-#include "hogel/direct/depth_planes_internal.h"
+#include "hogel/direct/depth_planes.h"
+#include "hogel/error.h"
 #include "hogel/math/fft.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
-#include "hogel/direct/scene_points_internal.h"
+#include "hogel/direct/scene_points.h"
 
 namespace hogel {
 

@@ -2,7 +2,7 @@
 
 #include <complex>
 
-#include "hogel/math/vec.h"
+#include "hogel/geometry.h"
 
 namespace hogel {
 

@@ -5,7 +5,7 @@
 
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
-#include "hogel/direct/scene_points_internal.h"
+#include "hogel/direct/scene_points.h"
 
 namespace hogel {
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "hogel/direct/depth_planes_internal.h"
+#include "hogel/direct/depth_planes.h"
 #include "hogel/optics/spectrum.h"
 
 namespace hogel {

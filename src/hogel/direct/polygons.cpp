@@ -4,7 +4,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "hogel/direct/scene_points_internal.h"
+#include "hogel/direct/scene_points.h"
 #include "hogel/optics/tilt.h"
 
 namespace hogel {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "hogel/direct/scene_points_internal.h"
+#include "hogel/direct/scene_points.h"
 
 namespace hogel {
 

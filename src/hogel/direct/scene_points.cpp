@@ -7,7 +7,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/core/random.h"
-#include "hogel/direct/scene_points_internal.h"
+#include "hogel/direct/scene_points.h"
 
 namespace hogel {
 namespace {

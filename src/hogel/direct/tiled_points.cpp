@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/direct/exact_sums_internal.h"
-#include "hogel/direct/scene_points_internal.h"
+#include "hogel/direct/exact_sums.h"
+#include "hogel/direct/scene_points.h"
 #include "hogel/hologram/unit_roots.h"
 
 namespace hogel {

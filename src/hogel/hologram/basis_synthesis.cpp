@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <deque>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
-#include "hogel/hologram/direction_phases_internal.h"
+#include "hogel/error.h"
+#include "hogel/hologram/direction_phases.h"
 #include "hogel/hologram/fringe_table.h"
-#include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/transform/transform.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

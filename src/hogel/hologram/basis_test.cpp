@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/hologram.h"
 #include "hogel/hologram/frequency_grid.h"
 #include "hogel/hologram/fringe_table.h"
-#include "hogel/hologram/stereogram.h"
 #include "hogel/math/fft.h"
 #include "hogel/transform/transform.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

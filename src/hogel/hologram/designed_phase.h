@@ -2,7 +2,7 @@
 
 #include <complex>
 
-#include "hogel/core/array.h"
+#include "hogel/array.h"
 #include "hogel/math/fft.h"
 
 namespace hogel {

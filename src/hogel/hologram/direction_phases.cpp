@@ -1,5 +1,5 @@
 #include "hogel/hologram/designed_phase.h"
-#include "hogel/hologram/direction_phases_internal.h"
+#include "hogel/hologram/direction_phases.h"
 
 namespace hogel {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <optional>
 
-#include "hogel/hologram/direction_phases_internal.h"
-#include "hogel/hologram/fast_squares_internal.h"
-#include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/hologram/direction_phases.h"
+#include "hogel/hologram/fast_tiles.h"
+#include "hogel/hologram/hogel_synthesis.h"
 
 namespace hogel {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "hogel/hologram/scattered_lobes.h"
-#include "hogel/lightfield/light_field.h"
+#include "hogel/hologram/hemicube_resampling.h"
+#include "hogel/light_field.h"
 
 namespace hogel {
 

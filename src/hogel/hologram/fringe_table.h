@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "hogel/core/array.h"
+#include "hogel/array.h"
 
 namespace hogel {
 

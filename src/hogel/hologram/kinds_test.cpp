@@ -5,12 +5,12 @@
 #include <functional>
 #include <numbers>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/hologram.h"
 #include "hogel/hologram/frequency_grid.h"
-#include "hogel/hologram/stereogram.h"
-#include "hogel/lightfield/photograph.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/photograph.h"
+#include "hogel/ray_photograph.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -8,8 +8,8 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
+#include "hogel/hologram/cycle_lanes.h"
 #include "hogel/hologram/lobes.h"
-#include "hogel/hologram/turn_lanes_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/hologram.h"
 #include "hogel/hologram/parallax.h"
 #include "hogel/hologram/points.h"
-#include "hogel/hologram/stereogram.h"
-#include "hogel/lightfield/photograph.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/photograph.h"
+#include "hogel/ray_photograph.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hogel/lightfield/light_field.h"
+#include "hogel/light_field.h"
 
 namespace hogel {
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <optional>
 
-#include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/plane_wave_sum.h"
 #include "hogel/hologram/surface_cells.h"
 

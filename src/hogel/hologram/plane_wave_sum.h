@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-#include "hogel/core/array.h"
+#include "hogel/array.h"
 #include "hogel/math/fft.h"
 
 namespace hogel {

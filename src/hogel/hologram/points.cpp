@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 namespace hogel {
 

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "hogel/math/vec.h"
-#include "hogel/optics/field.h"
+#include "hogel/field.h"
+#include "hogel/geometry.h"
 
 namespace hogel {
 

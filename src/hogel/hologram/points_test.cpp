@@ -6,9 +6,9 @@
 #include <numbers>
 #include <string>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/error.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -5,7 +5,7 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
-#include "hogel/hologram/philox_lanes_internal.h"
+#include "hogel/hologram/philox_lanes.h"
 #include "hogel/hologram/random_bytes.h"
 
 HWY_BEFORE_NAMESPACE();

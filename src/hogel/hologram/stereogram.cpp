@@ -1,4 +1,4 @@
-#include "hogel/hologram/stereogram.h"
+#include "hogel/hologram.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "hogel/core/reused.h"
-#include "hogel/core/units.h"
-#include "hogel/hologram/hogel_synthesis_internal.h"
+#include "hogel/core/object_pool.h"
+#include "hogel/hologram/hogel_synthesis.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/hologram/stereogram.h"
+#include "hogel/hologram.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <numbers>
 #include <random>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
 #include "hogel/hologram/frequency_grid.h"
 #include "hogel/hologram/lobes.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,11 +1,11 @@
-#include "hogel/image/camera.h"
+#include "hogel/camera.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -1,11 +1,11 @@
-#include "hogel/image/camera.h"
+#include "hogel/camera.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <string>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

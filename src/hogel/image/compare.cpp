@@ -1,4 +1,4 @@
-#include "hogel/image/compare.h"
+#include "hogel/image.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/image/image.h"
+#include "hogel/image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,9 +10,9 @@
 #include <new>
 #include <system_error>
 
-#include "hogel/core/error.h"
-#include "hogel/image/image.h"
-#include "hogel/image/picture_bytes_internal.h"
+#include "hogel/error.h"
+#include "hogel/image.h"
+#include "hogel/image/picture_bytes.h"
 
 namespace hogel {
 namespace {

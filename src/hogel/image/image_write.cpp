@@ -9,11 +9,11 @@
 #include <memory>
 #include <new>
 
-#include "hogel/core/error.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
-#include "hogel/image/image.h"
-#include "hogel/image/picture_bytes_internal.h"
+#include "hogel/error.h"
+#include "hogel/image.h"
+#include "hogel/image/picture_bytes.h"
 
 namespace hogel {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "hogel/image/picture_bytes_internal.h"
+#include "hogel/image/picture_bytes.h"
 
 namespace hogel {
 namespace {

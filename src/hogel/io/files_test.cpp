@@ -1,4 +1,4 @@
-#include "hogel/io/files.h"
+#include "hogel/files.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -15,9 +15,9 @@
 #include <random>
 #include <span>
 
-#include "hogel/core/error.h"
 #include "hogel/core/half.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 // HDF5 1.10 forgets what it had begun to load when a checksum turns out wrong; builds with a leak checker ask here.
 extern "C" const char* __lsan_default_suppressions();

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "hogel/core/error.h"
-#include "hogel/io/files.h"
-#include "hogel/io/foreign.h"
+#include "hogel/error.h"
+#include "hogel/files.h"
 
 namespace hogel {
 namespace {

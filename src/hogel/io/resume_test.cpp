@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "hogel/core/error.h"
-#include "hogel/io/files.h"
+#include "hogel/error.h"
+#include "hogel/files.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/lightfield/light_field.h"
+#include "hogel/light_field.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "hogel/lightfield/light_field.h"
+#include "hogel/light_field.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/lightfield/photograph.h"
+#include "hogel/ray_photograph.h"
 
 #include <algorithm>
 #include <cmath>

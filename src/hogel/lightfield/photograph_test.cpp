@@ -1,4 +1,4 @@
-#include "hogel/lightfield/photograph.h"
+#include "hogel/ray_photograph.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

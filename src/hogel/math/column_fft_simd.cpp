@@ -10,7 +10,7 @@
 
 #include <hwy/cache_control.h>
 
-#include "hogel/core/array.h"
+#include "hogel/array.h"
 #include "hogel/math/column_fft.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <optional>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 #include "hogel/math/column_fft.h"
 
 namespace hogel {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "hogel/core/array.h"
+#include "hogel/array.h"
 
 namespace hogel {
 

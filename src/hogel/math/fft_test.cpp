@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 #include "hogel/math/column_fft.h"
 
 namespace hogel {

@@ -1,8 +1,7 @@
-#include "hogel/math/vec.h"
+#include "hogel/geometry.h"
 
 #include <gtest/gtest.h>
 
-#include "hogel/math/grid.h"
 
 namespace hogel {
 namespace {

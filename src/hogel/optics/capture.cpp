@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "hogel/core/units.h"
-#include "hogel/optics/photograph_plan_internal.h"
+#include "hogel/optics/photograph_plan.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hogel/optics/film.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/optics/film/film.h"
+#include "hogel/photograph.h"
 
 namespace hogel {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

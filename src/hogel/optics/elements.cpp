@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
 #include "hogel/optics/phase_walk.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

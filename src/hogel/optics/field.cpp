@@ -1,4 +1,4 @@
-#include "hogel/optics/field.h"
+#include "hogel/field.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <mutex>
 
+#include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/reused.h"
 
 namespace hogel {
 namespace {

@@ -1,12 +1,12 @@
-#include "hogel/optics/field.h"
+#include "hogel/field.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/optics/photograph.h"
+#include "hogel/photograph.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/units.h"
-#include "hogel/optics/photograph_plan_internal.h"
+#include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
-#include "hogel/optics/photograph.h"
+#include "hogel/photograph.h"
 
 namespace hogel {
 namespace {

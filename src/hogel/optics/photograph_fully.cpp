@@ -7,16 +7,16 @@
 #include <numbers>
 #include <numeric>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/elements.h"
-#include "hogel/optics/film_interpolation_internal.h"
-#include "hogel/optics/photograph.h"
-#include "hogel/optics/photograph_plan_internal.h"
+#include "hogel/optics/film/interpolation.h"
+#include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/optics/tilt.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/optics/photograph_plan_internal.h"
+#include "hogel/optics/photograph_plan.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/optics/photograph.h"
+#include "hogel/photograph.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
-#include "hogel/optics/photograph_plan_internal.h"
+#include "hogel/error.h"
+#include "hogel/optics/photograph_plan.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

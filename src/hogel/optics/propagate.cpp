@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
-#include "hogel/optics/lines_internal.h"
+#include "hogel/optics/lines.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum.h"
 

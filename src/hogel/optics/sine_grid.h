@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "hogel/image/camera.h"
-#include "hogel/optics/narrow_band.h"
+#include "hogel/camera.h"
+#include "hogel/optics/narrow_band/narrow_band.h"
 
 namespace hogel {
 

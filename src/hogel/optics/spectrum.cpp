@@ -7,12 +7,12 @@
 #include <mutex>
 
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
 #include "hogel/math/fft.h"
-#include "hogel/optics/lines_internal.h"
-#include "hogel/optics/narrow_band_kernels.h"
+#include "hogel/optics/lines.h"
+#include "hogel/optics/narrow_band/kernels.h"
 #include "hogel/optics/phase_walk.h"
-#include "hogel/optics/spectrum_steps_internal.h"
+#include "hogel/optics/spectrum_steps.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

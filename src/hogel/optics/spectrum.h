@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hogel/core/large_array.h"
-#include "hogel/optics/field.h"
+#include "hogel/core/paged_array.h"
+#include "hogel/field.h"
 
 namespace hogel {
 

@@ -6,12 +6,12 @@
 #include <numbers>
 #include <random>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
+#include "hogel/error.h"
 #include "hogel/optics/elements.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/tilt.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/optics/low_pass.h"
-#include "hogel/optics/spectrum_steps_internal.h"
+#include "hogel/optics/spectrum_steps.h"
 
 namespace hogel {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hogel/math/vec.h"
+#include "hogel/geometry.h"
 #include "hogel/optics/spectrum.h"
 
 namespace hogel {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/math/vec.h"
-#include "hogel/optics/field.h"
+#include "hogel/field.h"
+#include "hogel/geometry.h"
 
 namespace hogel {
 

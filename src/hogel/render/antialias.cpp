@@ -1,4 +1,4 @@
-#include "hogel/render/antialias.h"
+#include "hogel/renderer.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "hogel/core/error.h"
-#include "hogel/render/renderer.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/render/antialias.h"
+#include "hogel/renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,9 @@
 #include <limits>
 #include <numbers>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/core/units.h"
-#include "hogel/render/renderer.h"
+#include "hogel/error.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <string>
 
-#include "hogel/core/units.h"
-#include "hogel/render/renderer.h"
+#include "hogel/bake.h"
+#include "hogel/renderer.h"
 #include "hogel/scene/analytic.h"
-#include "hogel/scene/builtin.h"
-#include "hogel/shading/bake.h"
-#include "hogel/shading/shading.h"
+#include "hogel/scenes.h"
+#include "hogel/shading.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -7,15 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "hogel/core/units.h"
-#include "hogel/render/antialias.h"
-#include "hogel/render/light_spacing.h"
-#include "hogel/render/renderer.h"
-#include "hogel/render/test_names_internal.h"
+#include "hogel/render/cache_spacing.h"
+#include "hogel/render/test_names.h"
+#include "hogel/renderer.h"
 #include "hogel/scene/mesh_builder.h"
 #include "hogel/scene/shapes.h"
+#include "hogel/shading.h"
 #include "hogel/shading/light_cache.h"
-#include "hogel/shading/shading.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -7,9 +7,9 @@
 #include <random>
 #include <string>
 
-#include "hogel/core/units.h"
-#include "hogel/render/renderer.h"
-#include "hogel/render/test_names_internal.h"
+#include "hogel/render/test_names.h"
+#include "hogel/renderer.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

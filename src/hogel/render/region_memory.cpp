@@ -1,7 +1,7 @@
-#include "hogel/render/region_memory.h"
+#include "hogel/renderer.h"
 
-#include "hogel/render/oblique_triangle_internal.h"
-#include "hogel/render/region_memory_internal.h"
+#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/region_memory.h"
 
 namespace hogel {
 namespace {

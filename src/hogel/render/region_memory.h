@@ -1,14 +1,28 @@
 #pragma once
 
-#include <string_view>
-
-#include "hogel/lightfield/light_field.h"
+#include "hogel/array.h"
+#include "hogel/render/row_axes.h"
 
 namespace hogel {
 
-/// What a renderer allocates to render a region of hogels at once, besides the tile that takes its values: the depth
-/// buffer of `simplex`, `simplex-strip`, `simplex3d` and `oblique`, in bytes. Nothing for those whose memory does not
-/// grow with the region.
-double depth_buffer_bytes(std::string_view algorithm, const LightFieldGrid& grid, const HogelRange& region);
+/// The shapes of the depth buffers that renderers keep for a region of hogels: one NearestTriangle a sample.
+
+/// [v][u][t][s]: the inner loops of `simplex` run over hogels.
+inline Shape<4> simplex_buffer(const LightFieldGrid& grid, const HogelRange& region) {
+    return {grid.directions_v, grid.directions_u, region.nt, region.ns};
+}
+
+/// [slow hogels][fast hogels][fast directions]: the rays of one V.
+inline Shape<3> simplex_strip_buffer(const RowAxes& axes, const HogelRange& region) {
+    return {axes.slow_hogels(region), axes.fast_hogels(region), axes.fast_directions()};
+}
+
+/// [v][u][s]: one row of hogels.
+inline Shape<3> simplex3d_buffer(const LightFieldGrid& grid, const HogelRange& region) {
+    return {grid.directions_v, grid.directions_u, region.ns};
+}
+
+/// [t][s]: one direction.
+inline Shape<2> oblique_buffer(const HogelRange& region) { return {region.nt, region.ns}; }
 
 }  // namespace hogel

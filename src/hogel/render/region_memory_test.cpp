@@ -1,10 +1,9 @@
-#include "hogel/render/region_memory.h"
+#include "hogel/renderer.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "hogel/render/renderer.h"
 
 namespace hogel {
 namespace {

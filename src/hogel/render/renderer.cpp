@@ -1,4 +1,4 @@
-#include "hogel/render/renderer.h"
+#include "hogel/renderer.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,14 +6,14 @@
 #include <array>
 #include <vector>
 
-#include "hogel/render/epi_internal.h"
-#include "hogel/render/mvr_internal.h"
-#include "hogel/render/oblique_internal.h"
-#include "hogel/render/raytrace_internal.h"
-#include "hogel/render/simplex3d_internal.h"
-#include "hogel/render/simplex_internal.h"
-#include "hogel/render/simplex_strip_internal.h"
-#include "hogel/render/zbuffer_internal.h"
+#include "hogel/render/baselines/mvr.h"
+#include "hogel/render/baselines/oblique.h"
+#include "hogel/render/baselines/raytrace.h"
+#include "hogel/render/baselines/zbuffer.h"
+#include "hogel/render/epi/epi.h"
+#include "hogel/render/simplex/simplex.h"
+#include "hogel/render/simplex/simplex3d.h"
+#include "hogel/render/simplex/simploid.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/render/renderer.h"
+#include "hogel/renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <random>
 #include <string>
 
-#include "hogel/core/error.h"
-#include "hogel/core/units.h"
-#include "hogel/render/oblique_triangle_internal.h"
-#include "hogel/render/simplex_volume_internal.h"
-#include "hogel/render/test_names_internal.h"
+#include "hogel/error.h"
+#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/simplex/volume.h"
+#include "hogel/render/test_names.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "hogel/core/error.h"
-#include "hogel/scene/builtin_internal.h"
+#include "hogel/error.h"
+#include "hogel/scene/analytic_scenes.h"
 #include "hogel/scene/mesh_builder.h"
 
 namespace hogel {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "hogel/math/vec.h"
+#include "hogel/geometry.h"
 
 namespace hogel {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "hogel/core/error.h"
-#include "hogel/scene/import.h"
+#include "hogel/error.h"
+#include "hogel/scenes.h"
 
 namespace hogel {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 

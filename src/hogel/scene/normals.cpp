@@ -3,7 +3,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "hogel/core/checksum.h"
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 namespace {

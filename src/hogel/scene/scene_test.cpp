@@ -1,4 +1,4 @@
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "hogel/core/error.h"
-#include "hogel/scene/import.h"
+#include "hogel/error.h"
+#include "hogel/scenes.h"
 
 namespace hogel {
 namespace {

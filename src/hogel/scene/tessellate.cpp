@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 #include "hogel/scene/shapes.h"
 
 namespace hogel {

@@ -1,4 +1,4 @@
-#include "hogel/scene/write_radiance.h"
+#include "hogel/scenes.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "hogel/core/error.h"
 #include "hogel/core/output_file.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/scene/write_radiance.h"
+#include "hogel/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,7 @@
 #include <fstream>
 #include <random>
 
-#include "hogel/core/error.h"
-#include "hogel/scene/import.h"
+#include "hogel/error.h"
 #include "hogel/scene/shapes.h"
 
 namespace hogel {

@@ -1,4 +1,4 @@
-#include "hogel/shading/bake.h"
+#include "hogel/bake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include "hogel/core/random.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scene/tessellate.h"
-#include "hogel/shading/lighting_internal.h"
-#include "hogel/shading/shading.h"
+#include "hogel/shading.h"
+#include "hogel/shading/lighting.h"
 
 namespace hogel {
 namespace {

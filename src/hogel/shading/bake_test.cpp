@@ -1,15 +1,15 @@
-#include "hogel/shading/bake.h"
+#include "hogel/bake.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 #include "hogel/scene/shapes.h"
-#include "hogel/shading/shading.h"
-#include "hogel/shading/test_scenes_internal.h"
+#include "hogel/shading.h"
+#include "hogel/shading/test_scenes.h"
 
 namespace hogel {
 namespace {

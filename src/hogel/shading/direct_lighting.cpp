@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 
-#include "hogel/shading/gloss_internal.h"
+#include "hogel/shading/gloss.h"
 #include "hogel/shading/illumination.h"
-#include "hogel/shading/lighting_internal.h"
+#include "hogel/shading/lighting.h"
 #include "hogel/shading/reflection.h"
-#include "hogel/shading/shadow_maps_internal.h"
+#include "hogel/shading/shadow_maps.h"
 
 namespace hogel {
 namespace {

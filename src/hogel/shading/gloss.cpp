@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/shading/gloss_internal.h"
+#include "hogel/shading/gloss.h"
 
 namespace hogel {
 

@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-#include "hogel/shading/gloss_internal.h"
+#include "hogel/shading/gloss.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {

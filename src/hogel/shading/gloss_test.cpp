@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/shading/gloss_internal.h"
+#include "hogel/shading/gloss.h"
 #include "hogel/shading/illumination.h"
 
 namespace hogel {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 

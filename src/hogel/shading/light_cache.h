@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading.h"
 
 namespace hogel {
 

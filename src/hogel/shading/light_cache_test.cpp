@@ -6,8 +6,8 @@
 #include <random>
 
 #include "hogel/core/parallel.h"
-#include "hogel/shading/shading.h"
-#include "hogel/shading/test_scenes_internal.h"
+#include "hogel/shading.h"
+#include "hogel/shading/test_scenes.h"
 
 namespace hogel {
 namespace {

@@ -1,5 +1,5 @@
 #include "hogel/shading/illumination.h"
-#include "hogel/shading/lighting_internal.h"
+#include "hogel/shading/lighting.h"
 
 namespace hogel {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 

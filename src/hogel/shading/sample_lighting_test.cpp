@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/shading/shading.h"
-#include "hogel/shading/test_scenes_internal.h"
+#include "hogel/error.h"
+#include "hogel/shading.h"
+#include "hogel/shading/test_scenes.h"
 
 namespace hogel {
 namespace {

@@ -1,4 +1,4 @@
-#include "hogel/shading/shaded_scene.h"
+#include "hogel/shading.h"
 
 #include <cmath>
 

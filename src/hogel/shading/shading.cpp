@@ -1,4 +1,4 @@
-#include "hogel/shading/shading.h"
+#include "hogel/shading.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <string>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/shading/lighting_internal.h"
+#include "hogel/error.h"
+#include "hogel/shading/lighting.h"
 #include "hogel/trace/ray_caster.h"
 
 namespace hogel {

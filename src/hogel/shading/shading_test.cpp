@@ -1,4 +1,4 @@
-#include "hogel/shading/shading.h"
+#include "hogel/shading.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
-#include "hogel/shading/test_scenes_internal.h"
+#include "hogel/error.h"
+#include "hogel/shading/test_scenes.h"
 
 namespace hogel {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "hogel/core/progress.h"
-#include "hogel/scene/scene.h"
+#include "hogel/progress.h"
+#include "hogel/scene.h"
 #include "hogel/trace/ray_caster.h"
 
 namespace hogel {

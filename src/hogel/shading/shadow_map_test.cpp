@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/scene/builtin.h"
+#include "hogel/scenes.h"
 #include "hogel/shading/illumination.h"
-#include "hogel/shading/test_scenes_internal.h"
+#include "hogel/shading/test_scenes.h"
 
 namespace hogel {
 namespace {

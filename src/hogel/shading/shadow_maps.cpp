@@ -1,7 +1,7 @@
 #include <array>
 #include <limits>
 
-#include "hogel/shading/shadow_maps_internal.h"
+#include "hogel/shading/shadow_maps.h"
 
 namespace hogel {
 namespace {

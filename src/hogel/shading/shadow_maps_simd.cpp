@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "hogel/shading/shadow_maps_internal.h"
+#include "hogel/shading/shadow_maps.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel {

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "hogel/shading/gloss_internal.h"
-#include "hogel/shading/shadow_maps_internal.h"
-#include "hogel/shading/test_scenes_internal.h"
+#include "hogel/shading/gloss.h"
+#include "hogel/shading/shadow_maps.h"
+#include "hogel/shading/test_scenes.h"
 
 namespace hogel {
 namespace {

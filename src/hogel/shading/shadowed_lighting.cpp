@@ -4,8 +4,8 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/shading/illumination.h"
-#include "hogel/shading/lighting_internal.h"
-#include "hogel/shading/shadow_maps_internal.h"
+#include "hogel/shading/lighting.h"
+#include "hogel/shading/shadow_maps.h"
 
 namespace hogel {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "hogel/scene/scene.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

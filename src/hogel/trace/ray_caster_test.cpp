@@ -7,7 +7,7 @@
 #include <memory>
 #include <random>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

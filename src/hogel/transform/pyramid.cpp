@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "hogel/core/error.h"
+#include "hogel/error.h"
 
 namespace hogel {
 namespace {

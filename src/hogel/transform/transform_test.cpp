@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/core/error.h"
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 #include "hogel/transform/dct.h"
 #include "hogel/transform/line.h"
 

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "hogel/scene.h"
+namespace hogel {
+
+struct BuiltinScene {
+    std::string_view name;
+    std::string_view description;  ///< one line
+};
+
+/// All built-in scenes, in the order in which to show them.
+std::span<const BuiltinScene> builtin_scenes();
+
+/// Makes a built-in scene for a square hologram with the given side (metres): its size and its depths scale with it.
+/// Throws Error(usage) for an unknown name, with the names that exist.
+Scene make_builtin_scene(std::string_view name, double hologram_size);
+
+
+/// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
+/// colours and base-colour textures, glTF's metallic-roughness materials, with all node transforms applied, in the
+/// file's own units and axes. What an unlit material shows becomes given radiance. Adds missing normals. Files outside
+/// the mesh's own folder are not opened. The scene has no lights: see add_default_lights. Throws Error(bad_input) with
+/// one line: the file, and what is missing, damaged or out of range.
+Scene import_scene(const std::filesystem::path& path);
+
+/// Where a fitted scene goes.
+struct Fit {
+    double width = 0, height = 0;  ///< the hologram's size, metres: the scene fills `fill` of it when seen head-on
+    double fill = 0.85;
+    double front = 0;  ///< how much of the scene's depth stands in front of the plane: 0 none (it begins at the
+                       ///< plane), 1 all of it, 0.5 the plane cuts through its middle, −1 it begins as far behind
+                       ///< the plane as it is deep
+};
+
+/// Scales a scene uniformly and moves it so that it is centred on the hologram and lies about the plane as `fit` says.
+/// Lights move along (point lights keep the look: intensities scale with the square of the length).
+void fit_scene(Scene& scene, const Fit& fit);
+
+/// A key light from the upper left in front, a weaker fill light from the right and a little ambient light, for scenes
+/// that bring no lights. Directional, so independent of the scene's size.
+void add_default_lights(Scene& scene);
+
+
+/// Writes a scene with given radiance as a binary glTF file (.glb), in metres and in the world frame: the radiance of a
+/// vertex is its colour (linear, 32-bit floats, above 1 where it is), the materials are unlit (KHR_materials_unlit),
+/// and a texture that multiplies the radiance travels inside as PNG. import_scene() reads it back. Throws
+/// Error(bad_input) for a mesh without radiance, Error(usage) for another kind of name, Error(cannot_write).
+void write_radiance(const std::filesystem::path& path, const Scene& scene);
+
+/// Throws Error(usage) for a name that write_radiance() would refuse, before there is a scene to lose.
+void require_radiance_name(const std::filesystem::path& path);
+
+}  // namespace hogel

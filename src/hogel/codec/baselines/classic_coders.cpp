@@ -1,0 +1,230 @@
+#include "hogel/codec/baselines/classic_coders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/format/colour.h"
+#include "hogel/coding/ezw.h"
+#include "hogel/coding/jpeg4d.h"
+#include "hogel/coding/quantise.h"
+#include "hogel/coding/threepass.h"
+#include "hogel/core/parallel.h"
+#include "hogel/transform/transform.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t samples_of_tile = std::size_t{1} << 24;
+
+// What is coded of a light field, and how its dimensions are transformed.
+enum class Content {
+    radiance,   // all four interleaved
+    amplitude,  // √L, hogels and directions apart
+};
+
+class ClassicCoder : public TileCoder {
+  public:
+    explicit ClassicCoder(std::string_view name, const DirectionCross& counted, Content content = Content::radiance)
+        : transform_(transform(name)), counted_(counted), content_(content) {}
+
+    HogelRange preferred_tile(const LightFieldGrid& grid) const override {
+        HogelRange tile{0, 0, 1, 1};
+        const std::size_t hogel = grid.directions() * grid.channels;
+        while (2 * tile.hogels() * hogel <= samples_of_tile && (tile.ns < grid.hogels_s || tile.nt < grid.hogels_t)) {
+            const bool widen = tile.ns < grid.hogels_s && (tile.ns <= tile.nt || tile.nt >= grid.hogels_t);
+            (widen ? tile.ns : tile.nt) *= 2;
+        }
+        return tile;
+    }
+
+    Encoded encode(LightFieldTile& tile, double step, std::size_t most_bytes) const override {
+        LightFieldTile work = tile;
+        if (content_ == Content::amplitude)
+            for (float& value : work.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
+        separate_colours(work.radiance);
+        const Pyramid pyramid = pyramid_of(tile);
+        const std::size_t channels = tile.radiance.extent(0);
+        std::vector<double> energies(channels);
+        std::vector<std::vector<std::uint8_t>> codes(channels);
+        for (std::size_t c = 0; c < channels; ++c) transform_.forward(pyramid, work.radiance[c].elements());
+        for (std::size_t c = 0; c < channels; ++c) energies[c] = energy(work.radiance[c].elements());
+        parallel_for(channels,
+                     [&](std::size_t c) { codes[c] = encode_channel(pyramid, work.radiance[c].elements(), step); });
+        shorten(codes, most_bytes);
+        ByteWriter writer;
+        for (const auto& code : codes) {
+            writer.put(static_cast<std::uint32_t>(code.size()));
+            writer.put(std::span(code));
+        }
+        restore(pyramid, work,
+                [&](std::size_t c, std::span<float> values) { round_channel(pyramid, codes[c], values); });
+        square_amplitudes(work);
+        return {std::move(writer.bytes), squared_error(tile, work, counted_)};
+    }
+
+    void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
+        const Pyramid pyramid = pyramid_of(tile);
+        decode(bytes, pyramid, tile);
+        square_amplitudes(tile);
+    }
+
+    bool directional() const override { return content_ == Content::amplitude; }
+
+    void decode_coefficients(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
+        if (!directional()) return TileCoder::decode_coefficients(bytes, tile);
+        // The hogels' own group alone; the directions stay as they are.
+        const Pyramid whole = pyramid_of(tile);
+        decode(bytes, Pyramid(whole.shape(), {whole.groups().front()}), tile);
+    }
+
+  protected:
+    virtual std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                                     double step) const = 0;
+    virtual void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                                std::span<float> values) const = 0;
+    // Puts what decode_channel() makes of the code of these values in their place.
+    virtual void round_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                               std::span<float> values) const {
+        decode_channel(pyramid, code, values);
+    }
+
+  private:
+    Pyramid pyramid_of(const LightFieldTile& tile) const {
+        const Shape<5>& shape = tile.radiance.shape();
+        const std::vector<std::size_t> axes(shape.begin() + 1, shape.end());
+        return content_ == Content::amplitude ? Pyramid::separate(axes, {{0, 1}, {2, 3}}) : Pyramid::interleaved(axes);
+    }
+    // Transforms back along the groups of `back`.
+    void decode(std::span<const std::uint8_t> bytes, const Pyramid& back, LightFieldTile& tile) const {
+        ByteReader reader(bytes, "tile");
+        const Pyramid pyramid = pyramid_of(tile);
+        std::vector<std::span<const std::uint8_t>> codes;
+        for (std::size_t c = 0; c < tile.radiance.extent(0); ++c)
+            codes.push_back(reader.take(reader.take<std::uint32_t>()));
+        if (reader.left() > 0) reader.damaged("bytes are left over");
+        restore(back, tile, [&](std::size_t c, std::span<float> values) { decode_channel(pyramid, codes[c], values); });
+    }
+    // What becomes of coefficients, which make(channel, values) leaves.
+    template <class Make>
+    void restore(const Pyramid& back, LightFieldTile& tile, Make&& make) const {
+        parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
+            const std::span<float> values = tile.radiance[c].elements();
+            make(c, values);
+            transform_.inverse(back, values);
+        });
+        join_colours(tile.radiance);
+    }
+    void square_amplitudes(LightFieldTile& tile) const {
+        if (content_ == Content::amplitude)
+            for (float& value : tile.radiance.elements()) value *= value;
+    }
+    // Cuts embedded codes so that with their lengths they take `most` bytes, each by the same part.
+    static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t most) {
+        std::size_t all = 0;
+        for (const auto& code : codes) all += code.size();
+        const std::size_t lengths = 4 * codes.size();
+        if (most == no_limit || all + lengths <= most) return;
+        std::size_t room = most > lengths ? most - lengths : 0;
+        for (auto& code : codes) {
+            const std::size_t size = code.size(), kept = all > 0 ? room * size / all : 0;
+            code.resize(kept);
+            all -= size;
+            room -= kept;
+        }
+    }
+
+    Transform transform_;
+    DirectionCross counted_;
+    Content content_;
+};
+
+// Steps below what a coder can tell apart do not make anything finer.
+double usable_step(std::span<const float> values, double step) {
+    return std::max(step, static_cast<double>(largest_magnitude(values)) * 0x1p-29);
+}
+
+class ThreePassCoder final : public ClassicCoder {
+  public:
+    ThreePassCoder(std::string_view name, const DirectionCross& counted, Content content, std::uint32_t version)
+        : ClassicCoder(name, counted, content), code_(version < 3 ? ThreePassCode::alphabets : ThreePassCode::bits) {}
+
+  private:
+    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                             double step) const override {
+        return three_pass_encode(pyramid, values, usable_step(values, step));
+    }
+    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                        std::span<float> values) const override {
+        three_pass_decode(pyramid, code, values, code_);
+    }
+    void round_channel(const Pyramid&, std::span<const std::uint8_t> code, std::span<float> values) const override {
+        three_pass_round(code, values);
+    }
+
+    ThreePassCode code_;
+};
+
+class EzwCoder final : public ClassicCoder {
+  public:
+    using ClassicCoder::ClassicCoder;
+    // The lengths of the codes.
+    std::optional<std::size_t> least_bytes(const LightFieldGrid& grid) const override {
+        return grid.channels * sizeof(std::uint32_t);
+    }
+
+  private:
+    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                             double step) const override {
+        const double signal = energy(values), error = static_cast<double>(values.size()) * step * step / 12;
+        if (signal <= error) return {};
+        EzwLimit limit;
+        limit.sqnr = 10 * std::log10(signal / error);
+        return ezw_encode(pyramid, values, limit);
+    }
+    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                        std::span<float> values) const override {
+        ezw_decode(pyramid, code, values);
+    }
+};
+
+class Jpeg4dCoder final : public ClassicCoder {
+  public:
+    Jpeg4dCoder(std::string_view name, const DirectionCross& counted, QuantisationTable table)
+        : ClassicCoder(name, counted), table_(table) {}
+
+  private:
+    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+                                             double step) const override {
+        // The entry of JPEG's table for constant blocks is 16 in two dimensions, 256 in four.
+        const double scale = table_ == QuantisationTable::jpeg ? step / 256 : step;
+        return jpeg4d_encode(pyramid, values, usable_step(values, scale), table_);
+    }
+    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+                        std::span<float> values) const override {
+        jpeg4d_decode(pyramid, code, values);
+    }
+
+    QuantisationTable table_;
+};
+
+}  // namespace
+
+std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const DirectionCross& counted,
+                                              std::uint32_t version) {
+    const bool blocks = !transform(method.transform).is_wavelet();
+    if (blocks != (method.coder == "jpeg4d"))
+        throw Error(ErrorCode::usage,
+                    fmt::format("coder {} does not go with transform {}; expected {}", method.coder, method.transform,
+                                blocks                     ? "jpeg4d with dct8"
+                                : method.coder == "jpeg4d" ? "dct8"
+                                                           : "a wavelet"));
+    if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform, counted);
+    if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform, counted, method.table);
+    const Content content = method.coder == "fringes" ? Content::amplitude : Content::radiance;
+    return std::make_unique<ThreePassCoder>(method.transform, counted, content, version);
+}
+
+}  // namespace hogel

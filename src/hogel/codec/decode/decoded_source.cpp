@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hogel/codec/encode/depth.h"
+#include "hogel/codec/format/stream_file.h"
+#include "hogel/core/lru_cache.h"
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+// A stream, and the tiles of it that were decoded last.
+class DecodedStream {
+  public:
+    DecodedStream(const std::filesystem::path& path, const StreamOptions& options, bool coefficients,
+                  StreamReader::Content content = StreamReader::Content::light_field)
+        : reader_(path, content),
+          coders_(coders_of(reader_)),
+          coefficients_(coefficients),
+          layers_(layers_of(reader_, options.layers)),
+          recent_(options.memory / tile_bytes(reader_)) {
+        if (!coefficients) return;
+        if (!coders_.front()->directional())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
+                                    path.string(), info().method.coder));
+        if (info().mapping.changes())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is coded along a tone curve, or with coarser chrominance; expected radiances "
+                                    "as they are",
+                                    path.string()));
+        if (!info().sides.empty())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is a hemicube; expected the directions of a single face", path.string()));
+    }
+
+    const StreamInfo& info() const { return reader_.info(); }
+
+    // Reads a face: as many directions as the tile has of a part, from a place on.
+    void read(std::size_t part, Unfolding::Place place, LightFieldTile& tile) const {
+        const Tiling& tiling = reader_.tiling();
+        const HogelRange &r = tile.range, &size = tiling.size();
+        const LightFieldGrid& grid = reader_.parts()[part];
+        // A tile asked for alone is decoded into its place.
+        const std::size_t first = r.t0 / size.nt * tiling.across() + r.s0 / size.ns;
+        const bool whole = tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
+        if (tiling[first] == r && whole && recent_.kept() < tiling.count()) return decode({part, first}, tile);
+        for (std::size_t t = r.t0 / size.nt; t * size.nt < r.t0 + r.nt; ++t)
+            for (std::size_t s = r.s0 / size.ns; s * size.ns < r.s0 + r.ns; ++s)
+                read_common({part, t * tiling.across() + s}, place, tile);
+    }
+
+  private:
+    struct Index {
+        std::size_t part, tile;
+        friend bool operator==(const Index&, const Index&) = default;
+    };
+
+    using Decoder = std::unique_ptr<TileDecoder>;
+
+    // Coefficients of a tile, whole.
+    class Coefficients final : public TileDecoder {
+      public:
+        explicit Coefficients(LightFieldTile tile) : tile_(std::move(tile)) {}
+        void read(LightFieldTile& part) override { copy_common(tile_, part); }
+
+      private:
+        LightFieldTile tile_;
+    };
+
+    static std::vector<std::unique_ptr<TileCoder>> coders_of(const StreamReader& reader) {
+        try {
+            const StreamInfo& info = reader.info();
+            std::vector<std::unique_ptr<TileCoder>> coders;
+            for (const LightFieldGrid& part : reader.parts()) coders.push_back(coder_of_part(info, part));
+            if (info.layer_ends.size() != coders.front()->layers(info.tile))
+                reader.damaged("its header has a wrong number of layers");
+            return coders;
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::bad_input) throw;
+            reader.damaged(error.what());
+        }
+    }
+    static std::size_t layers_of(const StreamReader& reader, std::size_t wanted) {
+        const StreamInfo& info = reader.info();
+        const std::size_t all = info.layer_ends.size();
+        if (wanted > all)
+            throw Error(ErrorCode::usage, fmt::format("{} layers were asked for, expected 1 to {}", wanted, all));
+        if (wanted == 0) wanted = all;
+        if (wanted > info.layers_there)
+            reader.damaged(fmt::format("it is truncated: it has {} of {} layers", info.layers_there, all));
+        return wanted;
+    }
+    static std::size_t tile_bytes(const StreamReader& reader) {
+        const LightFieldGrid& grid = reader.parts().front();
+        return reader.info().tile.hogels() * grid.directions() * grid.channels * sizeof(float);
+    }
+
+    std::size_t number(Index index) const { return index.part * reader_.tiling().count() + index.tile; }
+
+    // Does something with bytes of a tile, whose errors are the file's.
+    template <class Use>
+    auto with_tile_named(Index index, Use&& use) const {
+        try {
+            return use();
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::bad_input) throw;
+            reader_.damaged(fmt::format("tile {}: {}", number(index), error.what()));
+        }
+    }
+
+    std::unique_ptr<TileDecoder> open(Index index) const {
+        const HogelRange range = reader_.tiling()[index.tile];
+        const TileCoder& coder = *coders_[index.part];
+        const LightFieldGrid& grid = reader_.parts()[index.part];
+        std::vector<std::uint8_t> bytes = reader_.read(number(index), layers_);
+        return with_tile_named(index, [&]() -> std::unique_ptr<TileDecoder> {
+            if (!coefficients_)
+                return coder.open(std::move(bytes), grid, range, std::min(layers_, coder.layers(range)));
+            LightFieldTile tile(grid, range, false);
+            coder.decode_coefficients(bytes, tile);
+            return std::make_unique<Coefficients>(std::move(tile));
+        });
+    }
+
+    void decode(Index index, LightFieldTile& tile) const {
+        const std::unique_ptr<TileDecoder> decoder = open(index);
+        with_tile_named(index, [&] { decoder->read(tile); });
+    }
+
+    // What a tile of the stream has of the one that is wanted.
+    void read_common(Index index, Unfolding::Place place, LightFieldTile& tile) const {
+        const auto decoder = recent_.get(index, [&] { return std::make_shared<const Decoder>(open(index)); });
+        const LightFieldGrid& grid = reader_.parts()[index.part];
+        const HogelRange of_stream = reader_.tiling()[index.tile];
+        HogelRange common;
+        common.s0 = std::max(of_stream.s0, tile.range.s0);
+        common.t0 = std::max(of_stream.t0, tile.range.t0);
+        common.ns = std::min(of_stream.s0 + of_stream.ns, tile.range.s0 + tile.range.ns) - common.s0;
+        common.nt = std::min(of_stream.t0 + of_stream.nt, tile.range.t0 + tile.range.nt) - common.t0;
+        LightFieldTile part(grid, common, false);
+        with_tile_named(index, [&] { (*decoder)->read(part); });
+        copy_common(part, tile, place.v, place.u);
+    }
+
+    StreamReader reader_;
+    std::vector<std::unique_ptr<TileCoder>> coders_;  // of each part
+    bool coefficients_;
+    std::size_t layers_;
+    mutable RecentResults<Index, Decoder> recent_;
+};
+
+// One face of a stream.
+class DecodedFace final : public LightFieldSource {
+  public:
+    // @param depth   the same face of the stream of depths, or null
+    DecodedFace(std::shared_ptr<const DecodedStream> stream, std::size_t face,
+                std::unique_ptr<LightFieldSource> depth = {})
+        : stream_(std::move(stream)), depth_(std::move(depth)), grid_(stream_->info().faces()[face]), part_(face) {
+        if (stream_->info().layout != StreamLayout::unfolded) return;
+        part_ = 0;
+        place_ = Unfolding(stream_->info().faces()).place(grid_.face);
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return depth_ != nullptr; }
+    HogelRange preferred_tile() const override { return stream_->info().tile; }
+    void read(LightFieldTile& tile) const override {
+        validate(tile, grid_);
+        stream_->read(part_, place_, tile);
+        stream_->info().mapping.undo(tile.radiance.view());
+        if (depth_ && tile.depth.size() > 0) read_depth(*depth_, stream_->info().depth.beyond, tile);
+    }
+
+  private:
+    std::shared_ptr<const DecodedStream> stream_;
+    std::unique_ptr<LightFieldSource> depth_;
+    LightFieldGrid grid_;
+    std::size_t part_;
+    Unfolding::Place place_{0, 0};
+};
+
+}  // namespace
+
+std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, const StreamOptions& options) {
+    return std::move(open_stream_faces(path, options).front());
+}
+
+std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::filesystem::path& path,
+                                                                 const StreamOptions& options) {
+    const auto stream = std::make_shared<const DecodedStream>(path, options, false);
+    const StreamInfo& info = stream->info();
+    std::shared_ptr<const DecodedStream> depth;
+    if (info.depth_there || (info.depth.bytes > 0 && options.layers == 0))
+        depth = std::make_shared<const DecodedStream>(path, StreamOptions{.memory = options.memory}, false,
+                                                      StreamReader::Content::its_depth);
+    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    for (std::size_t face = 0; face <= info.sides.size(); ++face)
+        faces.push_back(std::make_unique<DecodedFace>(
+            stream, face, depth ? std::make_unique<DecodedFace>(depth, face) : std::unique_ptr<DecodedFace>()));
+    return faces;
+}
+
+std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path) {
+    return std::make_unique<DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
+}
+
+}  // namespace hogel

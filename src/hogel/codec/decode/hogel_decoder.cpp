@@ -1,0 +1,228 @@
+#include "hogel/codec/decode/hogel_decoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/format/model_states.h"
+#include "hogel/codec/format/pictures.h"
+#include "hogel/core/parallel.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t header_bytes = 9;
+
+TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
+                     std::uint32_t version) {
+    ByteReader header(bytes, "tile");
+    if (!hogel_tile_fits(grid, range)) header.damaged("it is too large");
+    const float step = header.take_float(), growth = header.take_float();
+    if (!(step > 0 && std::isfinite(step) && growth >= 1 && growth <= 4)) header.damaged("its steps are no steps");
+    const auto references = header.take<std::uint8_t>();
+    if (references == 0) header.damaged("its hogels have no references");
+    return TileSetup(HogelOrder(range.ns, range.nt, references, tellers_a_side, begin_of_order(version)),
+                     grid.directions_u, grid.directions_v, grid.channels, step, growth,
+                     static_cast<float>(grid.step_u() / grid.step_v()), version);
+}
+
+}  // namespace
+
+HogelDecoder::HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
+                           std::size_t levels, std::uint32_t version)
+    : bytes_(std::move(bytes)),
+      range_(range),
+      setup_(setup_from(bytes_, grid, range, version)),
+      place_(range.hogels()),
+      coded_(range.hogels()),
+      told_(range.hogels()),
+      wanted_(range.hogels()),
+      blocks_(range.hogels() * setup_.grid.count()),
+      pictures_(range.hogels()),
+      complete_(range.hogels()) {
+    const auto& order = setup_.order.hogels();
+    for (std::size_t k = 0; k < order.size(); ++k) place_[order[k].t * range.ns + order[k].s] = k;
+    take_levels(levels);
+}
+
+void HogelDecoder::take_levels(std::size_t levels) {
+    ByteReader reader(bytes_, "tile");
+    reader.take(header_bytes);
+    const auto& waves = setup_.order.waves();
+    const auto& waves_of_levels = setup_.order.waves_of_levels();
+    ModelStates before(setup_.grid.version);
+    for (std::size_t level = 0; level < levels; ++level) {
+        BlockReader side(reader.take(reader.take<std::uint32_t>()));
+        ModelStates states(setup_.grid.version);
+        states.code(side, before);
+        models_.push_back(states.models());
+        before = states;
+        const std::size_t begin = waves[waves_of_levels[level]], end = waves[waves_of_levels[level + 1]];
+        CodeLengths lengths;
+        std::vector<std::uint32_t> sizes;
+        for (std::size_t k = begin; k < end; ++k) sizes.push_back(lengths.code(side, 0));
+        if (side.ended()) reader.damaged("it ends too early");
+        if (!side.all_read()) reader.damaged("bytes are left over");
+        for (const std::uint32_t size : sizes) codes_.push_back(reader.take(size));
+    }
+    if (reader.left() > 0) reader.damaged("bytes are left over");
+}
+
+void HogelDecoder::read(LightFieldTile& part) {
+    std::vector<std::size_t> wanted;
+    for (std::size_t t = part.range.t0; t < part.range.t0 + part.range.nt; ++t)
+        for (std::size_t s = part.range.s0; s < part.range.s0 + part.range.ns; ++s)
+            wanted.push_back(place_[(t - range_.t0) * range_.ns + s - range_.s0]);
+    // A thread that waits inside must not begin something else that waits for this tile.
+    isolate([&] {
+        if (!std::ranges::all_of(wanted, [&](std::size_t k) { return complete_[k].load(); })) {
+            const std::lock_guard lock(mutex_);
+            decode(wanted);
+        }
+        parallel_for(wanted.size(), [&](std::size_t n) {
+            const std::size_t s = n % part.range.ns, t = n / part.range.ns;
+            for_each_row(pictures_[wanted[n]], setup_, [&](std::size_t c, std::size_t v, std::span<const float> row) {
+                std::ranges::copy(row, &part.radiance(c, t, s, v, 0));
+            });
+        });
+    });
+}
+
+std::span<BlockState> HogelDecoder::blocks_of(std::size_t hogel) {
+    return std::span(blocks_).subspan(hogel * setup_.grid.count(), setup_.grid.count());
+}
+
+const std::vector<Block>* HogelDecoder::beside(std::size_t hogel) const {
+    const auto& tellers = setup_.order.hogels()[hogel].tellers;
+    return tellers.empty() ? nullptr : &coded_[tellers.front().hogel].blocks;
+}
+
+// What a hogel is told; its tellers' must be known.
+void HogelDecoder::tell(std::size_t k) {
+    const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
+    const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
+    if (k < codes_.size()) {
+        BlockReader reader(codes_[k]);
+        constexpr std::size_t bytes_of_levels = 4;  // of a block, about
+        coded_[k].levels.reserve(std::min(codes_[k].size() / bytes_of_levels, setup_.grid.count()));
+        BlockModels models = models_[static_cast<std::size_t>(hogel.level)];
+        code_hogel(reader, models, setup_.grid, hogel, moved, beside(k), coded_[k]);
+        const ByteReader whole({}, "tile");
+        if (reader.ended()) whole.damaged("it ends too early");
+        if (!reader.all_read()) whole.damaged("bytes are left over");
+    } else {
+        guess_hogel(setup_.grid, moved, beside(k), coded_[k]);
+    }
+    told_[k] = true;
+}
+
+// These, and before them all that tell them something, on all threads.
+void HogelDecoder::tell_in_waves(const std::vector<std::size_t>& wanted) {
+    const auto& order = setup_.order.hogels();
+    std::vector<bool> needed(order.size());
+    for (const std::size_t k : wanted) needed[k] = true;
+    for (std::size_t k = order.size(); k-- > 0;)
+        if (needed[k])
+            for (const HogelOrder::Reference& teller : order[k].tellers) needed[teller.hogel] = true;
+    const auto& waves = setup_.order.waves();
+    for (std::size_t wave = 0; wave + 1 < waves.size(); ++wave) {
+        std::vector<std::size_t> now;
+        for (std::size_t k = waves[wave]; k < waves[wave + 1]; ++k)
+            if (needed[k] && !told_[k]) now.push_back(k);
+        parallel_for(now.size(), [&](std::size_t n) { tell(now[n]); });
+    }
+}
+
+void HogelDecoder::want_block(std::size_t k, std::size_t column, std::size_t row) {
+    BlockState& state = blocks_of(k)[row * setup_.grid.columns + column];
+    if (state != BlockState::unknown) return;
+    state = BlockState::wanted;
+    wanted_[k] = true;
+}
+
+// The blocks of other hogels, and of this one, that the wanted ones are predicted from.
+void HogelDecoder::want_what_is_shown(std::size_t k) {
+    const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
+    ReferenceWeights weights(hogel, setup_.noise, setup_.aspect);
+    const BlockGrid& grid = setup_.grid;
+    const auto states = blocks_of(k);
+    for (std::size_t n = grid.count(); n-- > 0;) {
+        if (states[n] != BlockState::wanted) continue;
+        const Block& block = coded_[k].blocks[n];
+        const std::size_t column = n % grid.columns, row = n / grid.columns;
+        if (block.mode == 0) {
+            if (column > 0) want_block(k, column - 1, row);
+            if (row > 0) want_block(k, column, row - 1);
+            if (row == 0 || block.within < first_direction) continue;
+            if (column > 0) want_block(k, column - 1, row - 1);
+            if (column + 1 < grid.columns) want_block(k, column + 1, row - 1);
+            continue;
+        }
+        const BlockChoices choices = choices_of(block, weights);
+        for (std::size_t part = 0; part < choices.parts; ++part) {
+            const ReferenceWeights::Choice& choice = choices.of[part];
+            for (std::size_t i = 0; i < choice.count; ++i) {
+                const BlockRange seen = blocks_seen(grid.columns, grid.rows, column, row, choice.shift[i]);
+                for (std::size_t r = seen.first_row; r <= seen.last_row; ++r)
+                    for (std::size_t c = seen.first_column; c <= seen.last_column; ++c)
+                        want_block(hogel.references[choice.reference[i]].hogel, c, r);
+            }
+        }
+    }
+}
+
+void HogelDecoder::make(std::size_t k) {
+    const auto states = blocks_of(k);
+    reconstruct(setup_, k, coded_[k], states, pictures_);
+    wanted_[k] = false;
+    if (std::ranges::count(states, BlockState::made) < std::ptrdiff_t(states.size())) return;
+    coded_[k].levels = {};
+    complete_[k] = true;
+}
+
+void HogelDecoder::decode(const std::vector<std::size_t>& wanted) {
+    tell_in_waves(wanted);
+    for (const std::size_t k : wanted) {
+        for (BlockState& state : blocks_of(k)) state = std::max(state, BlockState::wanted);
+        wanted_[k] = !complete_[k];
+    }
+    const std::size_t waves = setup_.order.waves().size() - 1;
+    if (wanted.size() < range_.hogels())
+        for (std::size_t wave = waves; wave-- > 0;) {
+            const std::vector<std::size_t> now = wanted_of_wave(wave);
+            tell_in_waves(now);
+            for (const std::size_t k : now) want_what_is_shown(k);
+        }
+    for (std::size_t wave = 0; wave < waves; ++wave) {
+        const std::vector<std::size_t> now = wanted_of_wave(wave);
+        parallel_for(now.size(), [&](std::size_t n) { make(now[n]); });
+    }
+}
+
+std::vector<std::size_t> HogelDecoder::wanted_of_wave(std::size_t wave) const {
+    std::vector<std::size_t> found;
+    for (std::size_t k = setup_.order.waves()[wave]; k < setup_.order.waves()[wave + 1]; ++k)
+        if (wanted_[k]) found.push_back(k);
+    return found;
+}
+
+std::size_t HogelDecoder::hogels_told() const {
+    return static_cast<std::size_t>(std::ranges::count(told_, std::uint8_t{1}));
+}
+
+std::size_t HogelDecoder::blocks_made() const {
+    return static_cast<std::size_t>(std::ranges::count(blocks_, BlockState::made));
+}
+
+std::size_t samples_in_blocks(const LightFieldGrid& grid) {
+    const auto whole = [](std::size_t n) { return (n + block_side - 1) / block_side * block_side; };
+    return whole(grid.directions_u) * whole(grid.directions_v) * grid.channels;
+}
+
+bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range) {
+    return range.ns <= most_hogel_tile_side && range.nt <= most_hogel_tile_side &&
+           samples_in_blocks(grid) <= most_hogel_tile_samples / range.hogels();
+}
+
+}  // namespace hogel

@@ -1,0 +1,226 @@
+#include "hogel/compress.h"
+
+#include <gtest/gtest.h>
+
+#include "hogel/codec/encode/secant_search.h"
+#include "hogel/codec/test_fields.h"
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+#include "hogel/transform/transform.h"
+
+namespace hogel {
+namespace {
+
+std::vector<CodingMethod> all_methods() {
+    std::vector<CodingMethod> methods{{"hogel", ""}};
+    for (const std::string_view name : transform_names())
+        if (name == "dct8")
+            methods.push_back({"jpeg4d", "dct8"});
+        else
+            methods.push_back({name.size() % 2 == 0 ? "ezw" : "threepass", std::string(name)});
+    methods.push_back({"jpeg4d", "dct8", QuantisationTable::jpeg});
+    methods.push_back({"fringes", "cdf97"});
+    return methods;
+}
+
+CompressionOptions with_sqnr(const CodingMethod& method, double sqnr) {
+    CompressionOptions options;
+    options.method = method;
+    options.target.sqnr = sqnr;
+    return options;
+}
+
+// Undoing the transform of the directions is all that is left to do.
+TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
+    const TestFolder folder;
+    const LightField field = textured_planes(9, 7, 24, 20, 3);
+    compress(field, folder / "a.hgl", with_sqnr({"fringes", "ai33"}, 30));
+    const auto source = open_coefficients(folder / "a.hgl");
+    LightField coefficients(source->grid());
+    copy(*source, coefficients);
+    const Pyramid pyramid = Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
+    transform("ai33").inverse(pyramid, coefficients.radiance.elements());
+    const LightField expected = decoded(folder / "a.hgl");
+    for (std::size_t i = 0; i < expected.radiance.size(); ++i)
+        ASSERT_NEAR(std::pow(coefficients.radiance.data()[i], 2), expected.radiance.data()[i], 1e-5) << i;
+    compress(field, folder / "b.hgl", with_sqnr({"threepass", "ai33"}, 30));
+    EXPECT_EQ(code_of([&] { open_coefficients(folder / "b.hgl"); }), ErrorCode::bad_input);
+}
+
+// The signal-to-noise ratio that was asked for is what whoever decodes the file measures, with every transform: in the
+// signal, not in the coefficients.
+TEST(Compress, gives_the_sqnr_that_was_asked_for) {
+    const TestFolder folder;
+    const LightField field = textured_planes(8, 6, 24, 20, 1);
+    for (const CodingMethod& method : all_methods()) {
+        const CompressionResult result = compress(field, folder / "a.hgl", with_sqnr(method, 25));
+        const double measured = sqnr_of(field, decoded(folder / "a.hgl"));
+        EXPECT_NEAR(measured, result.sqnr, 1e-6) << method.transform;
+        EXPECT_GE(measured, 25) << method.transform;
+        EXPECT_LE(measured, 25.1) << method.transform;
+        EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "a.hgl"));
+    }
+}
+
+// To the byte, whatever the coder and however the light field is cut.
+TEST(Compress, gives_the_rate_that_was_asked_for) {
+    const TestFolder folder;
+    struct Case {
+        LightFieldGrid grid;
+        double pixels_per_bit;
+    };
+    for (const Case& c : {Case{{8, 6, 1e-3, 24, 20, 0.3, 0.3, 3}, 2.5},
+                          {{9, 7, 1e-3, 16, 16, 0.3, 0.3, 1}, 1.5},
+                          {{31, 1, 1e-3, 33, 1, 0.3, 0.3, 1}, 0.2}}) {
+        LightField field = textured_planes(c.grid.hogels_s, c.grid.hogels_t, c.grid.directions_u, c.grid.directions_v,
+                                           c.grid.channels);
+        // Of a dark tile nothing can be cut off.
+        LightFieldTile dark(c.grid, {0, 0, 5, std::min<std::size_t>(c.grid.hogels_t, 4)}, false);
+        field.write(dark);
+        const auto pixels = static_cast<double>(c.grid.hogels() * c.grid.directions());
+        for (const CodingMethod& method :
+             {CodingMethod{"hogel", ""}, {"threepass", "ai33"}, {"ezw", "cdf97"}, {"jpeg4d", "dct8"}}) {
+            CompressionOptions options;
+            options.method = method;
+            options.target.pixels_per_bit = c.pixels_per_bit;
+            if (c.grid.hogels_s == 9) options.tile = HogelRange{0, 0, 5, 4};
+            const CompressionResult result = compress(field, folder / "a.hgl", options);
+            EXPECT_EQ(std::filesystem::file_size(folder / "a.hgl"), std::floor(pixels / c.pixels_per_bit / 8))
+                << method.coder;
+            EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "a.hgl"));
+            EXPECT_NEAR(sqnr_of(field, decoded(folder / "a.hgl")), result.sqnr, 1e-6) << method.coder;
+            EXPECT_GT(result.sqnr, 5) << method.coder;
+        }
+    }
+}
+
+// Little of it is filler, which whoever reads the metadata does not see.
+TEST(Compress, rate_is_not_met_by_filler_alone) {
+    const TestFolder folder;
+    CompressionOptions options;
+    options.metadata = {{"what", "a test"}};
+    options.target.pixels_per_bit = 0.5;
+    compress(textured_planes(17, 9, 32, 32, 1), folder / "a.hgl", options);
+    const StreamInfo info = read_stream_info(folder / "a.hgl");
+    EXPECT_GE(info.filler, 14u);
+    EXPECT_LT(static_cast<double>(info.filler), 14 + 0.005 * static_cast<double>(info.layer_ends.back()));
+    EXPECT_EQ(info.metadata, options.metadata);
+}
+
+TEST(Compress, rates_that_cannot_be_had_are_refused) {
+    const TestFolder folder;
+    const LightField field = textured_planes(8, 6, 24, 20, 1), dark(field.grid());
+    for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"threepass", "haar"}, {"ezw", "haar"}})
+        for (const double rate : {0.03, 1000.0, 1e9}) {
+            CompressionOptions options;
+            options.method = method;
+            options.target.pixels_per_bit = rate;
+            EXPECT_EQ(code_of([&] { compress(field, folder / "a.hgl", options); }), ErrorCode::usage) << rate;
+            options.target.pixels_per_bit = 1;
+            EXPECT_EQ(code_of([&] { compress(dark, folder / "a.hgl", options); }), ErrorCode::usage);
+        }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
+}
+
+// Floats and levels have an end: finer than that is refused rather than written badly.
+TEST(Compress, quality_that_cannot_be_had_is_refused) {
+    const TestFolder folder;
+    const LightField field = textured_planes(4, 3, 12, 10, 1);
+    for (const char* coder : {"hogel", "threepass"}) {
+        CompressionOptions fine = with_sqnr({coder, std::string(default_transform(coder))}, 100);
+        EXPECT_GE(compress(field, folder / "a.hgl", fine).sqnr, 100);
+        EXPECT_GE(sqnr_of(field, decoded(folder / "a.hgl")), 100);
+        fine.target.sqnr.reset();
+        fine.target.step = 1e-10;
+        EXPECT_EQ(code_of([&] { compress(field, folder / "b.hgl", fine); }), ErrorCode::usage);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.hgl"));
+}
+
+TEST(Compress, sizes_of_all_kinds_come_back) {
+    const TestFolder folder;
+    struct Case {
+        std::size_t s, t, u, v, channels;
+    };
+    for (const Case& c : {Case{1, 1, 1, 1, 1}, {1, 1, 7, 5, 3}, {13, 1, 11, 1, 1}, {3, 5, 2, 17, 3}, {1, 9, 31, 3, 1}})
+        for (const CodingMethod& method :
+             {CodingMethod{"hogel", ""}, {"threepass", "cdf97"}, {"ezw", "haar"}, {"jpeg4d", "dct8"}}) {
+            const LightField field = textured_planes(c.s, c.t, c.u, c.v, c.channels);
+            CompressionOptions options = with_sqnr(method, 40);
+            options.tile = HogelRange{0, 0, 4, 3};
+            compress(field, folder / "a.hgl", options);
+            const LightField other = decoded(folder / "a.hgl");
+            EXPECT_EQ(other.grid(), field.grid());
+            EXPECT_GE(sqnr_of(field, other), 40) << method.coder << " " << c.s << "x" << c.t << "x" << c.u;
+        }
+}
+
+TEST(Compress, nothing_to_see_takes_nearly_no_bytes) {
+    const TestFolder folder;
+    const LightField dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
+    for (const CodingMethod& method : all_methods()) {
+        const CompressionResult result = compress(dark, folder / "a.hgl", with_sqnr(method, 40));
+        EXPECT_LT(result.bytes, 300u);
+        EXPECT_EQ(result.sqnr, std::numeric_limits<double>::infinity());
+        const LightField other = decoded(folder / "a.hgl");
+        for (const float value : other.radiance.elements()) ASSERT_EQ(value, 0);
+    }
+}
+
+TEST(Compress, bytes_do_not_depend_on_threads) {
+    const TestFolder folder;
+    const LightField field = textured_planes(9, 7, 16, 16, 3);
+    for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"threepass", "cdf97"}}) {
+        CompressionOptions options = with_sqnr(method, 30);
+        options.tile = HogelRange{0, 0, 4, 4};
+        std::vector<std::vector<std::uint8_t>> files;
+        for (const std::size_t threads : {1, 2, 7}) {
+            const ThreadLimit limit(threads);
+            compress(field, folder / "a.hgl", options);
+            files.push_back(bytes_of_file(folder / "a.hgl"));
+        }
+        EXPECT_EQ(files[0], files[1]);
+        EXPECT_EQ(files[0], files[2]);
+    }
+}
+
+TEST(Compress, asks_that_make_no_sense_are_refused) {
+    const TestFolder folder;
+    LightField field = textured_planes(2, 2, 4, 4, 1);
+    const auto refused = [&](const CompressionOptions& options) {
+        return code_of([&] { compress(field, folder / "a.hgl", options); });
+    };
+    EXPECT_EQ(refused({}), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"threepass", "cdf97"}, -1)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"threepass", "cdf98"}, 30)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"zip", "cdf97"}, 30)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"threepass", "dct8"}, 30)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"jpeg4d", "haar"}, 30)), ErrorCode::usage);
+    EXPECT_EQ(refused(with_sqnr({"hogel", "haar"}, 30)), ErrorCode::usage);
+    CompressionOptions both = with_sqnr({"threepass", "cdf97"}, 30);
+    both.target.pixels_per_bit = 8;
+    EXPECT_EQ(refused(both), ErrorCode::usage);
+    field.radiance(0, 1, 1, 2, 3) = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(refused(with_sqnr({"threepass", "cdf97"}, 30)), ErrorCode::bad_input);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
+}
+
+TEST(Search, finds_the_band_of_a_falling_function) {
+    for (const double start : {-12.0, 0.0, 3.0, 11.0}) {
+        Search search(29.5, 30, start, -5.5);
+        int asked = 0;
+        // Steeper here and flatter there, with a little disorder.
+        const auto value = [](double x) { return 40 - 3 * x - 0.2 * x * std::abs(x) + 0.05 * std::sin(40 * x); };
+        while (!search.tell(value(search.next()))) ASSERT_LT(++asked, 12) << start;
+        EXPECT_GE(value(search.next()), 29.5);
+        EXPECT_LE(value(search.next()), 30);
+    }
+    // A function that jumps over the band leaves the places on either side.
+    Search search(29.5, 30, 0, -5.5);
+    for (int i = 0; i < 40; ++i) search.tell(search.next() < 1.25 ? 40 : 20);
+    EXPECT_NEAR(search.above().value(), 1.25, 1e-3);
+    EXPECT_NEAR(search.below().value(), 1.25, 1e-3);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/codec/encode/depth.h"
+#include "hogel/codec/format/stream_file.h"
+#include "hogel/compress.h"
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// Of the depths that are finite; nearest > farthest where there are none.
+struct Range {
+    float nearest = infinity, farthest = -infinity;
+
+    void include(const Range& other) {
+        nearest = std::min(nearest, other.nearest);
+        farthest = std::max(farthest, other.farthest);
+    }
+};
+
+Range depths_of(const LightFieldSource& source, const HogelRange& range) {
+    LightFieldTile tile(source.grid(), range, true);
+    source.read(tile);
+    Range depths;
+    for (const float depth : tile.depth.elements()) {
+        if (depth == infinity) continue;
+        if (!std::isfinite(depth))
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("depth is {} in hogels {} to {} of rows {} to {}, expected a number or infinity",
+                                    depth, range.s0, range.s0 + range.ns - 1, range.t0, range.t0 + range.nt - 1));
+        depths.include({depth, depth});
+    }
+    return depths;
+}
+
+class DepthAsRadiance final : public LightFieldSource {
+  public:
+    DepthAsRadiance(const LightFieldSource& source, const DepthCoding& coding)
+        : source_(source), grid_(source.grid()), nothing_(static_cast<float>(coding.nothing)) {
+        grid_.channels = 1;
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    HogelRange preferred_tile() const override { return source_.preferred_tile(); }
+    void read(LightFieldTile& tile) const override {
+        LightFieldTile seen(source_.grid(), tile.range, true);
+        source_.read(seen);
+        std::ranges::transform(seen.depth.elements(), tile.radiance.elements().begin(),
+                               [&](float depth) { return depth == infinity ? nothing_ : depth; });
+    }
+
+  private:
+    const LightFieldSource& source_;
+    LightFieldGrid grid_;
+    float nothing_;
+};
+
+}  // namespace
+
+DepthCoding::DepthCoding(double nearest, double farthest, double error_wanted) {
+    const double range = farthest > nearest ? farthest - nearest : std::max(std::abs(farthest), 1e-6);
+    error = error_wanted > 0 ? error_wanted : 1e-3 * range;
+    // Far enough for any rounding, and no farther than need be: where it begins is an edge that is coded.
+    beyond = farthest + 4 * error + 1e-2 * range;
+    nothing = beyond + (beyond - farthest);
+}
+
+DepthCoding depth_coding(std::span<const LightFieldSource* const> faces, double error_wanted) {
+    Range all;
+    for (const LightFieldSource* face : faces) {
+        const Tiling tiling(face->grid(), face->preferred_tile());
+        parallel_ordered<Range>(
+            tiling.count(), default_in_flight(), [&](std::size_t i) { return depths_of(*face, tiling[i]); },
+            [&](std::size_t, Range& depths) { all.include(depths); });
+    }
+    return all.nearest <= all.farthest ? DepthCoding(all.nearest, all.farthest, error_wanted)
+                                       : DepthCoding(0, 0, error_wanted);
+}
+
+std::unique_ptr<LightFieldSource> depth_as_radiance(const LightFieldSource& source, const DepthCoding& coding) {
+    return std::make_unique<DepthAsRadiance>(source, coding);
+}
+
+void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile) {
+    LightFieldTile values(coded.grid(), tile.range, false);
+    coded.read(values);
+    std::ranges::transform(values.radiance.elements(), tile.depth.elements().begin(),
+                           [&](float value) { return value < beyond ? value : infinity; });
+}
+
+StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+                                 const CompressionOptions& options) {
+    for (const LightFieldSource* face : faces)
+        if (!face->has_depth())
+            throw Error(ErrorCode::usage, "compression: depth was asked for, and the light field has none");
+    if (!(options.depth_error >= 0 && std::isfinite(options.depth_error)))
+        throw Error(ErrorCode::usage, fmt::format("an error of depth of {} m was asked for, expected a positive one",
+                                                  options.depth_error));
+    const DepthCoding coding = depth_coding(faces, options.depth_error);
+    std::vector<std::unique_ptr<LightFieldSource>> sources;
+    std::vector<const LightFieldSource*> depths;
+    for (const LightFieldSource* face : faces)
+        depths.push_back(sources.emplace_back(depth_as_radiance(*face, coding)).get());
+    CompressionOptions exact;
+    exact.target.max_error = coding.error;
+    exact.tile = options.tile;
+    return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
+}
+
+}  // namespace hogel

@@ -1,0 +1,149 @@
+#include "hogel/codec/encode/layout_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "hogel/codec/encode/step_search.h"
+#include "hogel/codec/format/stacked.h"
+#include "hogel/codec/format/stream_file.h"
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t tried = 2;        // tiles of a face, as large as they are where they are gathered
+constexpr double apart_step = 2;        // of the steps that give the same quality, times that of gathered hogels, about
+constexpr double sqnr_tolerance = 1.5;  // decibels
+constexpr double bytes_tolerance = 0.2;
+// What twice as many bytes gain, about, in decibels.
+constexpr double worth_of_twice = 8;
+
+// Some tiles of each face, to be coded in one layout and in the other.
+class Trial {
+  public:
+    Trial(std::span<const LightFieldSource* const> faces, const StreamInfo& info, std::optional<HogelRange> tile,
+          const CoderOfFace& coder_of)
+        : faces_(faces), info_(info), tile_(tile), coder_of_(coder_of) {
+        for (const LightFieldSource* face : faces_) {
+            const LightFieldGrid& grid = face->grid();
+            const Tiling tiling(grid, tile_size(*coder_in(StreamLayout::gathered, grid), grid));
+            const std::size_t count = std::min(tiling.count(), tried);
+            for (std::size_t i = 0; i < count; ++i) {
+                const HogelRange range = tiling[(2 * i + 1) * tiling.count() / (2 * count)];
+                samples_.push_back({face, range});
+                LightFieldTile seen(grid, range, false);
+                face->read(seen);
+                for (const float value : seen.radiance.elements()) {
+                    finite_ = finite_ && std::isfinite(value);
+                    if (std::isfinite(value)) sum_.signal += static_cast<double>(value) * value;
+                }
+                sum_.samples += static_cast<double>(seen.radiance.size());
+                rays_ += static_cast<double>(grid.directions() * range.hogels());
+            }
+        }
+    }
+
+    double rms() const { return std::sqrt(sum_.signal / sum_.samples); }
+    double rays() const { return rays_; }
+    bool finite() const { return finite_; }
+
+    CodingOutcome code(StreamLayout layout, double step) const {
+        CodingOutcome sum = sum_;
+        for (const auto& [face, range] : samples_) {
+            const auto coder = coder_in(layout, face->grid());
+            const HogelRange size = tile_size(*coder, face->grid());
+            for (std::size_t t = 0; t < range.nt; t += size.nt)
+                for (std::size_t s = 0; s < range.ns; s += size.ns) {
+                    LightFieldTile tile(
+                        face->grid(),
+                        {range.s0 + s, range.t0 + t, std::min(size.ns, range.ns - s), std::min(size.nt, range.nt - t)},
+                        false);
+                    face->read(tile);
+                    const TileCoder::Encoded encoded = coder->encode(tile, step);
+                    sum.error += encoded.squared_error;
+                    sum.bytes += static_cast<double>(encoded.bytes.size());
+                }
+        }
+        return sum;
+    }
+
+  private:
+    struct Sample {
+        const LightFieldSource* face;
+        HogelRange range;
+    };
+
+    std::unique_ptr<TileCoder> coder_in(StreamLayout layout, const LightFieldGrid& grid) const {
+        StreamInfo info = info_;
+        info.layout = layout;
+        return coder_of_(info, grid);
+    }
+    HogelRange tile_size(const TileCoder& coder, const LightFieldGrid& grid) const {
+        HogelRange size = tile_.value_or(coder.preferred_tile(grid));
+        size.ns = std::min(size.ns, grid.hogels_s);
+        size.nt = std::min(size.nt, grid.hogels_t);
+        return size;
+    }
+
+    std::span<const LightFieldSource* const> faces_;
+    const StreamInfo& info_;
+    std::optional<HogelRange> tile_;
+    const CoderOfFace& coder_of_;
+    std::vector<Sample> samples_;
+    CodingOutcome sum_;
+    double rays_ = 0;
+    bool finite_ = true;
+};
+
+// What coding in a layout comes to at a quality, about: the lower, the better.
+double cost(const CodingOutcome& outcome) { return std::log2(outcome.bytes) - outcome.sqnr() / worth_of_twice; }
+
+StepBand near(double sqnr) {
+    StepBand band = band_of_sqnr(sqnr);
+    band.low = sqnr - sqnr_tolerance;
+    band.high = sqnr + sqnr_tolerance;
+    return band;
+}
+
+bool gathering_pays(const Trial& trial, const CompressionTarget& target) {
+    const auto code_as = [&](StreamLayout layout) {
+        return [&, layout](double step) { return trial.code(layout, step); };
+    };
+    const auto gathered = code_as(StreamLayout::gathered), apart = code_as(StreamLayout::faces);
+    if (!(trial.rms() > 0)) return true;
+    const double step = likely_step(target, trial.rms());
+    if (target.lossless || target.max_error) return gathered(step).bytes <= apart(step).bytes;
+    if (!trial.finite()) return true;  // it will be refused
+    StepSearch search(std::log2(step), [&](const CodingOutcome& outcome) {
+        return target.pixels_per_bit ? std::log2(outcome.bytes) : outcome.sqnr();
+    });
+    const CodingOutcome of_gathered = [&] {
+        if (target.step) return gathered(step);
+        if (target.sqnr)
+            search.run(near(*target.sqnr), gathered);
+        else
+            search.run(band_of_bytes(trial.rays() / *target.pixels_per_bit / 8, bytes_tolerance, false), gathered);
+        return search.outcome();
+    }();
+    StepSearch same_quality(std::log2(apart_step * (target.step ? step : search.step())), &CodingOutcome::sqnr);
+    same_quality.run(near(of_gathered.sqnr()), apart);
+    return cost(of_gathered) <= cost(same_quality.outcome());
+}
+
+}  // namespace
+
+StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
+                           const CompressionOptions& options, const CoderOfFace& coder_of) {
+    const bool fits = can_gather(info.faces());
+    if (options.layout == StreamLayout::gathered && !fits)
+        throw Error(ErrorCode::usage, "only a light field with a single row or column of directions can be gathered");
+    if (options.layout)
+        return *options.layout == StreamLayout::unfolded && info.sides.empty() ? StreamLayout::faces : *options.layout;
+    if (!fits || options.method.coder != "hogel") return StreamLayout::faces;
+    return gathering_pays(Trial(faces, info, options.tile, coder_of), options.target) ? StreamLayout::gathered
+                                                                                      : StreamLayout::faces;
+}
+
+}  // namespace hogel

@@ -1,0 +1,29 @@
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/codec/encode/secant_search.h"
+
+namespace hogel {
+
+bool Search::tell(double value) {
+    if (value >= low_ && value <= high_) return true;
+    if (std::isfinite(value)) {
+        if (last_ && last_->first != next_) {
+            const double slope = (value - last_->second) / (next_ - last_->first);
+            // A function that is flat or rises here says nothing about the rest.
+            if (slope < 0.2 * slope_ && slope > 5 * slope_) slope_ = slope;
+        }
+        last_ = {next_, value};
+    }
+    (value > high_ ? above_ : below_) = next_;
+    const double aim = (low_ + high_) / 2;
+    double step = std::isfinite(value) ? (aim - value) / slope_ : value > 0 ? 4.0 : -4.0;
+    step = std::clamp(step, -8.0, 8.0);
+    double there = next_ + step;
+    // Every fourth time the middle, in case the secant crawls along one side.
+    if (above_ && below_ && (++told_ % 4 == 0 || there <= *above_ || there >= *below_)) there = (*above_ + *below_) / 2;
+    next_ = there;
+    return false;
+}
+
+}  // namespace hogel

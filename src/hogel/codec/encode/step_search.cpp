@@ -1,0 +1,75 @@
+#include "hogel/codec/encode/step_search.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hogel/codec/encode/secant_search.h"
+
+namespace hogel {
+namespace {
+
+constexpr double sqnr_tolerance = 0.1;
+constexpr int most_passes = 12;
+constexpr double least_difference = 1e-5;
+constexpr double likely_bounded_step = 3;        // times the error
+constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
+constexpr double likely_step_of_rate = 0.1;      // times the same
+
+}  // namespace
+
+double CodingOutcome::sqnr() const {
+    return error > 0 ? 10 * std::log10(signal / error) : std::numeric_limits<double>::infinity();
+}
+
+void CodingOutcome::add(const CodingOutcome& other) {
+    signal += other.signal;
+    error += other.error;
+    bytes += other.bytes;
+    samples += other.samples;
+}
+
+double likely_step(const CompressionTarget& target, double rms) {
+    if (target.step) return *target.step;
+    if (target.max_error) return likely_bounded_step * *target.max_error;
+    if (target.lossless) return likely_lossless_step * rms;
+    // Detail of the step's size everywhere has an error of step²/12.
+    return rms * (target.sqnr ? std::sqrt(12) * std::pow(10, -*target.sqnr / 20) : likely_step_of_rate);
+}
+
+StepBand band_of_sqnr(double sqnr) { return {sqnr, sqnr + sqnr_tolerance, true, -5.5}; }
+
+StepBand band_of_bytes(double bytes, double tolerance, bool embedded) {
+    const double most = std::log2(bytes);
+    if (embedded) return {most, most + std::log2(1 + tolerance), true, -0.9};
+    return {most + std::log2(1 - tolerance), most, false, -0.9};
+}
+
+double StepSearch::step() const { return std::exp2(place_); }
+
+double StepSearch::code_at(double place, const Code& code) {
+    place_ = place;
+    outcome_ = code(step());
+    ++passes_;
+    return figure_(outcome_);
+}
+
+StepFound StepSearch::run(const StepBand& band, const Code& code) {
+    Search search(band.low, band.high, place_, slope_.value_or(band.slope));
+    std::optional<std::pair<double, double>> best;  // place and figure
+    for (int pass = 0; pass < most_passes; ++pass) {
+        const double place = search.next(), figure = code_at(place, code);
+        const bool found = search.tell(figure);
+        slope_ = search.slope();
+        if (found) return StepFound::in_band;
+        if (band.above_is_better ? figure > band.high && !(best && best->second < figure)
+                                 : figure < band.low && !(best && best->second > figure))
+            best = {place, figure};
+        if (search.above() && search.below() && *search.below() - *search.above() < least_difference) break;
+    }
+    if (best && best->first != place_) code_at(best->first, code);
+    if (!search.below()) return StepFound::only_above;
+    return search.above() ? StepFound::beside_band : StepFound::only_below;
+}
+
+}  // namespace hogel

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "hogel/array.h"
+
+namespace hogel {
+
+// R, G, B to one luminance-like and two chrominance-like channels and back, in place: the orthonormal DCT of three
+// points, so that an error has the same energy in either. One channel stays as it is.
+void separate_colours(View<float, 5> radiance);
+void join_colours(View<float, 5> radiance);
+// The same on one thread, for three arrays of one size.
+void separate_colours(std::span<float> a, std::span<float> b, std::span<float> c);
+void join_colours(std::span<float> a, std::span<float> b, std::span<float> c);
+
+}  // namespace hogel

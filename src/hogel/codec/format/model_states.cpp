@@ -1,0 +1,97 @@
+#include "hogel/codec/format/model_states.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace hogel {
+namespace {
+
+constexpr int most_state = 40;
+constexpr double bits_of_change = 7;  // what it takes to tell another state, about
+
+// Where a state is in a table.
+std::size_t place_of(int state) {
+    const int place = state + most_state;
+    return static_cast<std::size_t>(place);
+}
+
+struct Probabilities {
+    std::array<std::uint16_t, 2 * most_state + 1> zero;          // of 2¹⁶
+    std::array<std::array<double, 2>, 2 * most_state + 1> bits;  // that a zero and a one take
+    Probabilities() {
+        for (int state = -most_state; state <= most_state; ++state) {
+            const double p = 1 / (1 + std::exp2(-state / 4.0));
+            const std::size_t at = place_of(state);
+            zero[at] = static_cast<std::uint16_t>(std::lround(65536 * p));
+            bits[at] = {-std::log2(p), -std::log2(1 - p)};
+        }
+    }
+};
+const Probabilities probabilities;
+
+BitModel model_of(int state) { return BitModel(probabilities.zero[place_of(state)]); }
+
+double bits_for(const BitCount& count, int state) {
+    const auto& bits = probabilities.bits[place_of(state)];
+    return count[0] * bits[0] + count[1] * bits[1];
+}
+
+}  // namespace
+
+ModelStates::ModelStates(std::uint32_t version) : version_(version) {
+    BlockModelNumbers().for_each([&](std::uint16_t) { states_.push_back(0); }, version);
+}
+
+ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& before) : version_(before.version_) {
+    for (const BitCount& count : counts) {
+        const int old = before.states_[states_.size()];
+        if (count[0] + count[1] == 0) {  // as of most in small tiles
+            states_.push_back(old);
+            continue;
+        }
+        // The nearest state to the ratio that was counted is as good as the best one.
+        const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
+        const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -most_state, most_state);
+        const bool worth_it = bits_for(count, found) + bits_of_change < bits_for(count, old);
+        states_.push_back(worth_it ? found : old);
+    }
+}
+
+std::vector<BitModel> ModelStates::models_in_order() const {
+    std::vector<BitModel> models;
+    for (const int state : states_) models.push_back(model_of(state));
+    return models;
+}
+
+BlockModels ModelStates::models() const {
+    BlockModels models;
+    std::size_t at = 0;
+    models.for_each([&](BitModel& model) { model = model_of(states_[at++]); }, version_);
+    return models;
+}
+
+template <class Coder>
+void ModelStates::code(Coder& coder, const ModelStates& before) {
+    std::array<BitModel, 2> changed;  // by whether the one before has
+    BitModel sign;
+    std::array<BitModel, most_number_bits + 1> size;
+    bool last = false;
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+        const int difference = states_[k] - before.states_[k];
+        last = coder.bit(changed[last ? 1 : 0], difference != 0);
+        int state = before.states_[k];
+        if (last) {
+            const bool negative = coder.bit(sign, difference < 0);
+            const int found = static_cast<int>(std::min<std::uint32_t>(
+                code_number(coder, size, static_cast<std::uint32_t>(std::abs(difference) - 1)), 2 * most_state));
+            state += negative ? -found - 1 : found + 1;
+        }
+        states_[k] = std::clamp(state, -most_state, most_state);
+    }
+}
+
+template void ModelStates::code(BlockWriter&, const ModelStates&);
+template void ModelStates::code(BlockReader&, const ModelStates&);
+
+}  // namespace hogel

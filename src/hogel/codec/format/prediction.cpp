@@ -1,0 +1,170 @@
+#include "hogel/codec/format/prediction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hogel {
+namespace {
+
+// Interpolation at each 64th between two samples: a sinc windowed by a wider sinc (Lanczos), in units of 2^-14 so that
+// every machine has the same.
+struct Filters {
+    std::array<Taps, shift_unit> of;
+    Filters() {
+        for (int fraction = 0; fraction < shift_unit; ++fraction) {
+            std::array<double, taps> weight{};
+            double sum = 0;
+            for (std::size_t k = 0; k < taps; ++k) {
+                const double x = std::numbers::pi * (double(k) - double(taps_before) - fraction / double{shift_unit});
+                const double half = double(taps) / 2;
+                weight[k] = x == 0 ? 1 : std::sin(x) / x * std::sin(x / half) / (x / half);
+                sum += weight[k];
+            }
+            for (std::size_t k = 0; k < taps; ++k)
+                of[std::size_t(fraction)][k] = static_cast<float>(std::nearbyint(weight[k] / sum * 0x1p14) * 0x1p-14);
+        }
+    }
+};
+const Filters filters;
+
+// What interpolation at a fraction adds to the noise of a sample, because samples alias: sin² of it, in units of 2^-14.
+struct AliasTable {
+    std::array<float, shift_unit> of;
+    AliasTable() {
+        for (int fraction = 0; fraction < shift_unit; ++fraction) {
+            const double sine = std::sin(std::numbers::pi * fraction / shift_unit);
+            of[std::size_t(fraction)] = static_cast<float>(std::nearbyint(sine * sine * 0x1p14) * 0x1p-14);
+        }
+    }
+};
+const AliasTable alias;
+
+constexpr float noise_weight = 0.03f, distance_weight = 0.003f;
+
+std::size_t fraction_of(int shift) { return static_cast<std::size_t>(shift & (shift_unit - 1)); }
+
+ReferenceWeights::Side side_of(const HogelOrder::Reference& reference) {
+    using Side = ReferenceWeights::Side;
+    if (reference.ds != 0) return reference.ds < 0 ? Side::left : Side::right;
+    return reference.dt < 0 ? Side::above : Side::below;
+}
+
+}  // namespace
+
+void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows) {
+    const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
+    // Of each row so many samples are the first one, then so many lie within.
+    const auto count = static_cast<std::ptrdiff_t>(columns);
+    const std::ptrdiff_t first = std::clamp<std::ptrdiff_t>(-x, 0, count);
+    const std::ptrdiff_t within = std::clamp<std::ptrdiff_t>(width - x, 0, count);
+    float* to = copy_.data();
+    const float* before = nullptr;
+    for (std::size_t r = 0; r < rows; ++r, to += window_side) {
+        const std::ptrdiff_t row = std::clamp<std::ptrdiff_t>(y + static_cast<std::ptrdiff_t>(r), 0, height - 1);
+        const float* from = plane.samples.data() + row * width;
+        if (from == before) {
+            std::copy_n(to - window_side, columns, to);
+            continue;
+        }
+        before = from;
+        std::fill(to, to + first, from[0]);
+        if (first < within) std::copy_n(from + (x + first), within - first, to + first);
+        std::fill(to + std::max(first, within), to + count, from[width - 1]);
+    }
+    rows_ = copy_.data();
+    stride_ = window_side;
+}
+
+void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& block) {
+    struct Axis {
+        int first;
+        std::size_t count;
+        const Taps* weights;
+    };
+    const auto along = [](int at, int moved) {
+        const std::size_t fraction = fraction_of(moved);
+        if (fraction == 0) return Axis{at + (moved >> 6), block_side, nullptr};
+        return Axis{at + (moved >> 6) - int(taps_before), window_side, &filters.of[fraction]};
+    };
+    const Axis u = along(x, shift.u), v = along(y, shift.v);
+    const PlaneWindow window(plane, u.first, v.first, u.count, v.count);
+    // Whoever looks here soon looks at blocks farther to the right.
+    constexpr std::size_t ahead = 4 * block_side;
+    for (std::size_t r = 0; r < v.count; ++r) __builtin_prefetch(window.rows() + r * window.stride() + ahead);
+    interpolate_block(window.rows(), window.stride(), u.weights, v.weights, block);
+}
+
+BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift) {
+    struct Ends {
+        std::size_t first, last;
+    };
+    // Along one axis; whole directions are taken as they are.
+    const auto along = [](std::size_t block, std::size_t count, int moved) {
+        const bool interpolated = fraction_of(moved) > 0;
+        const auto side = static_cast<std::ptrdiff_t>(block_side), end = static_cast<std::ptrdiff_t>(count) * side;
+        const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(block) * side + (moved >> 6);
+        const auto block_at = [&](std::ptrdiff_t sample) {
+            return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(sample, 0, end - 1) / side);
+        };
+        const auto before = interpolated ? std::ptrdiff_t(taps_before) : 0;
+        const auto after = interpolated ? std::ptrdiff_t(taps - 1 - taps_before) : 0;
+        return Ends{block_at(begin - before), block_at(begin + side - 1 + after)};
+    };
+    const Ends u = along(column, columns, shift.u), v = along(row, rows, shift.v);
+    return {u.first, u.last, v.first, v.last};
+}
+
+ReferenceWeights::ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect)
+    : hogel_(hogel), aspect_(aspect), kept_(new Kept[kept_choices]) {
+    for (std::size_t n = 0; n < kept_choices; ++n) kept_[n].disparity = -most_disparity - 1;
+    for (const HogelOrder::Reference& reference : hogel.references) {
+        const auto distance = static_cast<float>(reference.ds * reference.ds + reference.dt * reference.dt);
+        fixed_.push_back({noise_weight * noise[reference.hogel] + distance_weight * distance, side_of(reference)});
+    }
+}
+
+const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
+    Kept& kept = kept_[static_cast<std::size_t>(disparity + most_disparity) % kept_choices];
+    if (kept.disparity == disparity) return kept.choices;
+    kept.disparity = disparity;
+    for (Choice& choice : kept.choices) choice.count = 0;
+    std::array<std::array<float, 2>, sides> cost;
+    for (std::uint32_t k = 0; k < fixed_.size(); ++k) {
+        const Shift shift = shift_of(disparity, hogel_.references[k], aspect_);
+        const float here = fixed_[k].cost + alias.of[fraction_of(shift.u)] + alias.of[fraction_of(shift.v)];
+        // The first `most` of a side by their cost, of equal ones the earlier.
+        const auto offer = [&](Side side, std::uint32_t most) {
+            auto& costs = cost[static_cast<std::size_t>(side)];
+            Choice& choice = kept.choices[static_cast<std::size_t>(side)];
+            std::uint32_t at = choice.count;
+            if (at == most) {
+                if (!(here < costs[at - 1])) return;
+                --at;
+            } else {
+                ++choice.count;
+            }
+            for (; at > 0 && here < costs[at - 1]; --at) {
+                costs[at] = costs[at - 1];
+                choice.reference[at] = choice.reference[at - 1];
+                choice.shift[at] = choice.shift[at - 1];
+            }
+            costs[at] = here;
+            choice.reference[at] = k;
+            choice.shift[at] = shift;
+        };
+        offer(Side::any, 2);
+        offer(fixed_[k].side, 1);
+    }
+    for (std::size_t side = 0; side < sides; ++side) {
+        Choice& choice = kept.choices[side];
+        choice.weight[0] = 1;
+        if (choice.count < 2) continue;
+        // Weights as the inverse of the noise that is expected.
+        choice.weight[0] = cost[side][1] / (cost[side][0] + cost[side][1]);
+        choice.weight[1] = 1 - choice.weight[0];
+    }
+    return kept.choices;
+}
+
+}  // namespace hogel

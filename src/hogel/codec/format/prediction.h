@@ -1,0 +1,138 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "hogel/codec/format/block_kernels.h"
+#include "hogel/codec/format/hogel_order.h"
+
+namespace hogel {
+
+// Samples of one hogel and channel, [v][u], filled up to whole blocks: its own, which mean nothing at first, or
+// somebody else's.
+class Plane {
+  public:
+    std::size_t width, height;
+    std::span<float> samples;
+
+    Plane(std::size_t w, std::size_t h, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        : width(w), height(h), own_(allocate(w * h, memory)) {
+        samples = {own_.get(), w * h};
+    }
+    Plane(std::size_t w, std::size_t h, float* of_others) : width(w), height(h), samples(of_others, w * h) {}
+
+  private:
+    struct Return {
+        std::pmr::memory_resource* memory;
+        std::size_t bytes;
+        void operator()(float* lent) const { memory->deallocate(lent, bytes, alignment); }
+    };
+    using Own = std::unique_ptr<float, Return>;
+    static constexpr std::size_t alignment = 64;
+    static Own allocate(std::size_t count, std::pmr::memory_resource* memory) {
+        const std::size_t bytes = count * sizeof(float);
+        return Own(static_cast<float*>(memory->allocate(bytes, alignment)), Return{memory, bytes});
+    }
+
+    Own own_{nullptr, Return{}};
+};
+
+// A window of a plane, which goes on as its edges are: where it lies, or a copy where it reaches over an edge.
+class PlaneWindow {
+  public:
+    // @param columns, rows   at most window_side
+    PlaneWindow(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows) {
+        const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
+        if (x < 0 || y < 0 || x + static_cast<std::ptrdiff_t>(columns) > width ||
+            y + static_cast<std::ptrdiff_t>(rows) > height) {
+            copy(plane, x, y, columns, rows);
+            return;
+        }
+        rows_ = &plane.samples[static_cast<std::size_t>(y * width + x)];
+        stride_ = plane.width;
+    }
+    const float* rows() const { return rows_; }
+    std::size_t stride() const { return stride_; }
+    PlaneWindow(const PlaneWindow&) = delete;
+    PlaneWindow& operator=(const PlaneWindow&) = delete;
+
+  private:
+    void copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows);
+
+    const float* rows_;
+    std::size_t stride_;
+    std::array<float, window_side * window_side> copy_;
+};
+
+// Directions along u and v by which what a block shows moves from a hogel to another, in 64ths.
+constexpr int shift_unit = 64;
+struct Shift {
+    int u = 0, v = 0;
+};
+
+// Disparity: how many directions (in u, in 64ths) what a block shows moves from one hogel to the next: ΔU-steps of
+// d/ζ. It moves `aspect` times as many directions in v.
+constexpr int most_disparity = 1 << 14;
+inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
+    if (reference.dt == 0) return {-disparity * reference.ds, 0};
+    if (aspect == 1) return {-disparity * reference.ds, -disparity * reference.dt};
+    const double v = std::floor(static_cast<double>(-disparity * reference.dt) * static_cast<double>(aspect) + 0.5);
+    return {-disparity * reference.ds, static_cast<int>(std::clamp(v, -1e9, 1e9))};
+}
+
+// The block at (x, y) as the plane shows it, moved; six-tap interpolation, the plane continued by its edges. Depends
+// on the order of the additions, which is part of the format.
+void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& block);
+
+// Which whole blocks fetch_moved() looks at, for the block in this column and row.
+struct BlockRange {
+    std::size_t first_column, last_column, first_row, last_row;
+};
+BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift);
+
+// Which hogels a block is predicted from: those that are likely to show it best at its disparity.
+class ReferenceWeights {
+  public:
+    // @param noise   of each reference, relative to that of the best
+    ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect);
+
+    enum class Side { any, left, right, above, below };
+    static constexpr std::size_t sides = 5;
+    struct Choice {
+        std::uint32_t count;
+        std::array<std::uint32_t, 2> reference;  // of hogel.references
+        std::array<float, 2> weight;             // their sum is 1
+        std::array<Shift, 2> shift;
+    };
+    // The best two for any side, the best one for one. None where there is nothing on that side. Valid until the next
+    // call.
+    const Choice& choose(int disparity, Side side) { return choices_for(disparity)[static_cast<std::size_t>(side)]; }
+
+  private:
+    using Choices = std::array<Choice, sides>;
+    struct Kept {
+        int disparity;
+        Choices choices;
+    };
+    struct Fixed {
+        float cost;  // whatever the shift is
+        Side side;
+    };
+
+    const Choices& choices_for(int disparity);
+
+    const HogelOrder::Hogel& hogel_;
+    std::vector<Fixed> fixed_;  // of each reference
+    float aspect_;
+    // Of the disparities asked for last, as neighbouring blocks ask for the same ones.
+    static constexpr std::size_t kept_choices = 64;
+    std::unique_ptr<Kept[]> kept_;
+};
+
+}  // namespace hogel

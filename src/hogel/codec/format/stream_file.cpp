@@ -1,0 +1,272 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/format/stacked.h"
+#include "hogel/codec/format/stream_file.h"
+#include "hogel/codec/format/stream_header.h"
+
+namespace hogel {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t prefix = stream_magic.size() + 8;  // then version and length of the header
+constexpr std::size_t entry_bytes = 8, checksum_bytes = 4;
+constexpr std::uint32_t most_header = 1 << 24;
+
+bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
+    if (tile.ns == 0 || tile.nt == 0 || tile.ns > grid.hogels_s || tile.nt > grid.hogels_t) return false;
+    std::size_t room = most_tile_samples;
+    for (const std::size_t extent : {grid.channels, tile.ns, tile.nt, grid.directions_u, grid.directions_v})
+        room /= extent;
+    return room > 0;
+}
+
+// Whether two streams are of the same rays, whatever their channels.
+bool same_faces(const StreamInfo& a, const StreamInfo& b) {
+    const auto rays = [](const StreamInfo& info) {
+        std::vector<LightFieldGrid> faces = info.faces();
+        for (LightFieldGrid& face : faces) face.channels = 1;
+        return faces;
+    };
+    return rays(a) == rays(b);
+}
+
+}  // namespace
+
+std::vector<LightFieldGrid> StreamInfo::faces() const {
+    std::vector<LightFieldGrid> all{grid};
+    all.insert(all.end(), sides.begin(), sides.end());
+    return all;
+}
+
+std::vector<LightFieldGrid> coded_parts(const StreamInfo& info) {
+    if (info.layout == StreamLayout::unfolded) return {Unfolding(info.faces()).grid()};
+    return info.faces();
+}
+
+DirectionCross counted(const StreamInfo& info) {
+    return info.layout == StreamLayout::unfolded ? Unfolding(info.faces()).cross() : DirectionCross{};
+}
+
+std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part) {
+    return coder_in_layout(info.layout, part,
+                           [method = info.method, counted = counted(info), version = info.version](const auto& grid) {
+                               return make_tile_coder(method, grid, counted, version);
+                           });
+}
+
+Tiling::Tiling(const LightFieldGrid& grid, const HogelRange& size)
+    : hogels_s_(grid.hogels_s),
+      hogels_t_(grid.hogels_t),
+      across_((grid.hogels_s - 1) / size.ns + 1),
+      down_((grid.hogels_t - 1) / size.nt + 1),
+      size_(size) {}
+
+HogelRange Tiling::operator[](std::size_t tile) const {
+    const std::size_t s0 = tile % across_ * size_.ns, t0 = tile / across_ * size_.nt;
+    return {s0, t0, std::min(size_.ns, hogels_s_ - s0), std::min(size_.nt, hogels_t_ - t0)};
+}
+
+StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& info, std::filesystem::path depth)
+    : output_(path),
+      spool_(path),
+      spooled_(spool_.temporary(), RawFile::Mode::create, path),
+      info_(info),
+      header_bytes_(header_of(info).size()),
+      layers_(info.layer_ends.size()),
+      depth_(std::move(depth)) {
+    for (const LightFieldGrid& part : coded_parts(info))
+        if (!tile_fits(part, info.tile))
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field "
+                                    "has, and at most {} samples in each",
+                                    path.string(), info.tile.ns, info.tile.nt, most_tile_samples));
+}
+
+void StreamWriter::restart() {
+    next_ = 0;
+    entries_.clear();
+}
+
+void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers) {
+    spooled_.write(next_, tile.data(), tile.size());
+    std::size_t begin = 0;
+    for (std::size_t layer = 0; layer < layers_; ++layer) {
+        const std::size_t end = layer < layers.size() ? layers[layer] : tile.size();
+        entries_.push_back({next_ + begin, end - begin, checksum(tile.subspan(begin, end - begin))});
+        begin = end;
+    }
+    next_ += tile.size();
+}
+
+std::uint64_t StreamWriter::overhead(std::size_t tiles) const {
+    return header_bytes_ + tiles * layers_ * entry_bytes + checksum_bytes + info_.depth.bytes;
+}
+
+void StreamWriter::finish(std::uint64_t filler) {
+    info_.filler = filler;
+    const Bytes header = header_of(info_);
+    std::vector<StreamEntry> entries;  // layer by layer
+    for (std::size_t layer = 0; layer < layers_; ++layer)
+        for (std::size_t k = layer; k < entries_.size(); k += layers_) entries.push_back(entries_[k]);
+    ByteWriter index;
+    for (const StreamEntry& entry : entries) {
+        index.put(static_cast<std::uint32_t>(entry.bytes));
+        index.put(entry.checksum);
+    }
+    index.put(checksum(index.bytes));
+    RawFile file(output_.temporary(), RawFile::Mode::create, output_.target());
+    file.write(0, header.data(), header.size());
+    file.write(header.size(), index.bytes.data(), index.bytes.size());
+    std::uint64_t at = header.size() + index.bytes.size();
+    Bytes bytes;
+    const auto copy = [&](const RawFile& from, std::uint64_t offset, std::uint64_t count) {
+        bytes.resize(count);
+        from.read(offset, bytes.data(), bytes.size());
+        file.write(at, bytes.data(), bytes.size());
+        at += bytes.size();
+    };
+    for (const StreamEntry& entry : entries) copy(spooled_, entry.offset, entry.bytes);
+    if (info_.depth.bytes > 0) {
+        constexpr std::uint64_t most = std::uint64_t{1} << 24;
+        const RawFile depth(depth_, RawFile::Mode::read, depth_);
+        for (std::uint64_t done = 0; done < info_.depth.bytes; done += most)
+            copy(depth, done, std::min(most, info_.depth.bytes - done));
+    }
+    file.close();
+    output_.commit();
+}
+
+StreamReader::StreamReader(const std::filesystem::path& path, Content content)
+    : file_(path, RawFile::Mode::read, path),
+      what_(fmt::format("cannot read '{}'", path.string())),
+      end_(file_.size()) {
+    const std::uint64_t all = end_, index = read_header(0);
+    info_.version < 3 ? read_index_at_end(index) : read_index(index);
+    if (content == Content::light_field) return;
+    if (!info_.depth_there)
+        damaged(info_.depth.bytes > 0 ? "it is truncated: its depth is missing" : "it has no depth");
+    const StreamInfo outer = std::move(info_);
+    end_ = all;
+    index_.clear();
+    read_index(read_header(all - outer.depth.bytes));
+    if (info_.grid.channels != 1 || !same_faces(info_, outer) || info_.depth.bytes > 0 || info_.version < 5)
+        damaged("what stands behind it is not its depth");
+}
+
+// Returns where it ends.
+std::uint64_t StreamReader::read_header(std::uint64_t at) {
+    const std::uint64_t size = end_ - at;
+    if (size < prefix + 4) damaged("it is too short for a compressed light field");
+    Bytes header(prefix);
+    file_.read(at, header.data(), prefix);
+    if (!std::equal(stream_magic.begin(), stream_magic.end(), header.begin()))
+        damaged("it is not a compressed light field");
+    ByteReader begin(std::span<const std::uint8_t>(header).subspan(stream_magic.size()), what_);
+    const auto version = begin.take<std::uint32_t>();
+    if (version == 0 || version > latest_version)
+        damaged(fmt::format("it has version {} of the format, expected 1 to {}", version, latest_version));
+    const auto length = begin.take<std::uint32_t>();
+    if (length > most_header || length + prefix + 4 > size) damaged("its header is longer than the file");
+    header.resize(prefix + length + 4);
+    file_.read(at + prefix, header.data() + prefix, length + 4);
+    ByteReader end(std::span<const std::uint8_t>(header).last(4), what_);
+    if (end.take<std::uint32_t>() != checksum(std::span(header).first(prefix + length)))
+        damaged("its header is damaged");
+    ByteReader fields(std::span<const std::uint8_t>(header).subspan(prefix, length), what_);
+    info_ = read_header_fields(fields, version);
+    if (fields.left() > 0) damaged("its header has bytes left over");
+    for (const LightFieldGrid& face : info_.faces()) validate(face, ErrorCode::bad_input, what_);
+    if (info_.layout == StreamLayout::gathered && !can_gather(info_.faces()))
+        damaged("its header gathers hogels with several rows of directions");
+    try {
+        parts_ = coded_parts(info_);
+    } catch (const Error& error) {
+        damaged(error.what());
+    }
+    for (const LightFieldGrid& part : parts_)
+        if (!tile_fits(part, info_.tile)) damaged("its header has impossible tiles");
+    tiling_.emplace(info_.grid, info_.tile);
+    return at + header.size();
+}
+
+void StreamReader::read_index(std::uint64_t header) {
+    const std::uint64_t most = end_ - header, layers = info_.layer_ends.size();
+    if (most < checksum_bytes || tiling_->count() > (most - checksum_bytes) / entry_bytes / parts_.size() / layers)
+        damaged("it is truncated");
+    Bytes index(tiles() * layers * entry_bytes + checksum_bytes);
+    file_.read(header, index.data(), index.size());
+    ByteReader entries(index, what_);
+    std::uint64_t offset = header + index.size();
+    for (std::uint64_t& layer_end : info_.layer_ends) {
+        for (std::uint64_t tile = 0; tile < tiles(); ++tile) {
+            const auto bytes = entries.take<std::uint32_t>();
+            index_.push_back({offset, bytes, entries.take<std::uint32_t>()});
+            offset += bytes;
+        }
+        layer_end = offset;
+        if (offset <= end_) ++info_.layers_there;
+    }
+    if (entries.take<std::uint32_t>() != checksum(std::span(index).first(index.size() - checksum_bytes)))
+        damaged("its index is damaged");
+    if (info_.layers_there == 0) damaged("it is truncated");
+    // Behind the last layer comes the depth, or nothing.
+    info_.depth_there = info_.depth.bytes > 0 && offset <= end_ && end_ - offset >= info_.depth.bytes;
+    if (offset < end_ && end_ - offset > info_.depth.bytes) damaged("it has bytes left over");
+}
+
+// Of versions 1 and 2.
+void StreamReader::read_index_at_end(std::uint64_t header) {
+    constexpr std::size_t old_entry_bytes = 12, footer_bytes = 12;
+    const std::uint64_t size = end_, most = size - header;
+    if (most < footer_bytes || tiling_->count() > (most - footer_bytes) / old_entry_bytes / parts_.size())
+        damaged("it is truncated");
+    Bytes index(tiles() * old_entry_bytes + footer_bytes);
+    file_.read(size - index.size(), index.data(), index.size());
+    ByteReader entries(index, what_);
+    std::uint64_t offset = header;
+    for (std::uint64_t tile = 0; tile < tiles(); ++tile) {
+        const auto bytes = entries.take<std::uint64_t>();
+        index_.push_back({offset, bytes, entries.take<std::uint32_t>()});
+        if (bytes > size - offset) damaged("it is truncated, or its index is damaged");
+        offset += bytes;
+    }
+    const bool in_place = entries.take<std::uint64_t>() == offset && offset + index.size() == size;
+    if (!in_place || entries.take<std::uint32_t>() != checksum(std::span(index).first(index.size() - 4)))
+        damaged("it is truncated, or its index is damaged");
+    info_.layer_ends = {size};
+    info_.layers_there = 1;
+}
+
+Bytes StreamReader::read(std::size_t tile, std::size_t layers) const {
+    Bytes bytes;
+    for (std::size_t layer = 0; layer < layers; ++layer) {
+        const StreamEntry& entry = index_[layer * tiles() + tile];
+        const std::size_t begin = bytes.size();
+        bytes.resize(begin + entry.bytes);
+        file_.read(entry.offset, bytes.data() + begin, entry.bytes);
+        if (checksum(std::span(std::as_const(bytes)).subspan(begin)) != entry.checksum)
+            damaged(fmt::format("tile {} is damaged", tile));
+    }
+    return bytes;
+}
+
+void StreamReader::damaged(const std::string& why) const {
+    throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", file_.name().string(), why));
+}
+
+bool is_stream(const std::filesystem::path& path) {
+    const RawFile file(path, RawFile::Mode::read, path);
+    std::array<std::uint8_t, stream_magic.size()> begin{};
+    if (file.size() < begin.size()) return false;
+    file.read(0, begin.data(), begin.size());
+    return begin == stream_magic;
+}
+
+StreamInfo read_stream_info(const std::filesystem::path& path) { return StreamReader(path).info(); }
+
+}  // namespace hogel

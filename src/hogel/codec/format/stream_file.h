@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hogel/codec/tile_coder.h"
+#include "hogel/compress.h"
+#include "hogel/core/output_file.h"
+#include "hogel/core/raw_file.h"
+
+namespace hogel {
+
+// The tiles of a stream, numbered row by row.
+class Tiling {
+  public:
+    Tiling(const LightFieldGrid& grid, const HogelRange& size);
+    std::size_t count() const { return across_ * down_; }
+    std::size_t across() const { return across_; }
+    const HogelRange& size() const { return size_; }
+    HogelRange operator[](std::size_t tile) const;
+
+  private:
+    std::size_t hogels_s_, hogels_t_, across_, down_;
+    HogelRange size_;
+};
+
+// The largest tile that a stream may have; what a damaged header can make a reader ask memory for.
+constexpr std::size_t most_tile_samples = std::size_t{1} << 28;
+
+// The arrays of directions whose tiles a stream holds one after the other, all tiles of the first before those of the
+// second: its faces, or what they unfold into. Throws Error(usage) for faces that do not unfold.
+std::vector<LightFieldGrid> coded_parts(const StreamInfo& info);
+// What of such an array is the light field's.
+DirectionCross counted(const StreamInfo& info);
+// The coder of its tiles. Throws Error(usage) for a method that does not exist.
+std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part);
+
+// A tile's layer as a file knows it.
+struct StreamEntry {
+    std::uint64_t offset, bytes;
+    std::uint32_t checksum;
+};
+
+// Takes a stream's tiles one after the other; they may be given anew from the first until finish(), which puts them
+// into the file, layer by layer.
+class StreamWriter {
+  public:
+    // @param depth   the file of the stream that info.depth speaks of
+    StreamWriter(const std::filesystem::path& path, const StreamInfo& info, std::filesystem::path depth = {});
+    // Forgets the tiles so far.
+    void restart();
+    // @param layers   where they end; the last of the stream's may be missing
+    void append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers);
+    // Of the whole file, as if it were finished now.
+    std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
+    // What a file of so many tiles, of all parts, has beside them.
+    std::uint64_t overhead(std::size_t tiles) const;
+    // @param filler   by how many bytes the file is longer than size(): 0, or least_filler to most_filler
+    void finish(std::uint64_t filler = 0);
+
+  private:
+    OutputFile output_, spool_;
+    RawFile spooled_;  // tile by tile
+    StreamInfo info_;
+    std::size_t header_bytes_;  // without filler
+    std::size_t layers_;
+    std::filesystem::path depth_;
+    std::uint64_t next_ = 0;
+    std::vector<StreamEntry> entries_;  // the layers of each tile
+};
+
+// Reads a stream's header and index, and tiles on demand. Errors name the file.
+class StreamReader {
+  public:
+    enum class Content { light_field, its_depth };
+    explicit StreamReader(const std::filesystem::path& path, Content content = Content::light_field);
+    const StreamInfo& info() const { return info_; }
+    const Tiling& tiling() const { return *tiling_; }
+    const std::vector<LightFieldGrid>& parts() const { return parts_; }
+    // The first layers of a tile, one after the other.
+    std::vector<std::uint8_t> read(std::size_t tile, std::size_t layers) const;
+    [[noreturn]] void damaged(const std::string& why) const;
+
+  private:
+    std::uint64_t tiles() const { return tiling_->count() * parts_.size(); }
+    std::uint64_t read_header(std::uint64_t begin);
+    void read_index(std::uint64_t header);
+    void read_index_at_end(std::uint64_t header);
+
+    RawFile file_;
+    std::string what_;
+    std::uint64_t end_;  // of the stream in the file
+    StreamInfo info_;
+    std::optional<Tiling> tiling_;  // of each part
+    std::vector<LightFieldGrid> parts_;
+    std::vector<StreamEntry> index_;  // the tiles of each layer
+};
+
+}  // namespace hogel

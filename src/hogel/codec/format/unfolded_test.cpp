@@ -1,0 +1,174 @@
+#include "hogel/codec/format/unfolded.h"
+
+#include <gtest/gtest.h>
+
+#include "hogel/codec/test_fields.h"
+#include "hogel/compress.h"
+#include "hogel/core/checksum.h"
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+// A hemicube around hogels that see a smooth sky: the same function of direction on all faces.
+std::vector<LightField> smooth_hemicube(std::size_t hogels, std::size_t directions_u, std::size_t directions_v) {
+    const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, 1, 1, 1};
+    std::vector<LightField> faces;
+    for (const LightFieldGrid& face : hemicube(grid)) {
+        LightField& field = faces.emplace_back(face);
+        for (std::size_t j = 0; j < hogels; ++j)
+            for (std::size_t i = 0; i < hogels; ++i)
+                for (std::size_t l = 0; l < face.directions_v; ++l)
+                    for (std::size_t k = 0; k < face.directions_u; ++k) {
+                        const Vec3 way = normalize(face.along(face.u(double(k)), face.v(double(l))));
+                        field.radiance(0, j, i, l, k) =
+                            static_cast<float>(1 + 0.4 * std::sin(3 * way.x + 0.5 * double(i)) +
+                                               0.3 * std::cos(2 * way.y - way.z + double(j)));
+                    }
+    }
+    return faces;
+}
+
+std::vector<const LightFieldSource*> sources(const std::vector<LightField>& faces) {
+    std::vector<const LightFieldSource*> result;
+    for (const LightField& face : faces) result.push_back(&face);
+    return result;
+}
+
+LightField unfolded(const std::vector<LightField>& faces) {
+    const auto source = unfold(sources(faces));
+    LightField whole(source->grid());
+    copy(*source, whole);
+    return whole;
+}
+
+TEST(Unfolding, has_the_faces_in_their_places) {
+    const std::vector<LightField> faces = smooth_hemicube(2, 40, 24);
+    const LightField whole = unfolded(faces);
+    ASSERT_EQ(whole.grid().directions_u, 80u);
+    ASSERT_EQ(whole.grid().directions_v, 48u);
+    EXPECT_NEAR(whole.grid().step_u(), faces[0].grid().step_u(), 1e-12);
+    EXPECT_EQ(whole.radiance(0, 1, 0, 12, 20), faces[0].radiance(0, 1, 0, 0, 0));
+    EXPECT_EQ(whole.radiance(0, 1, 0, 12, 0), faces[1].radiance(0, 1, 0, 0, 0));   // left
+    EXPECT_EQ(whole.radiance(0, 1, 0, 12, 60), faces[2].radiance(0, 1, 0, 0, 0));  // right
+    EXPECT_EQ(whole.radiance(0, 1, 0, 0, 20), faces[3].radiance(0, 1, 0, 0, 0));   // top
+    EXPECT_EQ(whole.radiance(0, 1, 0, 36, 20), faces[4].radiance(0, 1, 0, 0, 0));  // bottom
+}
+
+// Around the edges of the cube a smooth sky goes on without a jump: no step in the array near the faces is much larger
+// than the largest between neighbours on a face. Farther out a corner is one value.
+TEST(Unfolding, corners_continue_what_the_sides_show) {
+    for (const auto& [n_u, n_v] : {std::pair{64u, 64u}, {64u, 48u}}) {
+        const std::vector<LightField> faces = smooth_hemicube(1, n_u, n_v);
+        const LightField whole = unfolded(faces);
+        const auto view = whole.radiance[0][0][0];
+        double largest = 0;
+        for (const LightField& face : faces)
+            for (std::size_t l = 0; l < face.grid().directions_v; ++l)
+                for (std::size_t k = 0; k + 1 < face.grid().directions_u; ++k)
+                    largest = std::max(
+                        largest, double(std::abs(face.radiance(0, 0, 0, l, k + 1) - face.radiance(0, 0, 0, l, k))));
+        const std::size_t u0 = n_u / 2, u1 = u0 + n_u, v0 = n_v / 2, v1 = v0 + n_v;
+        for (std::size_t b = 0; b < v0; ++b)
+            for (const std::size_t v : {b, v1 + b}) {
+                EXPECT_LT(std::abs(view(v, u0 - 1) - view(v, u0)), 3 * largest) << v;
+                EXPECT_LT(std::abs(view(v, u1) - view(v, u1 - 1)), 3 * largest) << v;
+            }
+        for (std::size_t a = 0; a < u0; ++a)
+            for (const std::size_t u : {a, u1 + a}) {
+                EXPECT_LT(std::abs(view(v0 - 1, u) - view(v0, u)), 3 * largest) << u;
+                EXPECT_LT(std::abs(view(v1, u) - view(v1 - 1, u)), 3 * largest) << u;
+            }
+        EXPECT_EQ(view(0, 0), view(v0 - 1 - Unfolding::strip, u0 - 1 - Unfolding::strip));
+        double sum = 0;  // of the quarter at the top left, its faces alone
+        for (std::size_t v = 0; v < n_v; ++v)
+            for (std::size_t u = 0; u < n_u; ++u)
+                if (u >= u0 || v >= v0) sum += view(v, u);
+        EXPECT_NEAR(view(0, 0), sum / (0.75 * n_u * n_v), 1e-5);
+    }
+}
+
+TEST(Unfolding, needs_five_faces_that_fit) {
+    std::vector<LightFieldGrid> grids = hemicube({2, 2, 1e-3, 16, 12, 1, 1, 3});
+    EXPECT_NO_THROW(Unfolding{grids});
+    const std::vector<LightFieldGrid> four(grids.begin(), grids.begin() + 4);
+    EXPECT_THROW(Unfolding{four}, Error);
+    grids[1].directions_v = 14;
+    EXPECT_THROW(Unfolding{grids}, Error);
+}
+
+// All faces come back with the SQNR that was asked for, over all of them and without the corners.
+TEST(Hemicube, comes_back_in_either_layout) {
+    const TestFolder folder;
+    const std::vector<LightField> faces = smooth_hemicube(5, 24, 16);
+    for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded})
+        for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"ezw", "ai33"}, {"jpeg4d", "dct8"}}) {
+            CompressionOptions options;
+            options.method = method;
+            options.target.sqnr = 30;
+            options.layout = layout;
+            options.tile = HogelRange{0, 0, 3, 3};
+            const CompressionResult result = compress(sources(faces), folder / "a.hgl", options);
+            const auto decoded = open_stream_faces(folder / "a.hgl", {.memory = 1});
+            ASSERT_EQ(decoded.size(), 5u);
+            double signal = 0, error = 0;
+            for (std::size_t i = 0; i < 5; ++i) {
+                ASSERT_EQ(decoded[i]->grid(), faces[i].grid());
+                LightField other(faces[i].grid());
+                copy(*decoded[i], other);
+                for (std::size_t k = 0; k < other.radiance.size(); ++k) {
+                    const double f = faces[i].radiance.data()[k], e = f - other.radiance.data()[k];
+                    signal += f * f;
+                    error += e * e;
+                }
+            }
+            const double sqnr = 10 * std::log10(signal / error);
+            EXPECT_NEAR(sqnr, result.sqnr, 1e-6) << method.coder;
+            EXPECT_GE(sqnr, 30);
+            EXPECT_LE(sqnr, 30.1) << method.coder;
+            EXPECT_NEAR(result.pixels_per_bit, 5 * 5 * 3 * 24 * 16 / (8.0 * double(result.bytes)), 1e-9);
+        }
+}
+
+// Whatever a file of faces is cut to or has changed in, reading it is an error.
+TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
+    const TestFolder folder;
+    const std::vector<LightField> faces = smooth_hemicube(2, 4, 4);
+    const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
+        write_bytes(folder / "b.hgl", bytes);
+        try {
+            for (const auto& face : open_stream_faces(folder / "b.hgl")) {
+                LightField field(face->grid());
+                copy(*face, field);
+            }
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+            return true;
+        }
+        return false;
+    };
+    for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
+        CompressionOptions options;
+        options.target.step = 0.02;
+        options.layout = layout;
+        compress(sources(faces), folder / "a.hgl", options);
+        const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
+        ASSERT_FALSE(fails(good));
+        for (std::size_t length = 0; length < good.size(); length += 17)
+            ASSERT_TRUE(fails({good.begin(), good.begin() + std::ptrdiff_t(length)})) << length;
+        for (std::size_t at = 0; at < good.size(); at += 7) {
+            std::vector<std::uint8_t> bad = good;
+            bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
+            ASSERT_TRUE(fails(bad)) << at;
+            // A header that lies, with the right checksum, may read as something else, but does no harm.
+            const std::size_t length = good[12] | std::size_t{good[13]} << 8;
+            if (at < 16 || at >= 16 + length) continue;
+            const std::uint32_t sum = checksum(std::span(std::as_const(bad)).first(16 + length));
+            for (std::size_t i = 0; i < 4; ++i) bad[16 + length + i] = static_cast<std::uint8_t>(sum >> (8 * i));
+            fails(bad);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace hogel

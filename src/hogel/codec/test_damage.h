@@ -1,0 +1,58 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/tile_coder.h"
+#include "hogel/error.h"
+
+namespace hogel {
+
+/// Whether a tile's bytes are refused, which must be by Error(bad_input).
+inline bool refuses(const TileCoder& coder, std::span<const std::uint8_t> bytes, LightFieldTile tile) {
+    try {
+        coder.decode(bytes, tile);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_input);
+        return true;
+    }
+    return false;
+}
+
+/// Cuts the code of a tile at every `cut`-th byte and appends to it, which must be refused, and flips a bit of every
+/// `flip`-th byte, which must end in a tile or be refused.
+inline void expect_harmless_damage(const TileCoder& coder, const std::vector<std::uint8_t>& good,
+                                   const LightFieldTile& tile, std::size_t cut, std::size_t flip) {
+    EXPECT_FALSE(refuses(coder, good, tile));
+    for (std::size_t length = 0; length < good.size(); length += cut)
+        ASSERT_TRUE(refuses(coder, std::span(good).first(length), tile)) << length;
+    for (std::size_t at = 0; at < good.size(); at += flip) {
+        std::vector<std::uint8_t> bad = good;
+        bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
+        refuses(coder, bad, tile);
+    }
+    std::vector<std::uint8_t> longer = good;
+    longer.insert(longer.end(), 8, 0x55);
+    EXPECT_TRUE(refuses(coder, longer, tile));
+}
+
+/// Of a stream.
+inline std::size_t end_of_header(const std::vector<std::uint8_t>& stream) {
+    return 16 + (stream[12] | std::size_t{stream[13]} << 8);
+}
+
+/// A stream with another number in its header, and a checksum to match.
+inline std::vector<std::uint8_t> with_number(std::vector<std::uint8_t> stream, std::size_t at, std::uint64_t value) {
+    const std::size_t end = end_of_header(stream);
+    for (std::size_t i = 0; i < 8; ++i) stream[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+    const std::uint32_t sum = checksum(std::span(std::as_const(stream)).first(end));
+    for (std::size_t i = 0; i < 4; ++i) stream[end + i] = static_cast<std::uint8_t>(sum >> (8 * i));
+    return stream;
+}
+
+}  // namespace hogel

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hogel/coding/arithmetic.h"
+#include "hogel/coding/jpeg4d_blocks.h"
+
+namespace hogel {
+
+// A table of a stream's own: for each frequency of a whole block, by place_in_block(), an exponent e; its step is
+// scale · 2^(e/4).
+using Exponents = std::vector<std::uint8_t>;
+constexpr int largest_exponent = 24;
+
+Quantisation own_quantisation(double scale, const Exponents& exponents);
+
+// The table with the least distortion + 0.12 scale² · bits, those that tell the table among them.
+Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, double scale);
+
+void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exponents& exponents);
+// False where they are none that can be written, or end too early.
+bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents& exponents);
+
+}  // namespace hogel

@@ -1,0 +1,69 @@
+#include "hogel/core/paged_array.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+
+#include "hogel/error.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// A file without a name, mapped: it lives as long as the mapping.
+Complex* map_file(std::size_t bytes, const std::filesystem::path& folder) {
+    const auto fail = [&](const std::string& what, int reason) {
+        throw Error(ErrorCode::cannot_write,
+                    fmt::format("{} of {} in '{}': {}", what, format_bytes(static_cast<double>(bytes)), folder.string(),
+                                std::strerror(reason)));
+    };
+    std::string name = (folder / ".hogel-XXXXXX.tmp").string();
+    const int file = mkstemps(name.data(), 4);
+    if (file < 0) fail("cannot create a scratch file", errno);
+    unlink(name.c_str());
+    // Room is taken at once: a disk that fills up under a mapping would end the program.
+    const int taken = posix_fallocate(file, 0, static_cast<off_t>(bytes));
+    void* data = taken == 0 ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
+    const int reason = taken != 0 ? taken : errno;
+    close(file);
+    if (data == MAP_FAILED) fail("no room for a scratch file", reason);
+    return static_cast<Complex*>(data);
+}
+
+}  // namespace
+
+void LargeArray::Release::operator()(Complex* data) const {
+    if (mapped_bytes > 0)
+        munmap(data, mapped_bytes);
+    else
+        CacheLineAllocator<Complex>().deallocate(data, 0);
+}
+
+LargeArray::LargeArray(const Shape<2>& shape, const Scratch& scratch) : shape_(shape) {
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / (4 * sizeof(Complex));
+    if (shape[0] == 0 || shape[1] == 0 || shape[0] > most / shape[1])
+        throw Error(ErrorCode::usage, fmt::format("an array of {}x{} samples cannot be made", shape[1], shape[0]));
+    const std::size_t bytes = count(shape) * sizeof(Complex);
+    if (bytes <= scratch.memory) {
+        data_ = {CacheLineAllocator<Complex>().allocate(count(shape)), Release()};
+        std::fill_n(data_.get(), count(shape), Complex(0));
+    } else if (!scratch.folder.empty()) {
+        data_ = {map_file(bytes, scratch.folder), Release(bytes)};
+    } else {
+        throw Error(ErrorCode::usage,
+                    fmt::format("an array of {}x{} samples takes {}, more than the {} of memory that it may; a folder "
+                                "for scratch files would do",
+                                shape[1], shape[0], format_bytes(static_cast<double>(bytes)),
+                                format_bytes(static_cast<double>(scratch.memory))));
+    }
+}
+
+}  // namespace hogel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "hogel/array.h"
+
+namespace hogel {
+
+/// Where arrays that may not fit into memory are kept.
+struct Scratch {
+    std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this lies in a file
+    std::filesystem::path folder;               ///< in which the file is made; empty: nowhere, such an array is refused
+};
+
+/// An array of complex values, all zero at first, in memory or in a file without a name that the system pages in and
+/// out and that is gone with the array. Work on it goes by rows, or by blocks of neighbouring columns.
+class LargeArray {
+  public:
+    LargeArray() = default;
+    /// Throws Error(usage) for an array that is too large for the memory when no folder is given, and
+    /// Error(cannot_write) when the file cannot be made or the disk has no room for it.
+    LargeArray(const Shape<2>& shape, const Scratch& scratch);
+
+    View<std::complex<float>, 2> view() { return {data_.get(), shape_}; }
+    View<const std::complex<float>, 2> view() const { return {data_.get(), shape_}; }
+    const Shape<2>& shape() const { return shape_; }
+    std::size_t extent(std::size_t axis) const { return shape_[axis]; }
+
+  private:
+    Shape<2> shape_{};
+    struct Release {
+        Release() : mapped_bytes(0) {}
+        explicit Release(std::size_t bytes) : mapped_bytes(bytes) {}
+        std::size_t mapped_bytes;  // 0: of memory
+        void operator()(std::complex<float>* data) const;
+    };
+    std::unique_ptr<std::complex<float>, Release> data_;
+};
+
+}  // namespace hogel

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "hogel/direct/scene_points.h"
+
+namespace hogel {
+
+/// A slice of a scene, ζ from `near` to `far`, that is drawn on the plane in its middle.
+struct Slice {
+    double near, far;
+    double depth() const { return 0.5 * (near + far); }
+};
+
+/// A scene cut into slices of equal thickness, the nearest to the viewer first.
+std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count);
+
+/// Draws slices by rays along the hologram's axis.
+class SliceDrawing {
+  public:
+    explicit SliceDrawing(const ShadedScene& scene) : scene_(scene), visibility_(scene) {}
+
+    /// The field that a slice sends out on the samples of its plane: √L λ/δ, δ the samples' pitch, with random phases,
+    /// which is a diffuse surface of radiance L; and 1 where there is something, 0 elsewhere.
+    struct Drawn {
+        Array<std::complex<float>, 2> light;
+        Array<float, 2> solid;
+        bool empty = true;
+    };
+    Drawn draw(const Slice& slice, const Grid& plane, double wavelength, const SceneHologramOptions& options) const;
+
+  private:
+    const ShadedScene& scene_;
+    Visibility visibility_;
+};
+
+}  // namespace hogel

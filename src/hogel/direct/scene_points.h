@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hogel/scene_hologram.h"
+#include "hogel/trace/ray_caster.h"
+
+namespace hogel {
+
+/// A point of a scene that shines.
+struct ScenePoint {
+    Vec3 position;    ///< where its wave starts
+    Vec3 surface;     ///< where it is seen: the same, but for points moved away from the hologram's plane
+    Vec3 normal;      ///< of the surface, whose light falls off with the cosine; zero: all directions alike
+    float amplitude;  ///< √(L A) where it stands for an area A of radiance L
+    double turns;     ///< its phase
+};
+
+/// The triangles of a scene as points, no farther apart than `spacing` and at least one a triangle, with random phases.
+/// Points nearer to the hologram's plane than nearest_depth() are moved away to there.
+std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid& grid,
+                                       const SceneHologramOptions& options);
+
+/// Lines along which surfaces end, meet at more than 30 degrees, or touch another mesh.
+struct SceneEdge {
+    Vec3 a, b;
+    float radiance;
+};
+std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologramOptions& options);
+
+/// Points along them as far apart as `spacing`, each for an area of its square.
+std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& grid,
+                                    const SceneHologramOptions& options);
+
+/// Nearer points light so few samples that their brightness would be wrong: the zone that a pitch can sample is then
+/// only a few samples wide.
+double nearest_depth(const FieldGrid& grid);
+
+/// A random number in [0, 1), the same for the same numbers.
+double random_turns(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
+/// What of a point's light passes a place on the hologram: it travels towards the viewer, away from a point behind the
+/// hologram and towards one in front of it.
+struct Passage {
+    double path;  ///< metres travelled since the point, negative before it
+    Vec3 way;     ///< unit length, towards the viewer
+};
+
+inline Passage unlimited_passage(Vec3 point, Vec3 place) {
+    const Vec3 way = point.z < 0 ? place - point : point - place;
+    const double distance = length(way);
+    return {point.z < 0 ? distance : -distance, (1 / distance) * way};
+}
+
+/// Whether the light is too steep for the hologram's pitch.
+inline bool too_steep(const Passage& passage, const FieldGrid& grid) {
+    return std::abs(passage.way.x) * 2 * grid.plane.pitch_x > grid.wavelength ||
+           std::abs(passage.way.y) * 2 * grid.plane.pitch_y > grid.wavelength;
+}
+
+/// Nothing where it is.
+inline std::optional<Passage> passage(Vec3 point, Vec3 place, const FieldGrid& grid) {
+    const Passage passage = unlimited_passage(point, place);
+    if (too_steep(passage, grid)) return {};
+    return passage;
+}
+
+/// The modulus of a point's wave there.
+double modulus(const ScenePoint& point, const Passage& passage);
+
+/// Whether a viewer sees points of a scene.
+class Visibility {
+  public:
+    explicit Visibility(const ShadedScene& scene);
+    /// Whether nothing lies between the point and a viewer far along the way.
+    bool sees(Vec3 point, Vec3 way) const { return !caster_.occluded(point, way, margin_, far_); }
+    /// Which of many viewers does not.
+    void hide(Vec3 point, std::span<const Vec3> ways, std::span<bool> hidden) const {
+        caster_.occluded(point, ways, margin_, far_, hidden);
+    }
+    const RayCaster& caster() const { return caster_; }
+
+  private:
+    RayCaster caster_;
+    double margin_ = 0, far_ = 0;
+};
+
+/// The side of a tile of sum_over_tiles().
+inline constexpr std::size_t tile_side = 32;
+
+/// Sums what `add` says over all tiles of a field, on all threads: add(region, values of the region).
+Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
+                     const std::function<void(const Region&, View<std::complex<float>, 2>)>& add);
+
+/// The same, sample by sample: `wave` is what arrives at a place on the hologram.
+Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
+                       const std::function<std::complex<double>(Vec3 place)>& wave);
+
+// The methods; scene_methods.cpp lists them by name.
+Field exact_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field exact_visible_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field tiled_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field horizontal_lines(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field points_along_edges(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field line_sources(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field fraunhofer_plane(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field fresnel_planes(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field occluding_planes(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field tilted_polygons(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+Field occluding_polygons(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
+
+}  // namespace hogel

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "hogel/hologram.h"
+#include "hogel/hologram/frequency_grid.h"
+#include "hogel/hologram/random_phase.h"
+#include "hogel/math/fft.h"
+
+namespace hogel {
+
+/// The counter of the random phases of a hogel.
+PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::size_t t, std::size_t look);
+
+/// Phases that all hogels share, for each look those of the frequencies of a hogel's Fourier transform, as unit
+/// numbers. Random, or where the options say so designed for a flat fringe.
+using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
+DirectionPhases direction_phases(const FrequencyGrid& frequencies, const Fft2& fft, const StereogramOptions& options);
+
+}  // namespace hogel

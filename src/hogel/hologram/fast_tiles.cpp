@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "hogel/hologram/fast_tiles.h"
+#include "hogel/hologram/hogel_tiles.h"
+#include "hogel/hologram/lobes.h"
+
+namespace hogel {
+
+bool FastSquares::can(std::size_t side) { return side >= rows_at_once && ColumnFft::can(side, side); }
+
+FastSquares::FastSquares(std::size_t side, const DirectionPhases& phases) : side_(side), fft_(side) {
+    for (const Array<std::complex<float>, 2>& look : phases) {
+        Array<float, 1>& own = phases_.emplace_back(Shape<1>{2 * side * side});
+        for (std::size_t row = 0; row < side; ++row)
+            for (std::size_t column = 0; column < side; ++column) {
+                float* to = own.data() + (row / rows_at_once * side + column) * square_column + row % rows_at_once;
+                to[0] = look(row, column).real();
+                to[rows_at_once] = look(row, column).imag();
+            }
+    }
+}
+
+void FastSquares::prepare(const FrequencyGrid& frequencies, View<const float, 2> values, bool of_roots,
+                          View<float, 2> moduli) const {
+    auto sixteen = sixteens_.take();
+    const std::size_t line = side_ * hogels_at_once, blocks = side_ / rows_at_once;
+    if (sixteen->size() == 0) *sixteen = Array<float, 1>({rows_at_once * line});
+    for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
+        const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
+        // Neighbouring rows come one after the other. Sixteen of them are put away when the next sixteen begin.
+        std::size_t current = blocks;
+        std::vector<bool> lit(side_), done(blocks);
+        const auto put_away = [&] {
+            if (current == blocks) return;
+            for (std::size_t row = 0; row < rows_at_once; ++row)
+                if (!lit[current * rows_at_once + row]) std::fill_n(sixteen->data() + row * line, line, 0.0f);
+            turn_hogels(sixteen->data(), side_, hogels, &moduli(first, current * line), side_ * side_);
+            done[current] = true;
+        };
+        const auto place = [&](std::size_t row) {
+            if (row / rows_at_once != current) put_away();
+            current = row / rows_at_once;
+            lit[row] = true;
+            return sixteen->data() + row % rows_at_once * line;
+        };
+        frequencies.amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, place);
+        put_away();
+        for (std::size_t block = 0; block < blocks; ++block)
+            for (std::size_t h = 0; !done[block] && h < hogels; ++h)
+                std::fill_n(&moduli(first + h, block * line), line, 0.0f);
+    }
+}
+
+void FastSquares::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
+                             std::complex<float>* to, std::size_t to_row) const {
+    // One square after the other in the same room, sixteen rows and then the square.
+    thread_local Array<float, 1> room;
+    const std::size_t columns = side_ * square_column;  // floats of sixteen columns, or rows
+    if (room.size() < columns + 2 * side_ * side_) room = Array<float, 1>({columns + 2 * side_ * side_});
+    float *waves = room.data(), *square = room.data() + columns;
+    for (std::size_t row = 0; row < side_; row += rows_at_once) {
+        const float* some = moduli.data() + row * side_;
+        if (phases_.empty())
+            random_waves(series, row, some, side_, waves);
+        else
+            shared_waves({phases_[look].data() + 2 * row * side_, columns}, some, waves);
+        fft_.backward_apart(waves);
+        turn_rows(waves, side_, square + row * square_column, columns);
+    }
+    fft_.backward_apart(square, to, to_row, side_);
+}
+
+}  // namespace hogel

@@ -1,0 +1,110 @@
+#include "hogel/hologram/hemicube_resampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hogel {
+namespace {
+
+// More points would follow the side faces' rays closer to the hologram's plane, where they crowd in frequency.
+constexpr double most_points = 12;
+
+// How many of a face's directions a cell of direction sines is wide around a way of unit length, by differences.
+double width_in_rays(const LightFieldGrid& face, Vec3 way, double step, bool line) {
+    const auto place = [&](double sx, double sy) {
+        const Vec3 q = to_face(face.face, {sx, sy, std::sqrt(std::max(1e-6, 1 - sx * sx - sy * sy))});
+        return Vec3{face.column(q.x / q.z), line ? 0 : face.row(q.y / q.z), 0};
+    };
+    constexpr double little = 0.05;
+    const Vec3 here = place(way.x, way.y);
+    return std::max(length(place(way.x + little * step, way.y) - here),
+                    length(place(way.x, way.y + little * step) - here)) /
+           little;
+}
+
+// Adds the four rays around a place of a face with their bilinear weights; those of the border hold to its end.
+void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 way, double weight,
+              std::map<std::uint32_t, double>& sum) {
+    const Vec3 q = to_face(face.face, way);
+    const auto inside = [](double at, std::size_t count) {
+        return std::clamp(at, 0.0, static_cast<double>(count) - 1);
+    };
+    const double k = inside(face.column(q.x / q.z), face.directions_u),
+                 l = inside(face.row(q.y / q.z), face.directions_v);
+    const auto k0 = static_cast<std::size_t>(k), l0 = static_cast<std::size_t>(l);
+    const double a = k - static_cast<double>(k0), b = l - static_cast<double>(l0);
+    for (const std::size_t j : {0, 1})
+        for (const std::size_t i : {0, 1}) {
+            const double part = weight * (i == 1 ? a : 1 - a) * (j == 1 ? b : 1 - b);
+            if (part > 0) sum[static_cast<std::uint32_t>(first + (l0 + j) * face.directions_u + k0 + i)] += part;
+        }
+}
+
+}  // namespace
+
+ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
+                             double wavelength) {
+    const double step = wavelength / faces.front().pitch;
+    const auto n = static_cast<std::ptrdiff_t>(samples);
+    const std::ptrdiff_t reach = (n - 1) / 2;
+    ScatteredLobes result;
+    const std::ptrdiff_t reach_up = line ? 0 : reach;
+    for (std::ptrdiff_t jy = -reach_up; jy <= reach_up; ++jy)
+        for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
+            const double sx = -step * static_cast<double>(jx), sy = -step * static_cast<double>(jy);
+            const double cos2 = 1 - sx * sx - sy * sy;
+            if (cos2 <= 0) continue;
+            const Vec3 middle{sx, sy, std::sqrt(cos2)};
+            double rays = 1;
+            for (const LightFieldGrid& face : faces)
+                if (face.sees(middle)) rays = std::max(rays, width_in_rays(face, middle, step, line));
+            const auto points = static_cast<int>(std::min(most_points, std::ceil(2 * rays)));
+            const int all = line ? points : points * points;
+            std::map<std::uint32_t, double> sum;
+            for (int p = 0; p < all; ++p) {
+                const int across = p % points, down = p / points;
+                const double x = sx + step * ((across + 0.5) / points - 0.5);
+                const double y = line ? 0 : sy + step * ((down + 0.5) / points - 0.5);
+                if (x * x + y * y >= 1) continue;
+                const Vec3 way{x, y, std::sqrt(1 - x * x - y * y)};
+                std::size_t first = 0;
+                for (const LightFieldGrid& face : faces) {
+                    if (face.sees(way)) {
+                        add_rays(face, first, way, 1.0 / all, sum);
+                        break;
+                    }
+                    first += face.directions();
+                }
+            }
+            if (sum.empty()) continue;
+            // Rows run down while y runs up, so a row of the DFT is −j_y.
+            const auto row = static_cast<std::size_t>(line ? 0 : (n - jy) % n),
+                       column = static_cast<std::size_t>((n + jx) % n);
+            result.lobes.push_back(
+                {static_cast<std::uint32_t>(row * samples + column), static_cast<std::uint32_t>(result.rays.size()),
+                 static_cast<std::uint32_t>(sum.size()), static_cast<float>(step * step_up / middle.z)});
+            for (const auto& [ray, weight] : sum) {
+                result.rays.push_back(ray);
+                result.weights.push_back(static_cast<float>(weight));
+            }
+        }
+    return result;
+}
+
+void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size_t count, View<const float, 2> values,
+                       bool of_roots, float* out) {
+    const std::size_t hogels = values.extent(1);
+    for (const ScatteredLobes::Lobe& lobe : std::span(lobes.lobes).subspan(first, count)) {
+        std::fill_n(out, hogels, 0.0f);
+        for (std::uint32_t i = lobe.first; i < lobe.first + lobe.count; ++i) {
+            const float* from = &values(lobes.rays[i], 0);
+            for (std::size_t h = 0; h < hogels; ++h) out[h] += lobes.weights[i] * from[h];
+        }
+        for (std::size_t h = 0; h < hogels; ++h)
+            out[h] = of_roots ? out[h] * std::sqrt(lobe.scale) : std::sqrt(std::max(out[h], 0.0f) * lobe.scale);
+        out += hogels;
+    }
+}
+
+}  // namespace hogel

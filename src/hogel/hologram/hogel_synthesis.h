@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <complex>
+#include <memory>
+#include <span>
+
+#include "hogel/hologram.h"
+
+namespace hogel {
+
+/// Which hogel, and which of the sets of random phases.
+struct HogelPlace {
+    std::size_t s = 0, t = 0;  ///< column and row of the hogel
+    std::size_t look = 0;
+};
+
+/// From the rays of hogels to their squares of n×n samples, in two steps: what all looks share, and the rest.
+/// Phases are counted from the hogel's centre or from its first sample, as each synthesis says.
+class HogelSynthesis {
+  public:
+    virtual ~HogelSynthesis() = default;
+    /// How many values `prepare` makes.
+    virtual std::size_t prepared_size() const = 0;
+    /// For some hogels at once.
+    /// @param radiances  [hogel][n_V n_U] of this wavelength
+    /// @param depths     [hogel][n_V n_U], or empty where needs_depth() says no
+    /// @param prepared   [hogel][prepared_size()]
+    virtual void prepare(View<const float, 2> radiances, View<const float, 2> depths,
+                         View<float, 2> prepared) const = 0;
+    virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
+                            View<std::complex<float>, 2> hogel) const = 0;
+    /// The same with the hogel's rows elsewhere, row y at to + y·to_row, and `room` of the hogel's shape in between.
+    virtual void synthesise_to(std::span<const float> prepared, const HogelPlace& place,
+                               View<std::complex<float>, 2> room, std::complex<float>* to, std::size_t to_row) const {
+        synthesise(prepared, place, room);
+        for (std::size_t y = 0; y < room.extent(0); ++y) std::copy_n(&room(y, 0), room.extent(1), to + y * to_row);
+    }
+};
+
+/// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2). The rays of a
+/// hogel are those of all faces, one face after the other.
+std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
+                                                       const StereogramOptions& options);
+
+/// The same with horizontal parallax only: each of a hogel's lines for itself, by one FFT along it, [K] (3.23).
+std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
+                                                    std::size_t lines, const StereogramOptions& options);
+
+/// What a synthesis gets as the values of a light field's rays.
+enum class Values {
+    radiance,
+    coefficients,  ///< of a transform of each hogel's directions' √L
+};
+
+/// A sum of basis fringes weighted with coefficients: [K] (3.24).
+/// Throws Error(usage) for a transform that does not exist, and where the fringes would not fit into memory.
+std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                     const StereogramOptions& options, Values values);
+
+/// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
+std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
+                                                           const StereogramOptions& options);
+
+/// Stereograms whose windows overlap. One by one is the plain way, which is always taken where windows are large; the
+/// other makes windows of many hogels at once.
+std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
+                                              const StereogramOptions& options, bool one_by_one = false);
+
+}  // namespace hogel

@@ -1,0 +1,133 @@
+// The vector twins of what square_rows.h declares, compiled for every instruction set and chosen when first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/hologram/square_rows_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include "hogel/hologram/cycle_lanes.h"
+#include "hogel/hologram/hogel_tiles.h"
+#include "hogel/hologram/philox_lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+void RandomWaves(const PhaseSeries& series, const PhaseRoots&, std::size_t first_row, const float* moduli,
+                 std::size_t columns, float* out) {
+    random_waves_plain(series, first_row, moduli, columns, out);
+}
+#else
+using D = hn::CappedTag<float, rows_at_once>;
+using V = hn::Vec<D>;
+
+// The root that a byte of each word says, the byte's lowest bit being bit `shift`.
+template <int shift>
+HWY_INLINE void Root(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsigned<D> > words, V& re, V& im) {
+    const hn::RebindToUnsigned<D> whole;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+    // The root of the upper half of the byte times that of the lower one, from tables as long as a vector.
+    const auto half = hn::Set(whole, 15u);
+    const auto upper = hn::IndicesFromVec(d, hn::And(hn::ShiftRight<shift + 4>(words), half));
+    const auto lower = hn::IndicesFromVec(d, hn::And(hn::ShiftRight<shift>(words), half));
+    const V a = hn::TableLookupLanes(hn::Load(d, roots.upper_re), upper),
+            b = hn::TableLookupLanes(hn::Load(d, roots.upper_im), upper),
+            c = hn::TableLookupLanes(hn::Load(d, roots.lower_re), lower),
+            e = hn::TableLookupLanes(hn::Load(d, roots.lower_im), lower);
+    re = hn::NegMulAdd(b, e, hn::Mul(a, c));
+    im = hn::MulAdd(b, c, hn::Mul(a, e));
+#else
+    const hn::RebindToSigned<D> index;
+    const auto byte = hn::BitCast(index, hn::And(hn::ShiftRight<shift>(words), hn::Set(whole, 255u)));
+    re = hn::GatherIndex(d, roots.re, byte);
+    im = hn::GatherIndex(d, roots.im, byte);
+#endif
+}
+
+template <int shift>
+HWY_INLINE void Wave(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsigned<D> > words, const float* modulus,
+                     float* out) {
+    V re, im;
+    Root<shift>(d, roots, words, re, im);
+    const V r = hn::Load(d, modulus);
+    hn::Store(hn::Mul(r, re), d, out);
+    hn::Store(hn::Mul(r, im), d, out + rows_at_once);
+}
+
+// A draw gives a row the phases of sixteen columns; lanes are rows.
+void RandomWaves(const PhaseSeries& series, const PhaseRoots& roots, std::size_t first_row, const float* moduli,
+                 std::size_t columns, float* out) {
+    const D d;
+    const hn::RebindToUnsigned<D> words;
+    const hn::Repartition<std::uint64_t, decltype(words)> wide;
+    const std::size_t half = hn::Lanes(wide), draws = columns / 16;
+    HWY_ALIGN std::uint64_t first_draws[rows_at_once];
+    for (std::size_t row = 0; row < rows_at_once; ++row) first_draws[row] = (first_row + row) * draws;
+    for (std::size_t draw = 0; draw < draws; ++draw)
+        for (std::size_t i = 0; i < rows_at_once; i += hn::Lanes(d)) {
+            const auto number = hn::Set(wide, draw);
+            auto a0 = hn::Add(hn::Load(wide, first_draws + i), number),
+                 b0 = hn::Add(hn::Load(wide, first_draws + i + half), number);
+            auto a1 = hn::Set(wide, series.position[0]), b1 = a1;
+            auto a2 = hn::Set(wide, series.position[1]), b2 = a2;
+            auto a3 = hn::Set(wide, series.position[2]), b3 = a3;
+            philox_lanes(wide, a0, a1, a2, a3, series.key);
+            philox_lanes(wide, b0, b1, b2, b3, series.key);
+            const auto four = [&](auto lower, auto upper, std::size_t x) {
+                const auto word = hn::ConcatEven(words, hn::BitCast(words, upper), hn::BitCast(words, lower));
+                const float* modulus = moduli + x * rows_at_once + i;
+                float* to = out + x * square_column + i;
+                Wave<0>(d, roots, word, modulus, to);
+                Wave<8>(d, roots, word, modulus + rows_at_once, to + square_column);
+                Wave<16>(d, roots, word, modulus + 2 * rows_at_once, to + 2 * square_column);
+                Wave<24>(d, roots, word, modulus + 3 * rows_at_once, to + 3 * square_column);
+            };
+            four(a0, b0, 16 * draw);
+            four(a1, b1, 16 * draw + 4);
+            four(a2, b2, 16 * draw + 8);
+            four(a3, b3, 16 * draw + 12);
+        }
+}
+#endif
+
+void TurnRows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
+    for (std::size_t x0 = 0; x0 < columns; x0 += 16, to += to_sixteen)
+        for (const std::size_t part : {std::size_t{0}, rows_at_once})
+            turn_sixteen([&](std::size_t i) { return from + (x0 + i) * square_column + part; }, rows_at_once,
+                         [&](std::size_t row) { return to + row * square_column + part; });
+}
+
+void TurnHogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
+    for (std::size_t x = 0; x < columns; ++x)
+        turn_sixteen([&](std::size_t row) { return from + (row * columns + x) * 16; }, hogels,
+                     [&](std::size_t h) { return to + h * to_hogel + x * rows_at_once; });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel {
+
+HWY_EXPORT(RandomWaves);
+HWY_EXPORT(TurnRows);
+HWY_EXPORT(TurnHogels);
+
+void random_waves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
+                  float* out) {
+    HWY_DYNAMIC_DISPATCH(RandomWaves)(series, phase_roots(), first_row, moduli, columns, out);
+}
+
+void turn_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
+    HWY_DYNAMIC_DISPATCH(TurnRows)(from, columns, to, to_sixteen);
+}
+
+void turn_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
+    HWY_DYNAMIC_DISPATCH(TurnHogels)(from, columns, hogels, to, to_hogel);
+}
+
+}  // namespace hogel
+#endif

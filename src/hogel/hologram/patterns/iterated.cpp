@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+#include "hogel/hologram/patterns/pattern_parts.h"
+#include "hogel/math/fft.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+Complex unit(Complex value) {
+    const float modulus = std::abs(value);
+    return modulus > 0 ? value / modulus : Complex(1);
+}
+
+// Where squares begin that cover a side of the modulator; the last overlaps the one before it where they do not fit.
+std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
+    std::vector<std::size_t> starts;
+    for (std::size_t at = 0; at + side <= length; at += side) starts.push_back(at);
+    if (starts.back() + side < length) starts.push_back(length - side);
+    return starts;
+}
+
+}  // namespace
+
+void require_squares_fit(View<const Complex, 2> field, std::size_t side) {
+    const std::size_t most = std::min(field.extent(0), field.extent(1));
+    if (side < 2 || side > most)
+        throw Error(ErrorCode::usage, fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do",
+                                                  side, field.extent(1), field.extent(0), most));
+}
+
+// Each square for itself, back and forth between unit modulus and the moduli of the field's own spectrum there, which
+// are what its light field shows: Gerchberg and Saxton, Optik 35, 1972.
+Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
+    const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
+    require_squares_fit(field, side);
+    const std::vector<std::size_t> columns = squares_along(side, width), rows = squares_along(side, height);
+    const Fft2 fft(side, side);
+    Array<float, 2> turns(field.shape());
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+        report(progress, static_cast<double>(j) / static_cast<double>(rows.size()));
+        parallel_for(columns.size(), [&](std::size_t i) {
+            const std::size_t x0 = columns[i], y0 = rows[j];
+            Array<Complex, 2> square({side, side});
+            Array<float, 2> moduli({side, side});
+            for (std::size_t y = 0; y < side; ++y) std::copy_n(&field(y0 + y, x0), side, &square(y, 0));
+            fft.forward(square);
+            for (std::size_t p = 0; p < square.size(); ++p) moduli.data()[p] = std::abs(square.data()[p]);
+            for (std::size_t k = 0; k <= options.iterations; ++k) {
+                for (std::size_t p = 0; p < square.size(); ++p)
+                    square.data()[p] = moduli.data()[p] * unit(square.data()[p]);
+                fft.backward(square);
+                if (k == options.iterations) break;
+                for (Complex& value : square.elements()) value = unit(value);
+                fft.forward(square);
+            }
+            // Where squares overlap, the earlier one's pixels stay.
+            const std::size_t skip_x = i > 0 ? columns[i - 1] + side - x0 : 0;
+            const std::size_t skip_y = j > 0 ? rows[j - 1] + side - y0 : 0;
+            for (std::size_t y = skip_y; y < side; ++y)
+                for (std::size_t x = skip_x; x < side; ++x) {
+                    const auto turn = static_cast<float>(std::arg(square(y, x)) * (0.5 / std::numbers::pi));
+                    turns(y0 + y, x0 + x) = turn < 0 ? turn + 1 : turn;
+                }
+        });
+    }
+    return turns;
+}
+
+}  // namespace hogel

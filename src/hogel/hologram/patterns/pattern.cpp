@@ -1,0 +1,197 @@
+#include "hogel/pattern.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/hologram/patterns/pattern_parts.h"
+#include "hogel/math/fft.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
+    const Modulator& modulator = options.modulator;
+    if (modulator.width == 0 || modulator.height == 0 || !(modulator.pitch > 0) || modulator.levels < 2 ||
+        modulator.levels > 256)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a modulator of {}x{} pixels at {} with {} levels cannot be; pixels "
+                                "need a pitch, and 2 to 256 levels",
+                                modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels));
+    for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
+        if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("the hologram's samples are {} apart, but the modulator's pixels {}; make the "
+                            "hologram with hogels of whole pixels and a pitch of {}",
+                            format_length(pitch), format_length(modulator.pitch), format_length(modulator.pitch)));
+    if (!(options.clip >= 0 && options.clip < 1))
+        throw Error(ErrorCode::usage, "the share of samples that may be cut must lie in 0..1");
+}
+
+// The middle of the field, or all of it with a dark border.
+Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
+    const Grid& plane = source.grid().plane;
+    Array<Complex, 2> field({modulator.height, modulator.width});
+    const std::size_t width = std::min(plane.width, modulator.width), height = std::min(plane.height, modulator.height);
+    const std::size_t left = (modulator.width - width) / 2, top = (modulator.height - height) / 2;
+    // In bands of rows, on all threads; each starts where the source's work does.
+    const std::size_t y0 = (plane.height - height) / 2, rows = std::max<std::size_t>(64, source.alignment());
+    const std::size_t first = y0 / rows, bands = (y0 + height + rows - 1) / rows - first;
+    parallel_for(bands, [&](std::size_t band) {
+        const std::size_t from = std::max(y0, (first + band) * rows),
+                          to = std::min(y0 + height, (first + band + 1) * rows);
+        const Region region{(plane.width - width) / 2, from, width, to - from};
+        Array<Complex, 2> part({region.height, region.width});
+        source.read(region, 0, part);
+        for (std::size_t y = 0; y < region.height; ++y)
+            std::copy_n(&part(y, 0), width, &field(top + from - y0 + y, left));
+    });
+    return field;
+}
+
+// Scales the field so that all but a share of its samples have |F| <= 1, and cuts those to 1.
+void normalise(Array<Complex, 2>& field, double clip) {
+    std::vector<float> moduli;
+    moduli.reserve(field.size());
+    for (const Complex& value : field.elements())
+        if (value != Complex(0)) moduli.push_back(std::abs(value));
+    if (moduli.empty()) throw Error(ErrorCode::usage, "the hologram is dark where the modulator is");
+    const auto above = static_cast<std::size_t>(clip * static_cast<double>(moduli.size()));
+    const auto largest = moduli.end() - 1 - static_cast<std::ptrdiff_t>(above);
+    std::nth_element(moduli.begin(), largest, moduli.end());
+    const float scale = 1 / *largest;
+    for (Complex& value : field.elements()) {
+        value *= scale;
+        if (const float modulus = std::abs(value); modulus > 1) value /= modulus;
+    }
+}
+
+float turns_of(Complex value) {
+    const float turns = std::arg(value) * static_cast<float>(0.5 / std::numbers::pi);
+    return turns < 0 ? turns + 1 : turns;
+}
+
+Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
+    if (options.encoding == Encoding::gerchberg_saxton) return iterate_phases(field, options, progress);
+    if (options.encoding == Encoding::gradient) return descend_phases(field, options, progress);
+    Array<float, 2> turns(field.shape());
+    for (std::size_t y = 0; y < field.extent(0); ++y)
+        for (std::size_t x = 0; x < field.extent(1); ++x) {
+            turns(y, x) = turns_of(field(y, x));
+            if (options.encoding != Encoding::double_phase) continue;
+            const auto spread =
+                static_cast<float>(std::acos(std::min(1.0f, std::abs(field(y, x)))) * (0.5 / std::numbers::pi));
+            turns(y, x) += (x + y) % 2 == 0 ? spread : -spread;
+            turns(y, x) -= std::floor(turns(y, x));
+        }
+    return turns;
+}
+
+Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases) {
+    Array<std::uint8_t, 2> rounded(values.shape());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const float value = values.data()[i];
+        if (phases) {  // the last level is followed by the first
+            const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
+            rounded.data()[i] = static_cast<std::uint8_t>(level * 256 / levels);
+        } else {
+            const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels - 1)));
+            rounded.data()[i] = static_cast<std::uint8_t>(std::lround(level * 255.0 / (levels - 1)));
+        }
+    }
+    return rounded;
+}
+
+// The share of the modulator's light that is F times the carrier: |<E, F c>|² / (<F, F> pixels).
+double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, const Carrier& carrier) {
+    std::complex<double> product = 0;
+    double energy = 0;
+    for (std::size_t y = 0; y < field.extent(0); ++y)
+        for (std::size_t x = 0; x < field.extent(1); ++x) {
+            const Complex wave = carrier.empty() ? field(y, x) : field(y, x) * carrier[x];
+            product += std::complex<double>(transmitted(y, x) * std::conj(wave));
+            energy += std::norm(wave);
+        }
+    return std::norm(product) / (energy * static_cast<double>(field.size()));
+}
+
+// The share of it that makes the moduli of the field's local spectra: in each square (Σ|A||B|)²/Σ|B|² of A's energy.
+double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
+    side = std::min({side, field.extent(0), field.extent(1)});
+    const Fft2 fft(side, side);
+    Array<Complex, 2> shown({side, side}), wanted({side, side});
+    double light = 0, all = 0;
+    for (std::size_t y0 = 0; y0 + side <= field.extent(0); y0 += side)
+        for (std::size_t x0 = 0; x0 + side <= field.extent(1); x0 += side) {
+            for (std::size_t y = 0; y < side; ++y) {
+                std::copy_n(&transmitted(y0 + y, x0), side, &shown(y, 0));
+                std::copy_n(&field(y0 + y, x0), side, &wanted(y, 0));
+            }
+            fft.forward(shown);
+            fft.forward(wanted);
+            double product = 0, energy = 0;
+            for (std::size_t f = 0; f < shown.size(); ++f) {
+                product += std::abs(shown.data()[f]) * std::abs(wanted.data()[f]);
+                energy += std::norm(wanted.data()[f]);
+                all += std::norm(shown.data()[f]);
+            }
+            if (energy > 0) light += product * product / energy;
+        }
+    return all > 0 ? light / all : 0;
+}
+
+}  // namespace
+
+const std::map<std::string, Encoding>& encodings() {
+    static const std::map<std::string, Encoding> all{{"phase", Encoding::phase},
+                                                     {"double-phase", Encoding::double_phase},
+                                                     {"gerchberg-saxton", Encoding::gerchberg_saxton},
+                                                     {"gradient", Encoding::gradient},
+                                                     {"intensity", Encoding::intensity},
+                                                     {"bipolar", Encoding::bipolar},
+                                                     {"burckhardt", Encoding::burckhardt},
+                                                     {"lee", Encoding::lee},
+                                                     {"binary", Encoding::binary}};
+    return all;
+}
+
+bool is_phase_only(Encoding encoding) {
+    return encoding == Encoding::phase || encoding == Encoding::double_phase ||
+           encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
+}
+
+Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
+    require_fitting(source.grid(), options);
+    Array<Complex, 2> field = fit(source, options.modulator);
+    normalise(field, options.clip);
+    Pattern pattern;
+    Carrier carrier;
+    const bool phases = is_phase_only(options.encoding);
+    pattern.values = phases
+                         ? encode_phase(field, options, progress)
+                         : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
+    pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases);
+    const Array<Complex, 2> transmitted = transmission(pattern, options.encoding);
+    pattern.efficiency = efficiency_of(transmitted, field, carrier);
+    if (phases) pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
+    return pattern;
+}
+
+Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding) {
+    Array<Complex, 2> result(pattern.levels.shape());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const double level = pattern.levels.data()[i];
+        result.data()[i] = is_phase_only(encoding) ? Complex(std::polar(1.0, 2 * std::numbers::pi * level / 256))
+                                                   : Complex(static_cast<float>(level / 255));
+    }
+    return result;
+}
+
+}  // namespace hogel

@@ -1,0 +1,243 @@
+#include "hogel/pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/random.h"
+#include "hogel/error.h"
+#include "hogel/math/fft.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+using Complex = std::complex<float>;
+
+constexpr std::size_t side = 192;
+
+Field empty_field(double pitch = 8_um) { return Field(FieldGrid{{side, side, pitch, pitch, 0, 0}, 633_nm}); }
+
+// Plane waves of all frequencies up to `band` cycles a pixel with random phases: what a diffuse object sends.
+Field speckle(double band, std::uint32_t seed = 1) {
+    Field field = empty_field();
+    const auto reach = std::ptrdiff_t(band * side);
+    for (std::ptrdiff_t j = -reach; j <= reach; ++j)
+        for (std::ptrdiff_t i = -reach; i <= reach; ++i) {
+            const auto bits = philox({std::uint32_t(i), std::uint32_t(j), 0, 0}, {seed, 0})[0];
+            field.samples(std::size_t(j + std::ptrdiff_t(side)) % side, std::size_t(i + std::ptrdiff_t(side)) % side) =
+                Complex(std::polar(1.0, 2 * std::numbers::pi * (bits / 4294967296.0)));
+        }
+    Fft2(side, side).backward(field.samples);
+    return field;
+}
+
+// One plane wave, of a frequency that is not in step with the pixels.
+Field plane_wave(double columns = 0.0137, double rows = 0.0271) {
+    Field field = empty_field();
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x)
+            field.samples(y, x) =
+                Complex(std::polar(3.0, 2 * std::numbers::pi * (columns * double(x) + rows * double(y))));
+    return field;
+}
+
+PatternOptions options_for(Encoding encoding) {
+    PatternOptions options;
+    options.encoding = encoding;
+    options.modulator = {"test", side, side, 8_um, 256};
+    options.clip = 0;
+    return options;
+}
+
+struct Case {
+    Encoding encoding;
+    double efficiency;  // of a plane wave, as theory has it
+};
+
+class PlaneWave : public testing::TestWithParam<Case> {};
+
+// The first order of a sinusoidal amplitude is 1/4, of a square one 1/π, of three or four components 1/3
+// and 1/4; three components reach 2/√3 of the modulus, so all is made smaller by that.
+TEST_P(PlaneWave, is_encoded_with_the_efficiency_of_theory) {
+    const Pattern pattern = encode_pattern(plane_wave(), options_for(GetParam().encoding));
+    EXPECT_NEAR(pattern.efficiency / GetParam().efficiency, 1, 0.02);
+}
+
+constexpr double pi2 = std::numbers::pi * std::numbers::pi;
+INSTANTIATE_TEST_SUITE_P(Encodings, PlaneWave,
+                         testing::Values(Case{Encoding::phase, 1}, Case{Encoding::double_phase, 1},
+                                         Case{Encoding::intensity, 1 / 16.0}, Case{Encoding::bipolar, 1 / 16.0},
+                                         Case{Encoding::burckhardt, 1 / 12.0}, Case{Encoding::lee, 1 / 16.0},
+                                         Case{Encoding::binary, 1 / pi2}));
+
+// A random sum of waves has an exponential |F|²: its phase alone keeps E|F|²/E(|F|²) = π/4 of the light, and what is
+// linear in F keeps the mean of |F|² over its largest, times what it keeps of a plane wave.
+TEST(Pattern, of_speckle_has_the_efficiency_of_theory) {
+    const Field field = speckle(0.1);
+    EXPECT_NEAR(encode_pattern(field, options_for(Encoding::phase)).efficiency, std::numbers::pi / 4, 0.01);
+    double mean = 0, peak = 0;
+    for (const Complex& value : field.samples.elements()) {
+        mean += std::norm(value) / (side * side);
+        peak = std::max(peak, double(std::norm(value)));
+    }
+    for (const auto& [encoding, factor] :
+         {Case{Encoding::double_phase, 1}, Case{Encoding::bipolar, 1 / 16.0}, Case{Encoding::burckhardt, 1 / 12.0}})
+        EXPECT_NEAR(encode_pattern(field, options_for(encoding)).efficiency / (factor * mean / peak), 1, 0.05);
+}
+
+// The carrier's order of the pattern is the field, and nothing else: low-passed to the field's own band.
+class Order : public testing::TestWithParam<Encoding> {};
+
+TEST_P(Order, that_carries_the_field_carries_nothing_else) {
+    const double band = 0.08;
+    const Field field = speckle(band);
+    const Pattern pattern = encode_pattern(field, options_for(GetParam()));
+    Array<Complex, 2> order = transmission(pattern, GetParam());
+    const double frequency = std::sin(pattern.reference_angle) * 8_um / 633_nm;
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x)
+            order(y, x) *= Complex(std::polar(1.0, 2 * std::numbers::pi * frequency * double(x)));
+    const Fft2 fft(side, side);
+    fft.forward(order);
+    Array<Complex, 2> wanted = field.samples;
+    fft.forward(wanted);
+    const auto reach = std::ptrdiff_t(band * side);
+    std::complex<double> product = 0;
+    double energy = 0, other = 0;
+    for (std::ptrdiff_t j = -reach; j <= reach; ++j)
+        for (std::ptrdiff_t i = -reach; i <= reach; ++i) {
+            const std::size_t row = std::size_t(j + std::ptrdiff_t(side)) % side,
+                              column = std::size_t(i + std::ptrdiff_t(side)) % side;
+            const std::complex<double> a = order(row, column), b = wanted(row, column);
+            product += a * std::conj(b);
+            energy += std::norm(a);
+            other += std::norm(b);
+        }
+    const double likeness = std::norm(product) / (energy * other);
+    EXPECT_GT(likeness, 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Encodings, Order,
+                         testing::Values(Encoding::double_phase, Encoding::intensity, Encoding::bipolar,
+                                         Encoding::burckhardt, Encoding::lee));
+
+// How far the local spectra of a pattern are from the field's, in squares that begin at a place; of all frequencies, or
+// of those up to a number.
+double spectral_error(const Pattern& pattern, Encoding encoding, const Field& field, std::size_t first = 0,
+                      std::size_t reach = side) {
+    constexpr std::size_t window = 24;
+    const Array<Complex, 2> shown = transmission(pattern, encoding);
+    const Fft2 fft(window, window);
+    double error = 0, all = 0;
+    for (std::size_t y0 = first; y0 + window <= side; y0 += window)
+        for (std::size_t x0 = first; x0 + window <= side; x0 += window) {
+            Array<Complex, 2> a({window, window}), b({window, window});
+            for (std::size_t y = 0; y < window; ++y)
+                for (std::size_t x = 0; x < window; ++x) {
+                    a(y, x) = shown(y0 + y, x0 + x);
+                    b(y, x) = field.samples(y0 + y, x0 + x);
+                }
+            fft.forward(a);
+            fft.forward(b);
+            double product = 0, energy = 0, target = 0;
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                const std::size_t row = i / window, column = i % window;
+                if (std::max(std::min(row, window - row), std::min(column, window - column)) > reach) continue;
+                product += std::abs(a.data()[i]) * std::abs(b.data()[i]);
+                energy += std::norm(a.data()[i]);
+                target += std::norm(b.data()[i]);
+            }
+            error += target - product * product / energy;
+            all += target;
+        }
+    return error / all;
+}
+
+TEST(Pattern, iteration_brings_the_light_field_nearer_than_the_phase_alone) {
+    const Field field = speckle(0.2);
+    const auto error = [&](Encoding encoding) {
+        PatternOptions options = options_for(encoding);
+        options.window = 24;
+        return spectral_error(encode_pattern(field, options), encoding, field);
+    };
+    EXPECT_LT(error(Encoding::gerchberg_saxton), 0.25 * error(Encoding::phase));
+}
+
+// Gerchberg and Saxton's squares leave seams; the descent's never lie still, so it is as good between them.
+TEST(Pattern, of_a_descent_has_the_light_field_wherever_it_is_looked_at) {
+    const Field field = speckle(0.2);
+    const auto make = [&](Encoding encoding, std::uint64_t seed = 1) {
+        PatternOptions options = options_for(encoding);
+        options.window = 24;
+        options.iterations = 40;
+        options.seed = seed;
+        return encode_pattern(field, options);
+    };
+    const Pattern descent = make(Encoding::gradient), projections = make(Encoding::gerchberg_saxton);
+    // The field's frequencies reach to 0.2 · 24.
+    for (const std::size_t first : {0, 7, 12})
+        EXPECT_LT(spectral_error(descent, Encoding::gradient, field, first, 5), 0.02) << first;
+    EXPECT_LT(spectral_error(projections, Encoding::gerchberg_saxton, field, 0, 5), 0.02);
+    EXPECT_GT(spectral_error(projections, Encoding::gerchberg_saxton, field, 12, 5), 0.1);
+    // It pays with light that goes where the field has none.
+    EXPECT_GT(descent.light_field_efficiency, 0.6);
+    EXPECT_LT(descent.light_field_efficiency, 0.8);
+    EXPECT_GT(projections.light_field_efficiency, 0.95);
+    EXPECT_TRUE(std::ranges::equal(descent.levels.elements(), make(Encoding::gradient).levels.elements()));
+    EXPECT_FALSE(std::ranges::equal(descent.levels.elements(), make(Encoding::gradient, 2).levels.elements()));
+}
+
+TEST(Pattern, fills_the_modulator_with_the_middle_of_the_field_or_a_border_and_rounds_to_its_levels) {
+    const Field field = plane_wave();
+    PatternOptions options = options_for(Encoding::phase);
+    options.modulator = {"test", 100, 220, 8_um, 16};
+    const Pattern pattern = encode_pattern(field, options);
+    ASSERT_EQ(pattern.levels.shape(), (Shape<2>{220, 100}));
+    for (std::size_t y = 14; y < 206; ++y)
+        for (std::size_t x = 0; x < 100; ++x) {
+            ASSERT_EQ(pattern.levels(y, x) % 16, 0);
+            const double turns = std::arg(field.samples(y - 14, x + 46)) / (2 * std::numbers::pi);
+            ASSERT_LT(std::abs(std::remainder(pattern.levels(y, x) / 256.0 - turns, 1.0)), 0.5 / 16 + 1e-5);
+        }
+    EXPECT_EQ(pattern.levels(0, 50), 0);
+    // sinc² of half a level's phase, and of the light on the border none.
+    EXPECT_NEAR(pattern.efficiency, std::pow(std::sin(std::numbers::pi / 16) / (std::numbers::pi / 16), 2) * 192 / 220,
+                0.01);
+}
+
+void expect_usage(const Field& field, const PatternOptions& options, const std::string& part) {
+    try {
+        encode_pattern(field, options);
+        ADD_FAILURE() << "expected: " << part;
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+}
+
+TEST(Pattern, that_cannot_be_is_refused_with_what_would_do) {
+    PatternOptions options = options_for(Encoding::bipolar);
+    options.reference_angle = 0.2_deg;
+    expect_usage(speckle(0.2), options,
+                 "a reference beam at 0.20 degrees overlaps the object, whose light reaches 0.8");
+    options.reference_angle = 2_deg;
+    expect_usage(speckle(0.2), options, "too fine for a pitch of 8 um; 6.");
+    options = options_for(Encoding::intensity);
+    expect_usage(speckle(0.2), options, "too fine for a pitch of 8 um; 5.");
+    expect_usage(speckle(0.2), options_for(Encoding::burckhardt), "would do");
+    options.modulator.pitch = 6.4_um;
+    expect_usage(speckle(0.2), options, "a pitch of 6.4 um");
+    expect_usage(empty_field(), options_for(Encoding::phase), "dark");
+    options = options_for(Encoding::gerchberg_saxton);
+    options.window = 500;
+    expect_usage(speckle(0.2), options, "500");
+    EXPECT_THROW(find_modulator("zeus"), Error);
+    EXPECT_EQ(find_modulator("leto").width, 1920u);
+}
+
+}  // namespace
+}  // namespace hogel

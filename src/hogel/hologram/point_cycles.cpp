@@ -1,0 +1,26 @@
+#include "hogel/core/random.h"
+#include "hogel/hologram/point_cycles.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::int64_t margin = 32;  // hogels around the region's
+
+}  // namespace
+
+double TurnSeries::operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction) const {
+    return philox({column, row, direction, series}, key)[0] / 4294967296.0;
+}
+
+PointTurns::PointTurns(const TurnSeries& series, const HogelRange& hogels)
+    : series_(series),
+      column0_(static_cast<std::int64_t>(hogels.s0) - margin),
+      row0_(static_cast<std::int64_t>(hogels.t0) - margin),
+      turns_({hogels.nt + 2 * margin, hogels.ns + 2 * margin}) {
+    for (std::size_t row = 0; row < turns_.extent(0); ++row)
+        for (std::size_t column = 0; column < turns_.extent(1); ++column)
+            turns_(row, column) =
+                draw(column0_ + static_cast<std::int64_t>(column), row0_ + static_cast<std::int64_t>(row));
+}
+
+}  // namespace hogel

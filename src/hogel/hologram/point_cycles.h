@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hogel/array.h"
+#include "hogel/light_field.h"
+
+namespace hogel {
+
+/// Random phases in turns, of a look and a colour.
+struct TurnSeries {
+    std::array<std::uint32_t, 2> key;  ///< the seed
+    std::uint32_t series;              ///< look and colour
+    /// Of the surface's point at a hogel's place; or for a direction of the hogel that sees nothing, counted from one.
+    double operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction = 0) const;
+};
+
+/// The phases of a surface's points, one a hogel. Those around the hogels that a region needs are kept, because many
+/// hogels see each.
+class PointTurns {
+  public:
+    PointTurns(const TurnSeries& series, const HogelRange& hogels);
+
+    double operator()(std::int64_t column, std::int64_t row) const {
+        const auto x = static_cast<std::size_t>(column - column0_), y = static_cast<std::size_t>(row - row0_);
+        return x < turns_.extent(1) && y < turns_.extent(0) ? turns_(y, x) : draw(column, row);
+    }
+
+  private:
+    double draw(std::int64_t column, std::int64_t row) const {
+        return series_(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+    }
+
+    TurnSeries series_;
+    std::int64_t column0_, row0_;
+    Array<double, 2> turns_;
+};
+
+}  // namespace hogel

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "hogel/array.h"
+
+namespace hogel {
+
+/// A direction of a window's Fourier transform, with the ray of the light field nearest to it.
+struct WindowDirection {
+    std::uint32_t coefficient;  // [row][column] of the transform
+    std::uint32_t ray;          // [l][k] of the light field
+    float share;                // |a|² for unit radiance, (λ/W)²/cos θ
+    float U, V;
+    double turns_per_depth;  // 1/(λ cos θ)
+    double first_turns;      // the phase of the window's first sample, counted from its centre
+};
+
+/// The windows of sixteen hogels side by side, made together: a hogel to a lane of the vectors. Small transforms are
+/// sums over all directions, because then nothing but sums is left.
+class WindowBatch {
+  public:
+    static constexpr std::size_t hogels = 16;
+    /// The largest side for which sums are quicker than transforms.
+    static constexpr std::size_t largest_side = 20;
+
+    /// What the windows of one hologram share. Sides and hops in samples.
+    struct Shared {
+        std::size_t side = 0, hop = 0;
+        const std::vector<WindowDirection>* directions = nullptr;
+        const std::vector<float>* brightness = nullptr;  // by |ζ| in steps, the last for all beyond
+        const std::vector<float>* window = nullptr;      // along a line
+        double steps_a_metre = 0, hogels_a_metre = 0, waves_a_metre = 0, pitch = 0;
+    };
+    explicit WindowBatch(const Shared& shared);
+
+    /// Phases in turns of the point (columns to the right, rows up) of each of the hogels; empty where points have
+    /// none.
+    using PointTurns = std::function<void(const std::int32_t* columns, const std::int32_t* rows, float* turns)>;
+    /// Which hogels: columns s, s + 1, ... of row t; and the random phases of what meets nothing, which for a direction
+    /// are the first word of Philox's draw {s, t, coefficient + 1, series}.
+    struct At {
+        std::size_t s = 0, t = 0;
+        std::uint32_t series = 0;
+        std::array<std::uint32_t, 2> key{};
+    };
+
+    /// Rays of hogels that lie one after the other, `count` of them, [hogel][rays]. Where all are dark there is nothing
+    /// to add, and this returns false.
+    bool fill(const At& at, const float* radiance, const float* depth, std::size_t count, std::size_t rays,
+              const PointTurns& points);
+
+    /// Samples to which windows are added: real and imaginary parts apart, and in a row those that are a hop apart side
+    /// by side.
+    struct Sum {
+        std::size_t first_x = 0, first_y = 0;  // counted from a window's first sample of the hologram's first hogel
+        std::size_t height = 0, row = 0;       // rows; numbers in a row of one remainder, with room for all windows
+        Array<float, 1> re, im;                // [height][hop][row]
+    };
+    /// Adds the windows that were filled last.
+    void add(const At& at, Sum& sum);
+
+    // What the vector code works on; all arrays have a hogel a lane.
+    struct Work {
+        std::size_t side, padded, hop;
+        std::vector<std::uint32_t> rows;        // of the transform, those with directions
+        Array<float, 1> radiance, depth;        // [ray]
+        Array<float, 1> re, im;                 // [row][column]
+        Array<float, 1> across_re, across_im;   // [row][x], padded rows
+        std::vector<float> roots_re, roots_im;  // e^{2πi kx/n}, [k][x], padded rows
+        std::vector<float> weights;             // [q][p]
+    };
+
+  private:
+    Shared shared_;
+    Work work_;
+};
+
+}  // namespace hogel

@@ -1,0 +1,310 @@
+#include <cmath>
+
+// Compiled for every instruction set and chosen when first called. The plain twin is OverlapAdd's way hogel by hogel.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/hologram/window_batch_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include "hogel/core/random.h"
+#include "hogel/hologram/philox_lanes.h"
+#include "hogel/hologram/windows/batch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t width = WindowBatch::hogels;
+using D = hn::CappedTag<float, width>;
+using V = hn::Vec<D>;
+#if HWY_TARGET == HWY_SCALAR
+using Wide = hn::CappedTag<double, 1>;
+#else
+using Wide = hn::Repartition<double, D>;
+#endif
+
+// Fractions of turns, less than one, of what the rays meet at their depths; for points with phases of their own which
+// points these are, counted from the hogel.
+void PointsAndTurns(const WindowBatch::Shared& shared, const WindowDirection& direction, const float* depths,
+                    bool points, float* turns, std::int32_t* columns, std::int32_t* rows) {
+    const Wide d;
+    const hn::Rebind<float, Wide> narrow;
+    const hn::Rebind<std::int32_t, Wide> whole;
+    const auto first = hn::Set(d, direction.first_turns);
+    for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
+        const auto depth = hn::PromoteTo(d, hn::LoadU(narrow, depths + i));
+        auto all = hn::MulAdd(depth, hn::Set(d, direction.turns_per_depth), first);
+        if (points) {
+            const auto hogels = hn::Mul(depth, hn::Set(d, shared.hogels_a_metre));
+            const auto column = hn::Round(hn::Mul(hn::Set(d, static_cast<double>(direction.U)), hogels));
+            const auto row = hn::Round(hn::Mul(hn::Set(d, static_cast<double>(direction.V)), hogels));
+            const auto pitch = hn::Set(d, shared.pitch);
+            const auto x = hn::Mul(column, pitch), y = hn::Mul(row, pitch);
+            const auto distance = hn::Sqrt(hn::MulAdd(y, y, hn::MulAdd(x, x, hn::Mul(depth, depth))));
+            all = hn::MulAdd(hn::CopySign(distance, depth), hn::Set(d, shared.waves_a_metre), first);
+            hn::StoreU(hn::DemoteTo(whole, column), whole, columns + i);
+            hn::StoreU(hn::DemoteTo(whole, row), whole, rows + i);
+        }
+        hn::StoreU(hn::DemoteTo(narrow, hn::Sub(all, hn::Round(all))), narrow, turns + i);
+    }
+}
+
+// amplitude · e^{2πi turns}, by the series of the sine and the cosine up to an eighth of a turn.
+HWY_INLINE void StoreWave(D d, V amplitude, V turns, float* re, float* im) {
+    const hn::RebindToSigned<D> whole;
+    const auto quarters = hn::Round(hn::Mul(turns, hn::Set(d, 4.0f)));
+    const auto angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25f), turns), hn::Set(d, 6.28318531f));
+    const auto square = hn::Mul(angle, angle);
+    auto sine = hn::MulAdd(square, hn::Set(d, -1.0f / 5040), hn::Set(d, 1.0f / 120));
+    sine = hn::MulAdd(square, sine, hn::Set(d, -1.0f / 6));
+    sine = hn::MulAdd(hn::Mul(square, sine), angle, angle);
+    auto cosine = hn::MulAdd(square, hn::Set(d, 1.0f / 40320), hn::Set(d, -1.0f / 720));
+    cosine = hn::MulAdd(square, cosine, hn::Set(d, 1.0f / 24));
+    cosine = hn::MulAdd(square, cosine, hn::Set(d, -0.5f));
+    cosine = hn::MulAdd(square, cosine, hn::Set(d, 1.0f));
+    const auto quadrant = hn::ConvertTo(whole, quarters);
+    const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(quadrant, hn::Set(whole, 1)))));
+    const auto sign_of = [&](auto number) {
+        return hn::BitCast(d, hn::ShiftLeft<30>(hn::And(number, hn::Set(whole, 2))));
+    };
+    const auto c = hn::Xor(hn::IfThenElse(odd, sine, cosine), sign_of(hn::Add(quadrant, hn::Set(whole, 1))));
+    const auto s = hn::Xor(hn::IfThenElse(odd, cosine, sine), sign_of(quadrant));
+    hn::StoreU(hn::Mul(amplitude, c), d, re);
+    hn::StoreU(hn::Mul(amplitude, s), d, im);
+}
+
+#if HWY_TARGET == HWY_SCALAR
+void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* turns) {
+    for (std::size_t i = 0; i < width; ++i)
+        turns[i] = static_cast<float>(philox({static_cast<std::uint32_t>(at.s + i), static_cast<std::uint32_t>(at.t),
+                                              coefficient + 1, at.series},
+                                             at.key)[0]) *
+                   0x1p-32f;
+}
+#else
+// A draw of Philox a hogel, in lanes of 64 bits.
+void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* turns) {
+    const hn::CappedTag<std::uint64_t, width> d;
+    const auto low = hn::Set(d, 0xffffffffu);
+    HWY_ALIGN std::uint64_t drawn[width];
+    for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
+        auto c0 = hn::Iota(d, at.s + i), c1 = hn::Set(d, at.t), c2 = hn::Set(d, coefficient + std::uint64_t{1});
+        auto c3 = hn::Set(d, at.series);
+        philox_lanes(d, c0, c1, c2, c3, at.key);
+        hn::Store(hn::And(c0, low), d, drawn + i);
+    }
+    for (std::size_t i = 0; i < width; ++i)
+        turns[i] = static_cast<float>(static_cast<std::uint32_t>(drawn[i])) * 0x1p-32f;
+}
+#endif
+
+void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, const WindowBatch::At& at_hogels,
+                 const WindowBatch::PointTurns& points) {
+    const D d;
+    const hn::RebindToSigned<D> whole;
+    const auto& table = *shared.brightness;
+    const auto last = static_cast<float>(table.size() - 1);
+    HWY_ALIGN float turns[width], own_turns[width], amplitudes[width], finite_depths[width];
+    HWY_ALIGN std::int32_t columns[width], rows[width];
+    for (const WindowDirection& direction : *shared.directions) {
+        const float* radiance = &work.radiance.data()[direction.ray * width];
+        const float* depth = &work.depth.data()[direction.ray * width];
+        bool something = false, all_finite = true;
+        for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
+            const auto light = hn::Mul(hn::LoadU(d, radiance + i), hn::Set(d, direction.share));
+            const auto lit = hn::Gt(light, hn::Zero(d));
+            const auto ray = hn::LoadU(d, depth + i);
+            const auto finite = hn::IsFinite(ray);
+            something = something || !hn::AllFalse(d, lit);
+            all_finite = all_finite && hn::AllTrue(d, finite);
+            // Nothing is a surface far away.
+            const auto at = hn::IfThenElse(
+                finite,
+                hn::Min(hn::Mul(hn::Abs(ray), hn::Set(d, static_cast<float>(shared.steps_a_metre))), hn::Set(d, last)),
+                hn::Set(d, last));
+            const auto below = hn::Min(hn::ConvertTo(whole, at), hn::Set(whole, static_cast<std::int32_t>(last) - 1));
+            const auto rest = hn::Sub(at, hn::ConvertTo(d, below));
+            const auto low = hn::GatherIndex(d, table.data(), below),
+                       high = hn::GatherIndex(d, table.data() + 1, below);
+            const auto bright = hn::MulAdd(rest, hn::Sub(high, low), low);
+            hn::Store(hn::IfThenElseZero(lit, hn::Mul(hn::Sqrt(light), bright)), d, amplitudes + i);
+            hn::Store(hn::IfThenElseZero(finite, ray), d, finite_depths + i);
+        }
+        float* re = &work.re.data()[direction.coefficient * width];
+        float* im = &work.im.data()[direction.coefficient * width];
+        if (!something) {
+            for (std::size_t i = 0; i < width; ++i) re[i] = im[i] = 0;
+            continue;
+        }
+        PointsAndTurns(shared, direction, finite_depths, bool(points), turns, columns, rows);
+        if (points) {
+            points(columns, rows, own_turns);
+            for (std::size_t i = 0; i < width; i += hn::Lanes(d))
+                hn::Store(hn::Add(hn::Load(d, turns + i), hn::Load(d, own_turns + i)), d, turns + i);
+        }
+        if (!all_finite) {
+            TurnsOfNothing(at_hogels, direction.coefficient, own_turns);
+            const V first = hn::Set(d, static_cast<float>(direction.first_turns - std::round(direction.first_turns)));
+            for (std::size_t i = 0; i < width; i += hn::Lanes(d))
+                hn::Store(hn::IfThenElse(hn::IsFinite(hn::LoadU(d, depth + i)), hn::Load(d, turns + i),
+                                         hn::Add(hn::Load(d, own_turns + i), first)),
+                          d, turns + i);
+        }
+        for (std::size_t i = 0; i < width; i += hn::Lanes(d))
+            StoreWave(d, hn::Load(d, amplitudes + i), hn::Load(d, turns + i), re + i, im + i);
+    }
+}
+
+// Three sums at once of numbers times roots of unity: out[x] = Σ in[k] e^{2πi kx/n} for x, x + 1 and x + 2.
+struct Three {
+    V re0, im0, re1, im1, re2, im2;
+};
+template <class At>
+HWY_INLINE Three Sum3(D d, const float* in_re, const float* in_im, const float* roots_re, const float* roots_im,
+                      std::size_t terms, const At& at) {
+    const V zero = hn::Zero(d);
+    Three sum{zero, zero, zero, zero, zero, zero};
+    for (std::size_t k = 0; k < terms; ++k) {
+        const auto [from, root] = at(k);
+        const V re = hn::LoadU(d, in_re + from), im = hn::LoadU(d, in_im + from);
+        const auto add = [&](V& sum_re, V& sum_im, std::size_t i) {
+            const V c = hn::Set(d, roots_re[root + i]), s = hn::Set(d, roots_im[root + i]);
+            sum_re = hn::NegMulAdd(im, s, hn::MulAdd(re, c, sum_re));
+            sum_im = hn::MulAdd(im, c, hn::MulAdd(re, s, sum_im));
+        };
+        add(sum.re0, sum.im0, 0);
+        add(sum.re1, sum.im1, 1);
+        add(sum.re2, sum.im2, 2);
+    }
+    return sum;
+}
+
+struct Place {
+    std::size_t from, root;
+};
+
+// Rows of directions to rows of samples.
+void TransformRows(WindowBatch::Work& work) {
+    const D d;
+    const std::size_t n = work.side, padded = work.padded;
+    for (const std::uint32_t row : work.rows)
+        for (std::size_t x = 0; x < n; x += 3)
+            for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
+                const std::size_t from = row * n * width + i, to = (row * padded + x) * width + i;
+                const Three sum = Sum3(d, work.re.data() + from, work.im.data() + from, work.roots_re.data() + x,
+                                       work.roots_im.data() + x, n, [&](std::size_t k) {
+                                           return Place{k * width, k * padded};
+                                       });
+                float *re = work.across_re.data() + to, *im = work.across_im.data() + to;
+                hn::StoreU(sum.re0, d, re);
+                hn::StoreU(sum.im0, d, im);
+                hn::StoreU(sum.re1, d, re + width);
+                hn::StoreU(sum.im1, d, im + width);
+                hn::StoreU(sum.re2, d, re + 2 * width);
+                hn::StoreU(sum.im2, d, im + 2 * width);
+            }
+}
+
+// Columns, weighted with the window and added: sample (p, q) of all windows goes to `places[p]` in row q, side by side.
+void AddColumns(WindowBatch::Work& work, std::size_t q0, std::size_t q1, const std::size_t* places, std::size_t row,
+                float* sum_re, float* sum_im) {
+    const D d;
+    const std::size_t n = work.side, padded = work.padded;
+    for (std::size_t p = 0; p < n; ++p)
+        for (std::size_t q = q0 / 3 * 3; q < q1; q += 3)
+            for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
+                const std::size_t from = p * width + i;
+                const Three sum =
+                    Sum3(d, work.across_re.data() + from, work.across_im.data() + from, work.roots_re.data() + q,
+                         work.roots_im.data() + q, work.rows.size(), [&](std::size_t k) {
+                             return Place{work.rows[k] * padded * width, work.rows[k] * padded};
+                         });
+                const auto put = [&](V re, V im, std::size_t to_q) {
+                    if (to_q < q0 || to_q >= q1) return;
+                    const V weight = hn::Set(d, work.weights[to_q * n + p]);
+                    float* to_re = sum_re + (to_q - q0) * row + places[p] + i;
+                    float* to_im = sum_im + (to_q - q0) * row + places[p] + i;
+                    hn::StoreU(hn::MulAdd(re, weight, hn::LoadU(d, to_re)), d, to_re);
+                    hn::StoreU(hn::MulAdd(im, weight, hn::LoadU(d, to_im)), d, to_im);
+                };
+                put(sum.re0, sum.im0, q);
+                put(sum.re1, sum.im1, q + 1);
+                put(sum.re2, sum.im2, q + 2);
+            }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/hologram/lobes.h"
+
+namespace hogel {
+
+HWY_EXPORT(FillWindows);
+HWY_EXPORT(TransformRows);
+HWY_EXPORT(AddColumns);
+
+WindowBatch::WindowBatch(const Shared& shared) : shared_(shared) {
+    const std::size_t n = shared.side;
+    work_.side = n;
+    work_.padded = (n + 2) / 3 * 3;
+    work_.hop = shared.hop;
+    std::uint32_t rays = 0;
+    for (const WindowDirection& direction : *shared.directions) {
+        rays = std::max(rays, direction.ray + 1);
+        const auto row = static_cast<std::uint32_t>(direction.coefficient / n);
+        if (std::ranges::find(work_.rows, row) == work_.rows.end()) work_.rows.push_back(row);
+    }
+    std::ranges::sort(work_.rows);
+    const auto make = [](Array<float, 1>& array, std::size_t count) { array = Array<float, 1>({count * hogels}); };
+    make(work_.radiance, rays);
+    make(work_.depth, rays);
+    make(work_.re, n * n);
+    make(work_.im, n * n);
+    make(work_.across_re, n * work_.padded);
+    make(work_.across_im, n * work_.padded);
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t x = 0; x < work_.padded; ++x) {
+            const double angle = 2 * std::numbers::pi * static_cast<double>(k * x % n) / static_cast<double>(n);
+            work_.roots_re.push_back(static_cast<float>(std::cos(angle)));
+            work_.roots_im.push_back(static_cast<float>(std::sin(angle)));
+        }
+    for (const float row : *shared.window)
+        for (const float column : *shared.window) work_.weights.push_back(row * column);
+}
+
+bool WindowBatch::fill(const At& at, const float* radiance, const float* depth, std::size_t count, std::size_t rays,
+                       const PointTurns& points) {
+    if (std::none_of(radiance, radiance + count * rays, [](float value) { return value > 0; })) return false;
+    if (count < hogels) std::fill(work_.radiance.data(), work_.radiance.data() + work_.radiance.size(), 0.0f);
+    const std::size_t used = work_.radiance.size() / hogels;
+    transpose(radiance, rays, count, used, work_.radiance.data(), hogels);
+    transpose(depth, rays, count, used, work_.depth.data(), hogels);
+    HWY_DYNAMIC_DISPATCH(FillWindows)(shared_, work_, at, points);
+    HWY_DYNAMIC_DISPATCH(TransformRows)(work_);
+    return true;
+}
+
+void WindowBatch::add(const At& at, Sum& sum) {
+    // The window's sample (p, q) is sample (s hop + p, t hop + q).
+    const std::size_t y = at.t * shared_.hop, end = sum.first_y + sum.height;
+    const std::size_t q0 = y < sum.first_y ? sum.first_y - y : 0, q1 = y < end ? std::min(shared_.side, end - y) : 0;
+    if (q0 >= q1) return;
+    std::array<std::size_t, largest_side> places;
+    for (std::size_t p = 0; p < shared_.side; ++p)
+        places[p] = (p % shared_.hop) * sum.row + at.s + p / shared_.hop - sum.first_x / shared_.hop;
+    const std::size_t row = shared_.hop * sum.row, first = (y + q0 - sum.first_y) * row;
+    HWY_DYNAMIC_DISPATCH(AddColumns)
+    (work_, q0, q1, places.data(), row, sum.re.data() + first, sum.im.data() + first);
+}
+
+}  // namespace hogel
+#endif

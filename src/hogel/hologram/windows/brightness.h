@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hogel/field.h"
+#include "hogel/light_field.h"
+
+namespace hogel {
+
+/// By how much overlapping windows must make points at a depth brighter. Near the plane the windows that show one point
+/// overlap and interfere, far from it they lie apart. One point's windows are added up, in one dimension, to find what
+/// makes points of all depths as bright as the light field says in the middle of the fan of directions: the energy that
+/// its rays carry there (docs/notation.md, section 3).
+class WindowBrightness {
+  public:
+    /// @param hop     samples of a hogel's side
+    /// @param window  along a line
+    WindowBrightness(const LightFieldGrid& rays, const FieldGrid& grid, std::size_t hop, std::span<const float> window);
+
+    float operator()(double depth) const;
+    float farthest() const { return values_.back(); }  ///< of all depths beyond the table
+    const std::vector<float>& values() const { return values_; }
+    double steps_a_metre() const { return steps_a_metre_; }
+
+  private:
+    std::vector<float> values_;  // by |ζ|, the last for all beyond
+    double steps_a_metre_;
+};
+
+}  // namespace hogel

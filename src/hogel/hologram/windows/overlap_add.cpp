@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "hogel/core/object_pool.h"
+#include "hogel/hologram/hogel_synthesis.h"
+#include "hogel/hologram/point_cycles.h"
+#include "hogel/hologram/unit_roots.h"
+#include "hogel/hologram/windows/batch.h"
+#include "hogel/hologram/windows/brightness.h"
+#include "hogel/math/fft.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// The window's side in samples: at least twice a hogel's, as long as the directions' spacing allows, a multiple of the
+// hogel's so that windows add up to a constant, and centred on the hogel.
+std::size_t window_side(const LightFieldGrid& light_field, const FieldGrid& grid, std::size_t hop) {
+    const double step = std::min(light_field.step_u(), light_field.step_v());
+    const double hogels = std::round(grid.wavelength / (step * light_field.pitch));
+    auto side = static_cast<std::size_t>(std::max(2.0, hogels));
+    if (hop % 2 == 1 && side % 2 == 0) ++side;
+    return side * hop;
+}
+
+std::vector<float> hann_window(std::size_t side) {
+    std::vector<float> window;
+    for (std::size_t i = 0; i < side; ++i)
+        window.push_back(static_cast<float>(
+            std::pow(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(side)), 2)));
+    return window;
+}
+
+std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
+
+// The stereogram whose hogels are windows that overlap: a Hann window around each hogel's centre, filled by one Fourier
+// transform with the waves of its directions, each in the phase of a spherical wave from the point that it meets; all
+// windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
+// stereograms", ACM TOG 38(6), 2019.
+class OverlapAdd final : public FieldSource {
+  public:
+    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options,
+               bool one_by_one)
+        : light_field_(light_field),
+          options_(options),
+          grid_(grid),
+          hop_(grid.plane.width / light_field.grid().hogels_s),
+          side_(window_side(light_field.grid(), grid, hop_)),
+          fft_(side_, side_),
+          window_(hann_window(side_)),
+          brightness_(light_field.grid(), grid, hop_, window_) {
+        for (const float row : window_)
+            for (const float column : window_) square_.push_back(row * column);
+        hogels_a_metre_ = 1 / light_field.grid().pitch;
+        waves_a_metre_ = 1 / grid.wavelength;
+        list_directions();
+        batches_ = !one_by_one && side_ <= WindowBatch::largest_side && !directions_.empty();
+    }
+
+    const FieldGrid& grid() const override { return grid_; }
+    std::size_t looks() const override { return options_.looks; }
+    std::size_t alignment() const override { return hop_; }
+
+    void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
+        validate(region, grid_, out.shape());
+        const auto [s0, ns] = windows_over(region.x0, region.width, light_field_.grid().hogels_s);
+        const auto [t0, nt] = windows_over(region.y0, region.height, light_field_.grid().hogels_t);
+        auto room = rooms_.take();
+        if (batches_)
+            add_batches({s0, t0, ns, nt}, region, look, *room, out);
+        else
+            add_one_by_one({s0, t0, ns, nt}, region, look, *room, out);
+    }
+
+  private:
+    static constexpr std::size_t band_rays = std::size_t{1} << 18;
+
+    // What a region is made in.
+    struct Room {
+        LightFieldTile tile;
+        std::optional<WindowBatch> batch;
+        WindowBatch::Sum sum;
+    };
+
+    // Calls use(tile) for few rows of hogels at once, to bound memory.
+    template <class Use>
+    void for_each_band(const HogelRange& hogels, LightFieldTile& tile, const Use& use) const {
+        const std::size_t rows = std::max<std::size_t>(1, band_rays / (hogels.ns * light_field_.grid().directions()));
+        for (std::size_t t = hogels.t0; t < hogels.t0 + hogels.nt; t += rows) {
+            const HogelRange band{hogels.s0, t, hogels.ns, std::min(rows, hogels.t0 + hogels.nt - t)};
+            if (tile.range.ns != band.ns || tile.range.nt != band.nt)
+                tile = LightFieldTile(light_field_.grid(), band, true);
+            tile.range = band;
+            light_field_.read(tile);
+            use(tile);
+        }
+    }
+
+    // The plain way. Every sample adds its windows in the same order, whatever the region.
+    void add_one_by_one(const HogelRange& hogels, const Region& region, std::size_t look, Room& room,
+                        View<Complex, 2> out) const {
+        std::fill(out.data(), out.data() + out.size(), Complex(0));
+        Array<Complex, 2> window({side_, side_});
+        std::optional<PointTurns> points;
+        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
+        for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
+            const HogelRange& range = tile.range;
+            for (std::size_t j = 0; j < range.nt; ++j)
+                for (std::size_t i = 0; i < range.ns; ++i) {
+                    fill(tile.radiance.view()[options_.channel][j][i].elements(), tile.depth[j][i].elements(),
+                         {range.s0 + i, range.t0 + j, look}, points ? &*points : nullptr, window);
+                    fft_.backward(window);
+                    add(window, range.s0 + i, range.t0 + j, region, out);
+                }
+        });
+    }
+
+    // Batches begin at the same hogels whatever the region, and so does the order in which a sample's windows are
+    // added.
+    void add_batches(HogelRange hogels, const Region& region, std::size_t look, Room& room,
+                     View<Complex, 2> out) const {
+        constexpr std::size_t together = WindowBatch::hogels;
+        const std::size_t end =
+            std::min(light_field_.grid().hogels_s, (hogels.s0 + hogels.ns + together - 1) / together * together);
+        hogels.s0 = hogels.s0 / together * together;
+        hogels.ns = end - hogels.s0;
+        if (!room.batch) {
+            WindowBatch::Shared shared{side_, hop_, &directions_, &brightness_.values(), &window_};
+            shared.steps_a_metre = brightness_.steps_a_metre();
+            shared.hogels_a_metre = hogels_a_metre_;
+            shared.waves_a_metre = waves_a_metre_;
+            shared.pitch = light_field_.grid().pitch;
+            room.batch.emplace(shared);
+        }
+        const std::size_t before = (side_ - hop_) / 2;
+        WindowBatch::Sum& sum = room.sum;
+        sum.first_x = hogels.s0 * hop_;
+        sum.first_y = region.y0 + before;
+        sum.height = region.height;
+        sum.row = (hogels.ns + together - 1) / together * together + side_ / hop_ + 1;
+        for (Array<float, 1>* part : {&sum.re, &sum.im}) {
+            const std::size_t size = sum.height * hop_ * sum.row;
+            if (part->size() < size)
+                *part = Array<float, 1>({size});
+            else
+                std::fill_n(part->data(), size, 0.0f);
+        }
+        std::optional<PointTurns> points;
+        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
+        for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
+            for (std::size_t j = 0; j < tile.range.nt; ++j)
+                for (std::size_t i = 0; i < tile.range.ns; i += together)
+                    add_batch(tile, i, j, look, points ? &*points : nullptr, room);
+        });
+        for (std::size_t y = 0; y < region.height; ++y)
+            for (std::size_t x = 0; x < region.width; ++x) {
+                const std::size_t at = region.x0 + before + x;
+                const std::size_t from = (y * hop_ + at % hop_) * sum.row + at / hop_ - hogels.s0;
+                out(y, x) = {sum.re.data()[from], sum.im.data()[from]};
+            }
+    }
+
+    void add_batch(const LightFieldTile& tile, std::size_t i, std::size_t j, std::size_t look, const PointTurns* points,
+                   Room& room) const {
+        const std::size_t s = tile.range.s0 + i, t = tile.range.t0 + j;
+        WindowBatch::PointTurns turns_of_points;
+        if (points)
+            turns_of_points = [=](const std::int32_t* columns, const std::int32_t* rows, float* turns) {
+                for (std::size_t k = 0; k < WindowBatch::hogels; ++k)
+                    turns[k] = static_cast<float>((*points)(static_cast<std::int64_t>(s + k) + columns[k],
+                                                            static_cast<std::int64_t>(t) - rows[k]));
+            };
+        const TurnSeries turns = turn_series(look);
+        const WindowBatch::At at{s, t, turns.series, turns.key};
+        const std::size_t count = std::min(WindowBatch::hogels, tile.range.ns - i);
+        if (room.batch->fill(at, &tile.radiance(options_.channel, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
+                             light_field_.grid().directions(), turns_of_points))
+            room.batch->add(at, room.sum);
+    }
+
+    void list_directions() {
+        const LightFieldGrid& rays = light_field_.grid();
+        const double step = grid_.wavelength / (static_cast<double>(side_) * grid_.plane.pitch_x);
+        const auto n = static_cast<std::ptrdiff_t>(side_);
+        const std::ptrdiff_t reach = (n - 1) / 2;
+        for (std::ptrdiff_t jy = -reach; jy <= reach; ++jy)
+            for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
+                const double sx = step * static_cast<double>(jx), sy = step * static_cast<double>(jy);
+                const double cos2 = 1 - sx * sx - sy * sy;
+                if (cos2 <= 0) continue;
+                const double cosine = std::sqrt(cos2), U = -sx / cosine, V = -sy / cosine;
+                if (!rays.sees({U, V, 1})) continue;
+                const auto nearest = [](double at, std::size_t count) {
+                    return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, static_cast<double>(count) - 1));
+                };
+                const std::size_t k = nearest(rays.column(U), rays.directions_u);
+                const std::size_t l = nearest(rays.row(V), rays.directions_v);
+                // Rows run down while y runs up, so a row of the transform is −j_y.
+                const auto row = static_cast<std::size_t>((n - jy) % n),
+                           column = static_cast<std::size_t>((n + jx) % n);
+                const double first = -0.5 * static_cast<double>(n - 1) / static_cast<double>(n);
+                directions_.push_back({static_cast<std::uint32_t>(row * side_ + column),
+                                       static_cast<std::uint32_t>(l * rays.directions_u + k),
+                                       static_cast<float>(step * step / cosine), static_cast<float>(U),
+                                       static_cast<float>(V), 1 / (grid_.wavelength * cosine),
+                                       static_cast<double>(jx - jy) * first});
+            }
+    }
+
+    void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
+              const PointTurns* points, View<Complex, 2> window) const {
+        std::fill(window.data(), window.data() + window.size(), Complex(0));
+        for (const WindowDirection& direction : directions_) {
+            const float light = radiance[direction.ray] * direction.share;
+            if (!(light > 0)) continue;
+            const float depth = depths[direction.ray];
+            double turns = direction.first_turns;
+            float amplitude = std::sqrt(light);
+            if (std::isfinite(depth)) {
+                turns += points ? turns_of_point(direction, depth, place, *points) : depth * direction.turns_per_depth;
+                amplitude *= brightness_(depth);
+            } else {
+                turns += turns_of_nothing(direction, place);
+                amplitude *= brightness_.farthest();
+            }
+            window.data()[direction.coefficient] = amplitude * roots_(turns);
+        }
+    }
+
+    TurnSeries turn_series(std::size_t look) const {
+        return {{static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)},
+                static_cast<std::uint32_t>(look * 4 + options_.channel)};
+    }
+
+    // Nothing is a surface far away, of which neighbouring windows see different points.
+    double turns_of_nothing(const WindowDirection& direction, const HogelPlace& place) const {
+        return turn_series(place.look)(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
+                                       direction.coefficient + 1);
+    }
+
+    // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
+    double turns_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
+                          const PointTurns& points) const {
+        const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
+        const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
+        const double x = static_cast<double>(columns) * pitch, y = static_cast<double>(rows) * pitch;
+        const double distance = std::copysign(std::sqrt(depth * depth + x * x + y * y), depth);
+        return distance * waves_a_metre_ +
+               points(static_cast<std::int64_t>(place.s) + columns, static_cast<std::int64_t>(place.t) - rows);
+    }
+
+    // First and number of the hogels whose windows touch samples first..first+count−1.
+    std::pair<std::size_t, std::size_t> windows_over(std::size_t first, std::size_t samples, std::size_t hogels) const {
+        const std::size_t before = (side_ - hop_) / 2;
+        const std::size_t from = first + before >= side_ ? (first + before - side_) / hop_ + 1 : 0;
+        const std::size_t to = std::min(hogels - 1, (first + samples - 1 + before) / hop_);
+        return {from, to - from + 1};
+    }
+
+    void add(View<const Complex, 2> window, std::size_t s, std::size_t t, const Region& region,
+             View<Complex, 2> out) const {
+        const auto before = static_cast<std::ptrdiff_t>((side_ - hop_) / 2);
+        // Where the window's first sample lies in the region.
+        const auto left = static_cast<std::ptrdiff_t>(s * hop_) - before - static_cast<std::ptrdiff_t>(region.x0);
+        const auto top = static_cast<std::ptrdiff_t>(t * hop_) - before - static_cast<std::ptrdiff_t>(region.y0);
+        const auto cut = [this](std::ptrdiff_t start, std::size_t length) {
+            return std::pair{static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -start)),
+                             static_cast<std::size_t>(std::min(static_cast<std::ptrdiff_t>(side_),
+                                                               static_cast<std::ptrdiff_t>(length) - start))};
+        };
+        const auto [q0, q1] = cut(top, region.height);
+        const auto [p0, p1] = cut(left, region.width);
+        for (std::size_t q = q0; q < q1; ++q) {
+            const Complex* from = &window(q, 0);
+            Complex* to = &out(static_cast<std::size_t>(top + static_cast<std::ptrdiff_t>(q)),
+                               static_cast<std::size_t>(left + static_cast<std::ptrdiff_t>(p0)));
+            const float* weights = &square_[q * side_];
+            for (std::size_t p = p0; p < p1; ++p) *to++ += from[p] * weights[p];
+        }
+    }
+
+    const LightFieldSource& light_field_;
+    StereogramOptions options_;
+    FieldGrid grid_;
+    std::size_t hop_, side_;  // samples of a hogel's and a window's side
+    Fft2 fft_;
+    UnitRoots roots_;
+    std::vector<float> window_;  // along a line
+    WindowBrightness brightness_;
+    std::vector<float> square_;  // [q][p], a product of two
+    std::vector<WindowDirection> directions_;
+    // What every ray would have to divide by.
+    double hogels_a_metre_ = 0, waves_a_metre_ = 0;
+    bool batches_ = false;  // windows of many hogels at once
+    mutable Reused<Room> rooms_;
+};
+
+}  // namespace
+
+std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
+                                              const StereogramOptions& options, bool one_by_one) {
+    return std::make_unique<OverlapAdd>(light_field, grid, options, one_by_one);
+}
+
+}  // namespace hogel

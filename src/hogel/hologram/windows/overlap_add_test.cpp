@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "hogel/hologram/hogel_synthesis.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// Rays that are dark, that meet something on either side of the plane, and that meet nothing.
+LightField noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u, std::size_t directions_v,
+                 double pitch) {
+    LightField field({hogels_s, hogels_t, pitch, directions_u, directions_v, 0.035, 0.03, 3, 0.004, 0}, true);
+    std::mt19937 random(1);
+    for (float& radiance : field.radiance.elements())
+        radiance = random() % 5 == 0 ? 0.0f : static_cast<float>(random() % 1000) / 1000;
+    for (float& depth : field.depth.elements())
+        depth = random() % 7 == 0 ? std::numeric_limits<float>::infinity()
+                                  : (static_cast<float>(random() % 2000) - 1000) * 3e-6f;
+    return field;
+}
+
+StereogramOptions options_of(Phases phases, double pitch) {
+    StereogramOptions options;
+    options.wavelength = 520e-9;
+    options.pitch = pitch;
+    options.channel = 1;
+    options.method = Method::overlap_add;
+    options.phases = phases;
+    options.looks = 2;
+    return options;
+}
+
+TEST(OverlapAdd, windows_of_many_hogels_at_once_are_those_one_by_one) {
+    for (const std::size_t hop : {1, 2, 3})
+        for (const Phases phases : {Phases::fixed, Phases::random}) {
+            const LightField rays = noise(37, 21, 9, 6, static_cast<double>(hop) * 6e-6);
+            const StereogramOptions options = options_of(phases, 6e-6);
+            const FieldGrid grid = stereogram_grid(rays.grid(), options);
+            const Region all{0, 0, grid.plane.width, grid.plane.height};
+            Array<Complex, 2> plain({all.height, all.width}), fast = plain;
+            make_overlap_add(rays, grid, options, true)->read(all, 1, plain);
+            make_overlap_add(rays, grid, options)->read(all, 1, fast);
+            double signal = 0, error = 0;
+            for (std::size_t i = 0; i < plain.size(); ++i) {
+                signal += std::norm(plain.data()[i]);
+                error += std::norm(plain.data()[i] - fast.data()[i]);
+            }
+            EXPECT_GT(signal, 0);
+            EXPECT_LT(std::sqrt(error / signal), 1e-3) << hop;  // the plain way takes phases from a table of 67 dB
+        }
+}
+
+TEST(OverlapAdd, a_sample_is_the_same_whatever_the_region) {
+    const LightField rays = noise(70, 9, 9, 6, 12e-6);
+    const auto hologram = make_stereogram(rays, options_of(Phases::random, 6e-6));
+    const Region all{0, 0, 140, 18};
+    Array<Complex, 2> whole({all.height, all.width});
+    hologram->read(all, 0, whole);
+    for (const Region& part : {Region{0, 0, 1, 1}, {33, 5, 40, 7}, {97, 17, 43, 1}, {139, 0, 1, 18}}) {
+        Array<Complex, 2> some({part.height, part.width}, Complex(7));
+        hologram->read(part, 0, some);
+        for (std::size_t y = 0; y < part.height; ++y)
+            EXPECT_TRUE(
+                std::ranges::equal(some[y].elements(), whole[part.y0 + y].elements().subspan(part.x0, part.width)))
+                << part.x0 << " " << y;
+    }
+}
+
+}  // namespace
+}  // namespace hogel

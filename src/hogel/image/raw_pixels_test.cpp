@@ -1,0 +1,47 @@
+#include "hogel/image.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+class Levels : public testing::TestWithParam<std::tuple<const char*, std::size_t>> {};
+
+TEST_P(Levels, are_read_back_as_they_were_written) {
+    const auto [extension, channels] = GetParam();
+    Array<std::uint8_t, 3> levels({7, 37, channels});
+    for (std::size_t i = 0; i < levels.size(); ++i) levels.data()[i] = static_cast<std::uint8_t>(i * 151);
+    const auto path = std::filesystem::path(testing::TempDir()) / ("levels" + std::to_string(channels) + extension);
+    write_levels(path, levels, {{"encoding", "phase"}});
+    const Image image = read_image(path);
+    ASSERT_EQ(image.width(), 37u);
+    ASSERT_EQ(image.height(), 7u);
+    // read_image takes integers for sRGB; a bitmap's greys may come as three equal channels.
+    for (std::size_t y = 0; y < 7; ++y)
+        for (std::size_t x = 0; x < 37; ++x)
+            for (std::size_t c = 0; c < image.channels(); ++c)
+                ASSERT_EQ(std::lround(255 * srgb_encode(image.pixels(y, x, c))),
+                          levels(y, x, std::min(c, channels - 1)));
+    std::filesystem::remove(path);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Levels,
+                         testing::Combine(testing::Values(".png", ".bmp", ".tif"),
+                                          testing::Values(std::size_t{1}, std::size_t{3})));
+
+TEST(LevelsFile, is_refused_by_name_and_place) {
+    const Array<std::uint8_t, 3> levels({2, 2, 1});
+    EXPECT_THROW(write_levels("pattern.exr", levels), Error);
+    EXPECT_THROW(require_levels_name("pattern"), Error);
+    EXPECT_THROW(write_levels("/nonexistent/pattern.bmp", levels), Error);
+    EXPECT_THROW(write_levels("/nonexistent/pattern.png", levels), Error);
+}
+
+}  // namespace
+}  // namespace hogel

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hogel/core/raw_file.h"
+#include "hogel/io/arrays/numbers.h"
+
+namespace hogel {
+
+/// A dataset of an early HDF5 file.
+struct EarlyDataset {
+    struct Member {
+        std::string name;  ///< empty where the elements are plain numbers
+        Number number = Number::real;
+        std::size_t offset = 0;  ///< of the number in its element
+    };
+    struct Filter {
+        std::uint64_t id = 0;
+        std::string name;
+    };
+    enum class Layout { none, compact, contiguous, chunked };
+
+    std::string name;
+    std::vector<std::uint64_t> shape;  ///< the last axis fastest
+    std::vector<Member> members;       ///< empty where the elements are nothing that this reads
+    std::size_t element_bytes = 0;
+    std::map<std::string, std::string> texts;  ///< attributes that are texts
+
+    Layout layout = Layout::none;
+    std::vector<unsigned char> compact;  ///< all samples
+    std::optional<std::uint64_t>
+        address;                       ///< of the samples, or of the tree of chunks; missing where nothing was written
+    std::uint64_t bytes = 0;           ///< of contiguous samples
+    std::vector<std::uint64_t> chunk;  ///< shape of the chunks
+    std::vector<Filter> filters;       ///< of the chunks, in the order of writing
+
+    std::uint64_t samples() const;
+};
+
+/// An HDF5 file as the HDF5 library writes it where it is not asked for later structures: superblock version 0 or 1,
+/// which MATLAB writes after a block of its own. These have no checksums, and the HDF5 library, which believes what it
+/// reads, crashes where they are damaged. So what a file of arrays needs of them is read here (HDF5 file format
+/// specification 3.0): the datasets of the root group, whole, in one piece or in chunks, plain or by deflate, shuffle
+/// and fletcher32. All members throw Error(bad_input).
+class EarlyHdf5 {
+  public:
+    explicit EarlyHdf5(const std::filesystem::path& path);
+
+    /// The datasets of the root group, by name.
+    std::vector<EarlyDataset> datasets() const;
+    /// All elements as they lie in the file's own order.
+    std::vector<unsigned char> read(const EarlyDataset& dataset) const;
+
+    /// So many bytes of the file from an address.
+    std::vector<unsigned char> at(std::uint64_t address, std::uint64_t bytes) const;
+    [[noreturn]] void fail(const std::string& why) const;
+
+  private:
+    RawFile file_;
+    std::uint64_t base_ = 0, root_ = 0;
+};
+
+/// The messages of an object's header, and of the blocks that continue it.
+void for_each_early_message(
+    const EarlyHdf5& file, std::uint64_t address,
+    const std::function<void(std::uint64_t type, std::uint64_t flags, const std::vector<unsigned char>& message)>& use);
+
+/// The dataset whose header stands at an address; one of no bytes where that is a group.
+EarlyDataset early_dataset(const EarlyHdf5& file, const std::string& name, std::uint64_t header);
+
+/// Bytes taken one after the other; what would lie beyond their end is an error.
+class ByteCursor {
+  public:
+    ByteCursor(const EarlyHdf5& file, std::span<const unsigned char> bytes)
+        : file_(file), rest_(bytes), all_(bytes.size()) {}
+
+    std::uint64_t number(std::size_t bytes);
+    std::span<const unsigned char> take(std::size_t bytes);
+    void skip(std::size_t bytes) { take(bytes); }
+
+    /// A text that ends with a zero.
+    std::string text();
+    std::size_t taken() const { return all_ - rest_.size(); }
+    std::size_t left() const { return rest_.size(); }
+
+  private:
+    const EarlyHdf5& file_;
+    std::span<const unsigned char> rest_;
+    std::size_t all_;
+};
+
+}  // namespace hogel

@@ -1,0 +1,186 @@
+// The samples of an early HDF5 file's datasets: chunks, in a tree of their own (HDF5 file format specification
+// III.A.1), through their filters (IV.A.2.l) backwards.
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "hogel/io/arrays/hdf5_v0.h"
+
+namespace hogel {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+// Deflate reaches 1032.
+constexpr std::uint64_t most_expansion = 1040;
+
+Bytes inflated(const EarlyHdf5& file, const Bytes& packed, std::size_t bytes) {
+    Bytes plain(bytes);
+    uLongf length = bytes;
+    if (uncompress(plain.data(), &length, packed.data(), packed.size()) != Z_OK || length != bytes)
+        file.fail("a compressed piece is damaged");
+    return plain;
+}
+
+// First bytes of all numbers, then all second ones, and so on: back to number by number.
+Bytes unshuffled(const Bytes& shuffled, std::size_t element) {
+    const std::size_t count = shuffled.size() / element;
+    Bytes plain = shuffled;
+    for (std::size_t b = 0; b < element; ++b)
+        for (std::size_t i = 0; i < count; ++i) plain[i * element + b] = shuffled[b * count + i];
+    return plain;
+}
+
+// Whether this is Fletcher's checksum over words of 16 bits, the first byte of each the higher. Of a half that is zero
+// modulo 65535 HDF5 may write either value.
+bool is_fletcher(std::uint32_t stored, std::span<const unsigned char> bytes) {
+    std::uint32_t low = 0, high = 0;
+    for (std::size_t i = 0; i < bytes.size(); i += 2) {
+        const std::uint32_t word = std::uint32_t{bytes[i]} << 8 | (i + 1 < bytes.size() ? bytes[i + 1] : 0u);
+        low = (low + word) % 65535;
+        high = (high + low) % 65535;
+    }
+    return (stored & 0xffff) % 65535 == low && (stored >> 16) % 65535 == high;
+}
+
+// Puts the chunks of a dataset where they belong.
+class Chunks {
+  public:
+    Chunks(const EarlyHdf5& file, const EarlyDataset& dataset) : file_(file), dataset_(dataset) {
+        chunk_bytes_ = dataset.element_bytes;
+        for (std::size_t axis = 0; axis < dataset.shape.size(); ++axis) {
+            const std::uint64_t extent = dataset.chunk[axis];
+            if (extent == 0 || extent > (std::uint64_t{1} << 32) / chunk_bytes_) fail("has chunks that are damaged");
+            chunk_bytes_ *= extent;
+            missing_ *= (dataset.shape[axis] + extent - 1) / extent;
+        }
+        all_.resize(dataset.samples() * dataset.element_bytes);
+        placed_.resize(missing_);
+        walk(*dataset.address, {});
+        if (missing_ != 0) fail("is not wholly written");
+    }
+
+    Bytes take() { return std::move(all_); }
+
+  private:
+    [[noreturn]] void fail(const std::string& why) const {
+        file_.fail(fmt::format("its array '{}' {}", dataset_.name, why));
+    }
+
+    void walk(std::uint64_t address, std::optional<std::uint64_t> above) {
+        if (++nodes_ > placed_.size() + 64) fail("has a tree of chunks that is damaged");
+        const Bytes head = file_.at(address, 24);
+        const std::uint64_t level = head[5], entries = std::uint64_t{head[6]} | std::uint64_t{head[7]} << 8;
+        if (std::memcmp(head.data(), "TREE\1", 5) != 0 || (above && level + 1 != *above))
+            fail("has a tree of chunks that is damaged");
+        const std::size_t axes = dataset_.shape.size(), key = 8 + 8 * (axes + 1);
+        const Bytes node = file_.at(address + 24, key + (key + 8) * entries);
+        ByteCursor rest(file_, node);
+        for (std::uint64_t i = 0; i < entries; ++i) {
+            const std::uint64_t bytes = rest.number(4), left_out = rest.number(4);
+            std::vector<std::uint64_t> start;
+            for (std::size_t axis = 0; axis < axes; ++axis) start.push_back(rest.number(8));
+            rest.skip(8);
+            const std::uint64_t child = rest.number(8);
+            if (level > 0)
+                walk(child, level);
+            else
+                place(start, plain(file_.at(child, bytes), left_out));
+        }
+    }
+
+    // Through the filters, last first; a bit of `left_out` says that one was not applied.
+    Bytes plain(Bytes bytes, std::uint64_t left_out) const {
+        constexpr std::uint64_t deflate = 1, shuffle = 2, checksum = 3;
+        for (std::size_t i = dataset_.filters.size(); i-- > 0;) {
+            const EarlyDataset::Filter& filter = dataset_.filters[i];
+            if (i < 32 && (left_out >> i & 1) != 0) continue;
+            if (filter.id == checksum) {
+                if (bytes.size() < 4) fail("has chunks that are damaged");
+                std::uint32_t stored = 0;
+                std::memcpy(&stored, &bytes[bytes.size() - 4], 4);
+                bytes.resize(bytes.size() - 4);
+                if (!is_fletcher(stored, bytes)) fail("has a chunk with a wrong checksum");
+            } else if (filter.id == deflate) {
+                // What checksums add before compression is not in the count of samples.
+                const auto inner = static_cast<std::size_t>(
+                    std::count_if(dataset_.filters.begin(), dataset_.filters.begin() + static_cast<std::ptrdiff_t>(i),
+                                  [](const auto& earlier) { return earlier.id == checksum; }));
+                bytes = inflated(file_, bytes, chunk_bytes_ + 4 * inner);
+            } else if (filter.id == shuffle) {
+                bytes = unshuffled(bytes, dataset_.element_bytes);
+            } else {
+                fail(fmt::format("is packed by the filter {} ({}), which is not read here", filter.id,
+                                 filter.name.empty() ? "without a name" : filter.name));
+            }
+        }
+        if (bytes.size() != chunk_bytes_) fail("has chunks that are damaged");
+        return bytes;
+    }
+
+    void place(const std::vector<std::uint64_t>& start, const Bytes& bytes) {
+        const std::size_t axes = start.size();
+        std::uint64_t index = 0;
+        for (std::size_t axis = 0; axis < axes; ++axis) {
+            const std::uint64_t extent = dataset_.chunk[axis], shape = dataset_.shape[axis];
+            if (start[axis] % extent != 0 || start[axis] >= shape) fail("has chunks that are damaged");
+            index = index * ((shape + extent - 1) / extent) + start[axis] / extent;
+        }
+        if (placed_[index]) fail("has a chunk twice");
+        placed_[index] = true;
+        --missing_;
+        // Line by line along the last axis; what a chunk holds beyond the array's end is left out.
+        const std::uint64_t line = dataset_.chunk[axes - 1];
+        const std::uint64_t held = std::min(line, dataset_.shape[axes - 1] - start[axes - 1]);
+        const std::uint64_t lines = chunk_bytes_ / dataset_.element_bytes / line;
+        for (std::uint64_t i = 0; i < lines; ++i) {
+            std::uint64_t rest = i, at = start[axes - 1], stride = dataset_.shape[axes - 1];
+            bool inside = true;
+            for (std::size_t axis = axes - 1; axis-- > 0;) {
+                const std::uint64_t place = start[axis] + rest % dataset_.chunk[axis];
+                rest /= dataset_.chunk[axis];
+                inside = inside && place < dataset_.shape[axis];
+                at += place * stride;
+                stride *= dataset_.shape[axis];
+            }
+            if (inside)
+                std::memcpy(&all_[at * dataset_.element_bytes], &bytes[i * line * dataset_.element_bytes],
+                            held * dataset_.element_bytes);
+        }
+    }
+
+    const EarlyHdf5& file_;
+    const EarlyDataset& dataset_;
+    std::uint64_t chunk_bytes_ = 0, missing_ = 1;
+    std::size_t nodes_ = 0;
+    Bytes all_;
+    std::vector<bool> placed_;
+};
+
+}  // namespace
+
+std::vector<unsigned char> EarlyHdf5::read(const EarlyDataset& dataset) const {
+    using Layout = EarlyDataset::Layout;
+    const auto refuse = [&](const char* why) { fail(fmt::format("its array '{}' {}", dataset.name, why)); };
+    const std::uint64_t samples = dataset.samples();
+    if (samples == 0) refuse("is empty");
+    if (samples / most_expansion > file_.size() / dataset.element_bytes)
+        refuse("has more samples than the file can hold");
+    const std::uint64_t bytes = samples * dataset.element_bytes;
+    if (dataset.layout == Layout::compact) {
+        if (dataset.compact.size() != bytes) refuse("is damaged");
+        return dataset.compact;
+    }
+    if (dataset.layout == Layout::none) refuse("is laid out as this does not read");
+    if (!dataset.address) refuse("is not wholly written");
+    if (dataset.layout == Layout::contiguous) {
+        if (dataset.bytes != bytes) refuse("is damaged");
+        return at(*dataset.address, bytes);
+    }
+    if (dataset.chunk.size() != dataset.shape.size()) refuse("is damaged");
+    return Chunks(*this, dataset).take();
+}
+
+}  // namespace hogel

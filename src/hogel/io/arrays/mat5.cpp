@@ -1,0 +1,158 @@
+// MAT files of version 5 (MATLAB 5 to 7.2, and what most programs write): a header of 128 bytes and elements, each a
+// type, a length and so many bytes, padded to eight. An array is an element of elements: flags, extents, name, real
+// parts, imaginary parts. Version 7 compresses whole arrays with zlib.
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "hogel/io/arrays/mat.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::uint32_t type_int8 = 1, type_int32 = 5, type_uint32 = 6, type_array = 14, type_compressed = 15;
+constexpr std::size_t header_bytes = 128;
+// Deflate reaches 1032.
+constexpr std::size_t most_expansion = 1040;
+
+struct Element {
+    std::uint32_t type = 0;
+    std::span<const unsigned char> bytes;
+};
+
+// Elements one after the other.
+class Elements {
+  public:
+    Elements(const std::filesystem::path& path, std::span<const unsigned char> bytes) : path_(path), rest_(bytes) {}
+
+    bool empty() const { return rest_.empty(); }
+
+    Element next() {
+        if (rest_.size() < 8) fail_foreign(path_, "it ends inside an element");
+        const std::uint32_t word = number(0);
+        if (word >> 16 != 0) {  // small elements stand beside their type
+            const std::size_t size = word >> 16;
+            if (size > 4) fail_foreign(path_, "a small element is damaged");
+            const Element small{word & 0xffff, rest_.subspan(4, size)};
+            rest_ = rest_.subspan(8);
+            return small;
+        }
+        const std::size_t size = number(4);
+        if (size > rest_.size() - 8) fail_foreign(path_, fmt::format("it ends inside an element of {} bytes", size));
+        const Element element{word, rest_.subspan(8, size)};
+        const std::size_t padded = word == type_compressed ? size : (size + 7) / 8 * 8;
+        rest_ = rest_.subspan(std::min(8 + padded, rest_.size()));
+        return element;
+    }
+
+  private:
+    std::uint32_t number(std::size_t at) const {
+        std::uint32_t value;
+        std::memcpy(&value, &rest_[at], sizeof value);
+        return value;
+    }
+
+    const std::filesystem::path& path_;
+    std::span<const unsigned char> rest_;
+};
+
+std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span<const unsigned char> compressed) {
+    z_stream stream{};
+    if (inflateInit(&stream) != Z_OK) fail_foreign(path, "zlib cannot start");
+    struct End {
+        z_stream& stream;
+        ~End() { inflateEnd(&stream); }
+    } end{stream};
+    stream.next_in = const_cast<unsigned char*>(compressed.data());
+    stream.avail_in = static_cast<unsigned>(compressed.size());
+    // The element's own head says how long it is.
+    std::vector<unsigned char> bytes(8);
+    const auto fill = [&](std::size_t from) {
+        while (from < bytes.size()) {
+            stream.next_out = &bytes[from];
+            stream.avail_out = static_cast<unsigned>(std::min<std::size_t>(bytes.size() - from, 1u << 30));
+            const unsigned wanted = stream.avail_out;
+            const int status = inflate(&stream, Z_NO_FLUSH);
+            from += wanted - stream.avail_out;
+            if (status == Z_STREAM_END ? from < bytes.size() : status != Z_OK)
+                fail_foreign(path, "a compressed array is damaged");
+        }
+    };
+    fill(0);
+    std::uint32_t size = 0;
+    std::memcpy(&size, &bytes[4], sizeof size);
+    if (size / most_expansion > compressed.size()) fail_foreign(path, "a compressed array is damaged");
+    bytes.resize(8 + std::size_t{size});
+    fill(8);
+    return bytes;
+}
+
+bool number_of(std::uint32_t type, Number& number) {
+    static constexpr std::pair<std::uint32_t, Number> types[] = {
+        {1, Number::int8},   {2, Number::uint8},  {3, Number::int16}, {4, Number::uint16}, {5, Number::int32},
+        {6, Number::uint32}, {7, Number::single}, {9, Number::real},  {12, Number::int64}, {13, Number::uint64}};
+    for (const auto& [code, meant] : types)
+        if (code == type) {
+            number = meant;
+            return true;
+        }
+    return false;
+}
+
+// An array, if it is one of numbers with two axes and has the name.
+void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes, const std::string& name,
+                std::vector<MatArray>& arrays) {
+    Elements parts(path, bytes);
+    const Element flags = parts.next(), extents = parts.next(), label = parts.next();
+    if (flags.type != type_uint32 || flags.bytes.size() != 8 || extents.type != type_int32 || label.type != type_int8)
+        fail_foreign(path, "an array's head is damaged");
+    constexpr unsigned char first_number = 6, last_number = 15, complex = 0x08;
+    MatArray array;
+    array.name.assign(label.bytes.begin(), label.bytes.end());
+    const unsigned char kind = flags.bytes[0];
+    if (kind < first_number || kind > last_number || extents.bytes.size() != 8 || (!name.empty() && array.name != name))
+        return;
+    std::int32_t size[2];
+    std::memcpy(size, extents.bytes.data(), sizeof size);
+    if (size[0] <= 1 && size[1] <= 1 && name.empty()) return;  // a wavelength, say
+    if (size[0] <= 0 || size[1] <= 0) fail_foreign(path, fmt::format("its array '{}' is empty", array.name));
+    array.height = static_cast<std::size_t>(size[0]);
+    array.width = static_cast<std::size_t>(size[1]);
+    const auto take = [&](Number& number, std::vector<unsigned char>& to) {
+        const Element numbers = parts.next();
+        if (!number_of(numbers.type, number) || numbers.bytes.size() / bytes_of(number) / array.width != array.height ||
+            numbers.bytes.size() != array.height * array.width * bytes_of(number))
+            fail_foreign(path, fmt::format("its array '{}' is damaged", array.name));
+        to.assign(numbers.bytes.begin(), numbers.bytes.end());
+    };
+    take(array.real_number, array.real);
+    if ((flags.bytes[1] & complex) != 0) take(array.imaginary_number, array.imaginary);
+    // Small whole numbers may stand for an array of doubles; then a phase is in radians all the same.
+    array.floating = kind == first_number || kind == first_number + 1;
+    arrays.push_back(std::move(array));
+}
+
+}  // namespace
+
+std::vector<MatArray> read_mat5(const std::filesystem::path& path, std::span<const unsigned char> bytes,
+                                const std::string& name) {
+    if (bytes.size() < header_bytes || bytes[126] != 'I' || bytes[127] != 'M')
+        fail_foreign(path, "it is not a little-endian MAT file");
+    if (bytes[125] != 1) fail_foreign(path, fmt::format("its MAT version {} is not known", bytes[125]));
+    std::vector<MatArray> arrays;
+    Elements elements(path, bytes.subspan(header_bytes));
+    while (!elements.empty()) {
+        const Element element = elements.next();
+        if (element.type == type_array) take_array(path, element.bytes, name, arrays);
+        if (element.type != type_compressed) continue;
+        const std::vector<unsigned char> held = inflated(path, element.bytes);
+        Elements inside(path, held);
+        const Element array = inside.next();
+        if (array.type == type_array) take_array(path, array.bytes, name, arrays);
+    }
+    return arrays;
+}
+
+}  // namespace hogel

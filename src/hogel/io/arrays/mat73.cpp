@@ -1,0 +1,63 @@
+// MAT files of version 7.3: HDF5 files behind MATLAB's header of 512 bytes. Each array is a dataset of the root group
+// whose axes are MATLAB's backwards, because MATLAB counts down the columns first; complex numbers are compounds {real,
+// imag}; an attribute MATLAB_class says what the array is for MATLAB.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "hogel/io/arrays/hdf5_v0.h"
+#include "hogel/io/arrays/mat.h"
+
+namespace hogel {
+namespace {
+
+std::vector<unsigned char> numbers_of(const std::vector<unsigned char>& elements, std::size_t element_bytes,
+                                      const EarlyDataset::Member& member) {
+    const std::size_t bytes = bytes_of(member.number), count = elements.size() / element_bytes;
+    std::vector<unsigned char> numbers(count * bytes);
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(&numbers[i * bytes], &elements[i * element_bytes + member.offset], bytes);
+    return numbers;
+}
+
+bool is_complex(const EarlyDataset& dataset) {
+    return dataset.element_bytes <= 16 && dataset.members.size() == 2 && dataset.members[0].name == "real" &&
+           dataset.members[1].name == "imag";
+}
+
+// Texts and truth values are whole numbers too, and a cell is a list of places.
+bool is_numeric(const EarlyDataset& dataset) {
+    static constexpr const char* classes[] = {"double", "single", "int8",   "uint8", "int16",
+                                              "uint16", "int32",  "uint32", "int64", "uint64"};
+    const auto named = dataset.texts.find("MATLAB_class");
+    if (named != dataset.texts.end() && std::ranges::find(classes, named->second) == std::end(classes)) return false;
+    return is_complex(dataset) || (dataset.members.size() == 1 && dataset.members[0].name.empty());
+}
+
+}  // namespace
+
+std::vector<MatArray> read_mat73(const std::filesystem::path& path, const std::string& name) {
+    const EarlyHdf5 file(path);
+    std::vector<MatArray> arrays;
+    for (const EarlyDataset& dataset : file.datasets()) {
+        if (!is_numeric(dataset) || dataset.shape.size() != 2 || (!name.empty() && dataset.name != name)) continue;
+        if (dataset.shape[0] <= 1 && dataset.shape[1] <= 1 && name.empty()) continue;  // a wavelength, say
+        MatArray array;
+        array.name = dataset.name;
+        array.width = dataset.shape[0];
+        array.height = dataset.shape[1];
+        array.real_number = dataset.members[0].number;
+        array.floating = array.real_number == Number::single || array.real_number == Number::real;
+        const std::vector<unsigned char> elements = file.read(dataset);
+        array.real = numbers_of(elements, dataset.element_bytes, dataset.members[0]);
+        if (is_complex(dataset)) {
+            array.imaginary_number = dataset.members[1].number;
+            array.imaginary = numbers_of(elements, dataset.element_bytes, dataset.members[1]);
+        }
+        arrays.push_back(std::move(array));
+    }
+    return arrays;
+}
+
+}  // namespace hogel

@@ -1,0 +1,179 @@
+// NumPy's array format, versions 1 to 3: "\x93NUMPY", two bytes of version, the length of a header (2 bytes, or 4 from
+// version 2 on), the header as the text of a Python dictionary, and the numbers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+
+#include "hogel/core/output_file.h"
+#include "hogel/core/raw_file.h"
+#include "hogel/error.h"
+#include "hogel/io/arrays/numbers.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::array<unsigned char, 6> magic{0x93, 'N', 'U', 'M', 'P', 'Y'};
+constexpr std::size_t longest_header = 1 << 16;
+
+struct Header {
+    Number number = Number::real;
+    bool complex = false, by_columns = false;
+    std::size_t height = 0, width = 0;
+    std::uint64_t begin = 0;  // of the numbers
+};
+
+// The text behind "'key':", or nothing.
+std::string_view behind(std::string_view header, const char* key) {
+    const std::string quoted = fmt::format("'{}'", key);
+    std::size_t at = header.find(quoted);
+    if (at == std::string_view::npos) return {};
+    at = header.find_first_not_of(" \t\n", at + quoted.size());
+    if (at == std::string_view::npos || header[at] != ':') return {};
+    at = header.find_first_not_of(" \t\n", at + 1);
+    return at == std::string_view::npos ? std::string_view{} : header.substr(at);
+}
+
+// A whole number at the start of a text, which is shortened by it; false where there is none below 2^40.
+bool take_number(std::string_view& text, std::size_t& number) {
+    number = 0;
+    std::size_t digits = 0;
+    while (digits < text.size() && text[digits] >= '0' && text[digits] <= '9' && number < std::size_t{1} << 40)
+        number = 10 * number + static_cast<std::size_t>(text[digits++] - '0');
+    text.remove_prefix(digits);
+    return digits > 0 && number < std::size_t{1} << 40;
+}
+
+bool take(std::string_view& text, char expected) {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    if (text.empty() || text.front() != expected) return false;
+    text.remove_prefix(1);
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    return true;
+}
+
+void parse_type(const std::filesystem::path& path, std::string_view descr, Header& header) {
+    struct Known {
+        std::string_view name;
+        Number number;
+        bool complex;
+    };
+    static constexpr Known known[] = {
+        {"'<c8'", Number::single, true},  {"'<c16'", Number::real, true},   {"'<f4'", Number::single, false},
+        {"'<f8'", Number::real, false},   {"'|u1'", Number::uint8, false},  {"'|i1'", Number::int8, false},
+        {"'<u2'", Number::uint16, false}, {"'<i2'", Number::int16, false},  {"'<u4'", Number::uint32, false},
+        {"'<i4'", Number::int32, false},  {"'<u8'", Number::uint64, false}, {"'<i8'", Number::int64, false},
+    };
+    for (const Known& type : known)
+        if (descr.starts_with(type.name)) {
+            header.number = type.number;
+            header.complex = type.complex;
+            return;
+        }
+    std::string shown(descr.substr(0, std::min<std::size_t>(descr.find(','), 12)));
+    for (char& c : shown)
+        if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+    fail_foreign(path,
+                 fmt::format("its numbers are of type {}; <c8, <c16, <f4, <f8 and whole numbers are read", shown));
+}
+
+Header read_header(const std::filesystem::path& path, const RawFile& file) {
+    std::array<unsigned char, 12> start{};
+    file.read(0, start.data(), 10);
+    const int version = start[6];
+    if (version < 1 || version > 3) fail_foreign(path, fmt::format("its NPY version {} is not known", version));
+    Header header;
+    std::size_t length = start[8] + 256u * start[9];
+    header.begin = 10;
+    if (version > 1) {
+        file.read(10, &start[10], 2);
+        length += (std::size_t{start[10]} << 16) + (std::size_t{start[11]} << 24);
+        header.begin = 12;
+    }
+    if (length > longest_header || header.begin + length > file.size())
+        fail_foreign(path, fmt::format("its header of {} bytes is damaged", length));
+    std::string text(length, '\0');
+    file.read(header.begin, text.data(), length);
+    header.begin += length;
+
+    parse_type(path, behind(text, "descr"), header);
+    const std::string_view order = behind(text, "fortran_order");
+    header.by_columns = order.starts_with("True");
+    std::string_view shape = behind(text, "shape");
+    const bool flat = take(shape, '(') && take_number(shape, header.height) && take(shape, ',') &&
+                      take_number(shape, header.width) && (take(shape, ',') || true) && take(shape, ')');
+    if (!flat || (!header.by_columns && !order.starts_with("False")))
+        fail_foreign(path, "an array of two axes, [row][column], was expected");
+    const std::uint64_t bytes = bytes_of(header.number) * (header.complex ? 2 : 1), held = file.size() - header.begin;
+    if (header.width > 0 && header.height > held / bytes / header.width)
+        fail_foreign(path, fmt::format("it is truncated: {} bytes are too few for {}x{} numbers of {} bytes", held,
+                                       header.width, header.height, bytes));
+    return header;
+}
+
+class NpyField final : public FieldSource {
+  public:
+    NpyField(const std::filesystem::path& path, const ForeignField& what)
+        : file_(path, RawFile::Mode::read, path),
+          header_(read_header(path, file_)),
+          grid_(foreign_grid(path, what, header_.width, header_.height)),
+          meaning_(path, what, header_.number, header_.complex) {}
+
+    const FieldGrid& grid() const override { return grid_; }
+
+    void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
+        validate(region, grid_, out.shape());
+        if (look != 0) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a file, which has one", look));
+        const std::size_t part = bytes_of(header_.number), bytes = part * (header_.complex ? 2 : 1);
+        const bool columns = header_.by_columns;
+        const std::size_t lines = columns ? region.width : region.height,
+                          count = columns ? region.height : region.width;
+        std::vector<unsigned char> line(count * bytes);
+        for (std::size_t i = 0; i < lines; ++i) {
+            const std::size_t first =
+                columns ? (region.x0 + i) * header_.height + region.y0 : (region.y0 + i) * header_.width + region.x0;
+            file_.read(header_.begin + first * bytes, line.data(), line.size());
+            for (std::size_t k = 0; k < count; ++k) {
+                const unsigned char* at = &line[k * bytes];
+                (columns ? out(k, i) : out(i, k)) =
+                    meaning_(number_at(header_.number, at), header_.complex ? number_at(header_.number, at + part) : 0);
+            }
+        }
+    }
+
+  private:
+    RawFile file_;
+    Header header_;
+    FieldGrid grid_;
+    Meaning meaning_;
+};
+
+}  // namespace
+
+bool is_npy(std::span<const unsigned char> start) {
+    return start.size() >= magic.size() && std::equal(magic.begin(), magic.end(), start.begin());
+}
+
+std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ForeignField& what) {
+    return std::make_unique<NpyField>(path, what);
+}
+
+void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples) {
+    std::string header = fmt::format("{{'descr': '<c8', 'fortran_order': False, 'shape': ({}, {}), }}",
+                                     samples.extent(0), samples.extent(1));
+    header.resize(128 - 10 - 1, ' ');
+    header += '\n';
+    std::string start(magic.begin(), magic.end());
+    start += {1, 0, static_cast<char>(header.size()), 0};
+    start += header;
+    OutputFile output(path);
+    RawFile file(output.temporary(), RawFile::Mode::create, path);
+    file.write(0, start.data(), start.size());
+    file.write(start.size(), samples.data(), samples.size() * sizeof(std::complex<float>));
+    file.close();
+    output.commit();
+}
+
+}  // namespace hogel

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <atomic>
+#include <complex>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "hogel/core/journal.h"
+#include "hogel/core/object_pool.h"
+#include "hogel/core/output_file.h"
+#include "hogel/core/raw_file.h"
+#include "hogel/io/hdf5/hdf5.h"
+
+namespace hogel {
+
+/// A box of an array: for each axis its first index and its extent.
+struct Box {
+    std::vector<std::size_t> start, extent;
+};
+
+/// Reads boxes of one dataset, from any number of threads. Datasets as hogel lays them out are read past HDF5, in
+/// parallel; all others (chunked, compressed, of another type or byte order) by HDF5, one thread at a time.
+class DatasetReader {
+  public:
+    /// Looks at the dataset, takes no memory for it. Throws Error(bad_input) when it is missing, its type or shape is
+    /// not that, or samples are missing. Needs a Session.
+    DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
+                  std::shared_ptr<const RawFile> raw);
+    ~DatasetReader();
+    DatasetReader(DatasetReader&&) = default;
+    DatasetReader& operator=(DatasetReader&&) = delete;
+
+    void read(const Box& box, float* to) const;
+    void read(const Box& box, std::complex<float>* to) const;
+    hdf5::Element element() const { return element_; }
+    std::size_t axes() const { return shape_.size(); }
+
+  private:
+    void check_storage(hid_t dataset, hid_t properties);
+    void read_by_hdf5(const Box& box, void* to) const;
+    [[noreturn]] void fail(const std::string& why) const;
+
+    std::string name_;
+    std::vector<std::size_t> shape_;
+    hdf5::Element element_ = hdf5::Element::single;
+    std::shared_ptr<const RawFile> raw_;
+    std::uint64_t offset_ = 0;
+    hdf5::Handle dataset_;  // open only where HDF5 has to read
+};
+
+/// The shape of a dataset. Throws Error(bad_input) when there is no such dataset. Needs a Session.
+std::vector<std::size_t> dataset_shape(hid_t file, const char* name, const std::filesystem::path& path);
+
+/// A file of datasets being written: laid out by HDF5, then filled in parallel, then given its name.
+class DatasetFile {
+  public:
+    /// @param resume  as in LightFieldFileOptions
+    DatasetFile(const std::filesystem::path& path, const hdf5::Attributes& attributes,
+                std::vector<hdf5::NewDataset> datasets, const std::optional<std::string>& resume);
+
+    void write(std::size_t dataset, const Box& box, const float* from);
+    void write(std::size_t dataset, const Box& box, const std::complex<float>* from);
+    /// For work that can be resumed: whether a part was done before this run, and that one is done now.
+    bool was_done(const Journal::Part& part) const { return journal_ && journal_->was_done(part); }
+    void note(const Journal::Part& part) {
+        if (journal_) journal_->note(part);
+    }
+    /// Closes the file and gives it its name.
+    void finish();
+    const std::filesystem::path& path() const { return output_.target(); }
+
+  private:
+    void write_bytes(std::size_t dataset, const Box& box, const void* from);
+
+    OutputFile output_;
+    std::vector<hdf5::NewDataset> datasets_;
+    std::vector<std::uint64_t> offsets_;
+    std::optional<RawFile> raw_;
+    std::mutex writing_;
+    Reused<std::vector<std::uint16_t>> halves_;
+    std::optional<Journal> journal_;  // goes first: it flushes the file
+};
+
+}  // namespace hogel

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hogel/image.h"
+
+namespace hogel::hdf5 {
+
+/// The right to call HDF5, which is not thread-safe: one at a time in the whole process. While it lives HDF5 prints
+/// nothing. Every Handle is made, used and closed inside one.
+class Session {
+  public:
+    Session();
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+  private:
+    std::lock_guard<std::recursive_mutex> lock_;
+    H5E_auto2_t print_ = nullptr;
+    void* print_data_ = nullptr;
+};
+
+/// An identifier of HDF5, closed when it goes.
+class Handle {
+  public:
+    using Close = herr_t (*)(hid_t);
+    Handle() = default;
+    Handle(hid_t id, Close closer) : id_(id), close_(closer) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        std::swap(close_, other.close_);
+        return *this;
+    }
+    ~Handle() { close(); }
+
+    hid_t id() const { return id_; }
+    bool valid() const { return id_ >= 0; }
+    /// True when HDF5 is content: closing a file is what writes its last part.
+    bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+
+  private:
+    hid_t id_ = -1;
+    Close close_ = nullptr;
+};
+
+/// Innermost reason of the last failure, one line.
+std::string reason();
+
+/// Throws Error(bad_input) that names the file.
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& why);
+
+/// Opens a file for reading, after checks that keep damaged files away from HDF5. Throws Error(bad_input).
+Handle open_file(const std::filesystem::path& path);
+
+/// True for a plain file that begins as HDF5 does. Throws Error(bad_input) where there is no such file.
+bool is_hdf5(const std::filesystem::path& path);
+
+/// How samples lie in a file.
+enum class Element { half, single, complex_single };
+std::size_t bytes_of(Element element);
+Handle type_of(Element element);
+
+/// Attributes. The readers throw Error(bad_input) naming file and attribute where one is missing or of another kind.
+using Value = std::variant<double, std::uint64_t, std::string>;
+using Attributes = std::vector<std::pair<std::string, Value>>;
+double read_number(hid_t object, const char* name, const std::filesystem::path& path);
+std::uint64_t read_count(hid_t object, const char* name, const std::filesystem::path& path);
+std::string read_text(hid_t object, const char* name, const std::filesystem::path& path);
+/// True when the object has the attribute.
+bool has_attribute(hid_t object, const char* name, const std::filesystem::path& path);
+/// True when the group has a link of that name to something in the same file.
+bool has_member(hid_t group, const char* name, const std::filesystem::path& path);
+
+/// What both kinds of files say about themselves: attributes "format" and "format_version", metadata beside them.
+inline constexpr std::uint64_t format_version = 1;
+inline constexpr const char* light_field_format = "hogel light field";
+inline constexpr const char* hologram_format = "hogel hologram";
+/// Throws Error(bad_input) for another format or version; `dataset` is what the message says was expected.
+void check_format(hid_t file, const char* format, const char* dataset, const std::filesystem::path& path);
+Attributes root_attributes(const char* format, const Metadata& metadata);
+Metadata read_metadata(hid_t file, const std::filesystem::path& path);
+
+/// A dataset to be made: its place ("radiance" or "field0/samples"), shape and attributes.
+struct NewDataset {
+    std::string name;
+    Element element;
+    std::vector<std::size_t> shape;
+    Attributes attributes;
+};
+
+/// Makes a file with room for all the samples, each dataset one contiguous piece, and returns where each begins. The
+/// samples themselves are then written without HDF5. Throws Error(cannot_write), which names `target`; a disk without
+/// room for all of it is found out here where the file system allows.
+std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const std::filesystem::path& target,
+                                        const Attributes& attributes, const std::vector<NewDataset>& datasets);
+
+}  // namespace hogel::hdf5

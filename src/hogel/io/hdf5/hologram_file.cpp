@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/error.h"
+#include "hogel/files.h"
+#include "hogel/io/hdf5/grids.h"
+
+namespace hogel {
+namespace {
+
+constexpr std::size_t most_fields = 64;
+constexpr float largest_half = 65504;
+
+std::string samples_name(std::size_t field) { return fmt::format("field{}/samples", field); }
+
+// Samples lie in the file as compounds, or as floats with the real and the imaginary parts along an axis of their own.
+enum class Parts { members, axis };
+
+Box box_of(const Region& region, Parts parts) {
+    Box box{{region.y0, region.x0}, {region.height, region.width}};
+    if (parts == Parts::axis) {
+        box.start.push_back(0);
+        box.extent.push_back(2);
+    }
+    return box;
+}
+
+std::vector<std::size_t> shape_of(const FieldGrid& grid, Parts parts) {
+    return box_of({0, 0, grid.plane.width, grid.plane.height}, parts).extent;
+}
+
+class FieldReader final : public FieldSource {
+  public:
+    FieldReader(const FieldGrid& grid, DatasetReader samples)
+        : grid_(grid), parts_(samples.axes() == 3 ? Parts::axis : Parts::members), samples_(std::move(samples)) {}
+    const FieldGrid& grid() const override { return grid_; }
+    void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
+        validate(region, grid_, out.shape());
+        if (look >= looks())
+            throw Error(ErrorCode::usage, fmt::format("look {} was asked of a hologram file, which has one", look));
+        if (parts_ == Parts::axis)
+            samples_.read(box_of(region, parts_), reinterpret_cast<float*>(out.data()));
+        else
+            samples_.read(box_of(region, parts_), out.data());
+    }
+
+  private:
+    FieldGrid grid_;
+    Parts parts_;
+    DatasetReader samples_;
+};
+
+// What the sinks of one file share: the last to finish gives it its name.
+struct SharedFile {
+    DatasetFile file;
+    std::atomic<std::size_t> unfinished;
+};
+
+class FieldWriter final : public FieldSink {
+  public:
+    FieldWriter(const FieldGrid& grid, Parts parts, std::size_t index, std::shared_ptr<SharedFile> shared)
+        : grid_(grid), parts_(parts), index_(index), shared_(std::move(shared)) {}
+
+    void write(const Region& region, View<const std::complex<float>, 2> values) override {
+        validate(region, grid_, values.shape());
+        if (parts_ == Parts::axis) {
+            const std::span<const float> numbers(reinterpret_cast<const float*>(values.data()), 2 * values.size());
+            require_halves(numbers);
+            shared_->file.write(index_, box_of(region, parts_), numbers.data());
+        } else {
+            shared_->file.write(index_, box_of(region, parts_), values.data());
+        }
+        shared_->file.note(part(region));
+        written_ += region.samples();
+    }
+
+    bool has_already(const Region& region) override {
+        if (!shared_->file.was_done(part(region))) return false;
+        written_ += region.samples();
+        return true;
+    }
+
+    void finish() override {
+        if (written_ != grid_.plane.samples())
+            throw Error(ErrorCode::internal,
+                        fmt::format("cannot finish field {} of '{}': {} of {} samples were written", index_,
+                                    shared_->file.path().string(), written_.load(), grid_.plane.samples()));
+        if (--shared_->unfinished == 0) shared_->file.finish();
+    }
+
+  private:
+    Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
+
+    // One infinite sample would be all that a photograph shows.
+    void require_halves(std::span<const float> numbers) const {
+        float largest = 0;
+        for (const float number : numbers) largest = std::max(largest, std::abs(number));
+        if (largest > largest_half)
+            throw Error(ErrorCode::usage, fmt::format("cannot write '{}': a sample of {} was found, and 16-bit floats "
+                                                      "end at {}; 32-bit floats would do",
+                                                      shared_->file.path().string(), largest, largest_half));
+    }
+
+    FieldGrid grid_;
+    Parts parts_;
+    std::size_t index_;
+    std::shared_ptr<SharedFile> shared_;
+    std::atomic<std::size_t> written_{0};
+};
+
+hdf5::Attributes field_attributes(const FieldGrid& grid, Parts parts) {
+    return {{"axis_order", parts == Parts::axis ? "y,x,part" : "y,x"},
+            {"wavelength_m", grid.wavelength},
+            {"pitch_x_m", grid.plane.pitch_x},
+            {"pitch_y_m", grid.plane.pitch_y},
+            {"center_x_m", grid.plane.center_x},
+            {"center_y_m", grid.plane.center_y},
+            {"z_m", 0.0}};
+}
+
+FieldGrid read_field_grid(hid_t file, std::size_t field, const std::filesystem::path& path) {
+    const std::string name = samples_name(field);
+    const std::vector<std::size_t> shape = dataset_shape(file, name.c_str(), path);
+    if (shape.size() != 2 && (shape.size() != 3 || shape[2] != 2))
+        hdf5::fail(path, fmt::format("the axes of its dataset '{}' are [{}] instead of [y][x] or [y][x][2]", name,
+                                     fmt::join(shape, "][")));
+    const hdf5::Handle samples(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const auto number = [&](const char* attribute) { return hdf5::read_number(samples.id(), attribute, path); };
+    FieldGrid grid;
+    grid.plane = {
+        shape[1], shape[0], number("pitch_x_m"), number("pitch_y_m"), number("center_x_m"), number("center_y_m")};
+    grid.wavelength = number("wavelength_m");
+    validate(grid, ErrorCode::bad_input, fmt::format("cannot read '{}', field {}", path.string(), field));
+    if (number("z_m") != 0) hdf5::fail(path, fmt::format("its field {} is not on the plane z = 0", field));
+    return grid;
+}
+
+}  // namespace
+
+std::vector<FieldGrid> read_hologram_grids(hid_t file, const std::filesystem::path& path) {
+    hdf5::check_format(file, hdf5::hologram_format, "field0/samples", path);
+    std::vector<FieldGrid> grids;
+    do {
+        grids.push_back(read_field_grid(file, grids.size(), path));
+    } while (grids.size() < most_fields && hdf5::has_member(file, fmt::format("field{}", grids.size()).c_str(), path));
+    return grids;
+}
+
+DatasetReader samples_of_field(hid_t file, std::size_t field, const FieldGrid& grid,
+                               const std::shared_ptr<const RawFile>& raw) {
+    const std::string name = samples_name(field);
+    const Parts parts = dataset_shape(file, name.c_str(), raw->name()).size() == 3 ? Parts::axis : Parts::members;
+    return {file, name.c_str(), shape_of(grid, parts), parts == Parts::members, raw};
+}
+
+HologramFile open_hologram(const std::filesystem::path& path) {
+    const hdf5::Session session;
+    const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+    const hdf5::Handle file = hdf5::open_file(path);
+    HologramFile hologram;
+    for (const FieldGrid& grid : read_hologram_grids(file.id(), path))
+        hologram.fields.push_back(
+            std::make_unique<FieldReader>(grid, samples_of_field(file.id(), hologram.fields.size(), grid, raw)));
+    hologram.metadata = hdf5::read_metadata(file.id(), path);
+    return hologram;
+}
+
+std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
+                                                        std::span<const FieldGrid> grids,
+                                                        const HologramFileOptions& options) {
+    if (grids.empty() || grids.size() > most_fields)
+        throw Error(ErrorCode::usage, fmt::format("hologram '{}': {} fields, but 1 to {} can be written", path.string(),
+                                                  grids.size(), most_fields));
+    const bool halves = options.type == SampleType::half;
+    const Parts parts = halves ? Parts::axis : Parts::members;
+    std::vector<hdf5::NewDataset> datasets;
+    for (const FieldGrid& grid : grids) {
+        validate(grid, ErrorCode::usage, "hologram");
+        datasets.push_back({samples_name(datasets.size()), halves ? hdf5::Element::half : hdf5::Element::complex_single,
+                            shape_of(grid, parts), field_attributes(grid, parts)});
+    }
+    std::shared_ptr<SharedFile> shared(new SharedFile{
+        {path, hdf5::root_attributes(hdf5::hologram_format, options.metadata), std::move(datasets), options.resume},
+        grids.size()});
+    std::vector<std::unique_ptr<FieldSink>> sinks;
+    for (const FieldGrid& grid : grids)
+        sinks.push_back(std::make_unique<FieldWriter>(grid, parts, sinks.size(), shared));
+    return sinks;
+}
+
+}  // namespace hogel

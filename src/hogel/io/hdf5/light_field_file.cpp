@@ -1,0 +1,227 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "hogel/compress.h"
+#include "hogel/error.h"
+#include "hogel/files.h"
+#include "hogel/io/hdf5/dataset.h"
+#include "hogel/io/hdf5/grids.h"
+
+namespace hogel {
+namespace {
+
+using hdf5::Element;
+
+Box radiance_box(const LightFieldGrid& grid, const HogelRange& r) {
+    return {{0, r.t0, r.s0, 0, 0}, {grid.channels, r.nt, r.ns, grid.directions_v, grid.directions_u}};
+}
+
+Box depth_box(const LightFieldGrid& grid, const HogelRange& r) {
+    return {{r.t0, r.s0, 0, 0}, {r.nt, r.ns, grid.directions_v, grid.directions_u}};
+}
+
+// The front lies at the root of the file, the sides in groups of their names.
+std::string dataset_name(Face face, const char* dataset) {
+    return face == Face::front ? dataset : fmt::format("{}/{}", name(face), dataset);
+}
+
+class LightFieldReader final : public LightFieldSource {
+  public:
+    LightFieldReader(hid_t file, const LightFieldGrid& grid, const std::filesystem::path& path,
+                     const std::shared_ptr<const RawFile>& raw)
+        : grid_(grid) {
+        const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
+        radiance_.emplace(file, dataset_name(grid.face, "radiance").c_str(), radiance_box(grid, all).extent, false,
+                          raw);
+        const std::string depth = dataset_name(grid.face, "depth");
+        if (hdf5::has_member(file, depth.c_str(), path))
+            depth_.emplace(file, depth.c_str(), depth_box(grid, all).extent, false, raw);
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return depth_.has_value(); }
+    void read(LightFieldTile& tile) const override {
+        validate(tile, grid_);
+        radiance_->read(radiance_box(grid_, tile.range), tile.radiance.data());
+        if (depth_ && tile.depth.size() > 0) depth_->read(depth_box(grid_, tile.range), tile.depth.data());
+    }
+
+  private:
+    LightFieldGrid grid_;
+    std::optional<DatasetReader> radiance_, depth_;
+};
+
+// What the sinks of one file share: the last to finish gives it its name.
+struct SharedFile {
+    DatasetFile file;
+    std::atomic<std::size_t> unfinished;
+};
+
+class LightFieldWriter final : public LightFieldSink {
+  public:
+    LightFieldWriter(const LightFieldGrid& grid, std::size_t first_dataset, bool with_depth,
+                     std::shared_ptr<SharedFile> shared)
+        : grid_(grid), first_dataset_(first_dataset), with_depth_(with_depth), shared_(std::move(shared)) {}
+
+    void write(const LightFieldTile& tile) override {
+        validate(tile, grid_);
+        DatasetFile& file = shared_->file;
+        if (with_depth_ && tile.depth.size() == 0)
+            throw Error(ErrorCode::usage, fmt::format("cannot write '{}': it is to hold depth, but a tile has none",
+                                                      file.path().string()));
+        file.write(first_dataset_, radiance_box(grid_, tile.range), tile.radiance.data());
+        if (with_depth_) file.write(first_dataset_ + 1, depth_box(grid_, tile.range), tile.depth.data());
+        file.note(part(tile.range));
+        hogels_ += tile.range.hogels();
+    }
+
+    bool wants_depth() const override { return with_depth_; }
+
+    bool has_already(const HogelRange& range) override {
+        if (!shared_->file.was_done(part(range))) return false;
+        hogels_ += range.hogels();
+        return true;
+    }
+
+    void finish() override {
+        if (hogels_ != grid_.hogels())
+            throw Error(ErrorCode::internal,
+                        fmt::format("cannot finish the {} face of '{}': {} of {} hogels were "
+                                    "written",
+                                    name(grid_.face), shared_->file.path().string(), hogels_.load(), grid_.hogels()));
+        if (--shared_->unfinished == 0) shared_->file.finish();
+    }
+
+  private:
+    Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
+
+    LightFieldGrid grid_;
+    std::size_t first_dataset_;  // radiance; the depth is the next
+    bool with_depth_;
+    std::shared_ptr<SharedFile> shared_;
+    std::atomic<std::size_t> hogels_{0};
+};
+
+// The attribute that says how far directions go also says in what they are uniform.
+std::string half_name(Spacing spacing, char axis) {
+    return fmt::format("{}_half_{}", spacing == Spacing::sines ? "sine" : "tan", axis);
+}
+
+hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
+    return {{"axis_order", "c,t,s,v,u"},
+            {"face", std::string(name(grid.face))},
+            {"channels", std::uint64_t{grid.channels}},
+            {"hogels_s", std::uint64_t{grid.hogels_s}},
+            {"hogels_t", std::uint64_t{grid.hogels_t}},
+            {"hogel_pitch_m", grid.pitch},
+            {"directions_u", std::uint64_t{grid.directions_u}},
+            {"directions_v", std::uint64_t{grid.directions_v}},
+            {half_name(grid.spacing, 'u'), grid.tan_half_u},
+            {half_name(grid.spacing, 'v'), grid.tan_half_v},
+            {"center_u", grid.center_u},
+            {"center_v", grid.center_v}};
+}
+
+LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path& path) {
+    const std::string dataset = dataset_name(face, "radiance");
+    dataset_shape(file, dataset.c_str(), path);  // that it is there, and a dataset
+    const hdf5::Handle radiance(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const auto count = [&](const char* attribute) { return hdf5::read_count(radiance.id(), attribute, path); };
+    const auto number = [&](const char* attribute) { return hdf5::read_number(radiance.id(), attribute, path); };
+    const auto middle = [&](const char* attribute) {
+        return hdf5::has_attribute(radiance.id(), attribute, path) ? number(attribute) : 0;
+    };
+    const std::string order = hdf5::read_text(radiance.id(), "axis_order", path);
+    if (order != "c,t,s,v,u") hdf5::fail(path, fmt::format("its axis_order is '{}' instead of 'c,t,s,v,u'", order));
+    const std::string found =
+        hdf5::has_attribute(radiance.id(), "face", path) ? hdf5::read_text(radiance.id(), "face", path) : "front";
+    if (found != name(face))
+        hdf5::fail(path, fmt::format("its dataset '{}' says that it is the face '{}'", dataset, found));
+    LightFieldGrid grid;
+    grid.channels = count("channels");
+    grid.hogels_s = count("hogels_s");
+    grid.hogels_t = count("hogels_t");
+    grid.pitch = number("hogel_pitch_m");
+    grid.directions_u = count("directions_u");
+    grid.directions_v = count("directions_v");
+    if (hdf5::has_attribute(radiance.id(), half_name(Spacing::sines, 'u').c_str(), path)) grid.spacing = Spacing::sines;
+    grid.tan_half_u = number(half_name(grid.spacing, 'u').c_str());
+    grid.tan_half_v = number(half_name(grid.spacing, 'v').c_str());
+    grid.center_u = middle("center_u");
+    grid.center_v = middle("center_v");
+    grid.face = face;
+    validate(grid, ErrorCode::bad_input, fmt::format("cannot read '{}'", path.string()));
+    return grid;
+}
+
+}  // namespace
+
+std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesystem::path& path) {
+    hdf5::check_format(file, hdf5::light_field_format, "radiance", path);
+    std::vector<LightFieldGrid> grids;
+    for (const Face face : all_faces) {
+        if (face != Face::front && !hdf5::has_member(file, std::string(name(face)).c_str(), path)) continue;
+        grids.push_back(read_face_grid(file, face, path));
+        if (!same_hogels(grids.front(), grids.back()))
+            hdf5::fail(path, fmt::format("its {} face has other hogels or channels than its front", name(face)));
+    }
+    return grids;
+}
+
+std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path) {
+    if (is_stream(path)) return open_stream_faces(path);
+    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    const hdf5::Session session;
+    const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+    const hdf5::Handle file = hdf5::open_file(path);
+    for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
+        faces.push_back(std::make_unique<LightFieldReader>(file.id(), grid, path, raw));
+    return faces;
+}
+
+std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path) {
+    return std::move(open_light_field_faces(path).front());
+}
+
+std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
+                                                   const LightFieldFileOptions& options) {
+    return std::move(create_light_field_faces(path, {&grid, 1}, options).front());
+}
+
+std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std::filesystem::path& path,
+                                                                      std::span<const LightFieldGrid> grids,
+                                                                      const LightFieldFileOptions& options) {
+    std::vector<hdf5::NewDataset> datasets;
+    for (const LightFieldGrid& grid : grids) {
+        validate(grid, ErrorCode::usage, "light field");
+        const auto same_face = [&](const LightFieldGrid& other) { return other.face == grid.face; };
+        if (!same_hogels(grid, grids.front()) || std::ranges::count_if(grids, same_face) != 1)
+            throw Error(ErrorCode::usage, fmt::format("light field '{}': its faces must have the same hogels and "
+                                                      "channels, each face once",
+                                                      path.string()));
+        const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
+        datasets.push_back({dataset_name(grid.face, "radiance"),
+                            options.type == SampleType::half ? Element::half : Element::single,
+                            radiance_box(grid, all).extent, light_field_attributes(grid)});
+        if (options.with_depth)
+            datasets.push_back({dataset_name(grid.face, "depth"),
+                                Element::single,
+                                depth_box(grid, all).extent,
+                                {{"axis_order", "t,s,v,u"}, {"unit", "m"}}});
+    }
+    if (grids.empty() || grids.front().face != Face::front)
+        throw Error(ErrorCode::usage, fmt::format("light field '{}': its front face must come first", path.string()));
+    std::shared_ptr<SharedFile> shared(new SharedFile{
+        {path, hdf5::root_attributes(hdf5::light_field_format, options.metadata), std::move(datasets), options.resume},
+        grids.size()});
+    std::vector<std::unique_ptr<LightFieldSink>> sinks;
+    const std::size_t datasets_a_face = options.with_depth ? 2 : 1;
+    for (const LightFieldGrid& grid : grids)
+        sinks.push_back(
+            std::make_unique<LightFieldWriter>(grid, datasets_a_face * sinks.size(), options.with_depth, shared));
+    return sinks;
+}
+
+}  // namespace hogel

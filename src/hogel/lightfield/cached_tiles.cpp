@@ -1,0 +1,65 @@
+#include "hogel/light_field.h"
+
+#include <algorithm>
+
+#include "hogel/core/lru_cache.h"
+
+namespace hogel {
+namespace {
+
+class KeptTiles final : public LightFieldSource {
+  public:
+    KeptTiles(std::unique_ptr<LightFieldSource> source, double bytes, bool with_depth)
+        : source_(std::move(source)),
+          with_depth_(with_depth && source_->has_depth()),
+          size_(source_->preferred_tile()),
+          recent_(static_cast<std::size_t>(bytes / tile_bytes())) {}
+
+    const LightFieldGrid& grid() const override { return source_->grid(); }
+    bool has_depth() const override { return source_->has_depth(); }
+    HogelRange preferred_tile() const override { return size_; }
+
+    void read(LightFieldTile& tile) const override {
+        const HogelRange& r = tile.range;
+        const std::size_t first_s = r.s0 / size_.ns, end_s = (r.s0 + r.ns - 1) / size_.ns + 1;
+        const std::size_t first_t = r.t0 / size_.nt, end_t = (r.t0 + r.nt - 1) / size_.nt + 1;
+        const std::size_t tiles = (end_s - first_s) * (end_t - first_t);
+        // As long as the rows of tiles that suit, it suits; and two threads may be on rows of their own.
+        const bool suits = r.ns == grid().hogels_s || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0);
+        if (suits || 2 * tiles > recent_.kept() || (tile.depth.size() > 0 && !with_depth_)) {
+            source_->read(tile);
+            return;
+        }
+        for (std::size_t t = first_t; t < end_t; ++t)
+            for (std::size_t s = first_s; s < end_s; ++s) copy_common(*kept(s * size_.ns, t * size_.nt), tile);
+    }
+
+  private:
+    double tile_bytes() const {
+        const std::size_t values = grid().channels + (with_depth_ ? 1 : 0);
+        return static_cast<double>(size_.hogels() * grid().directions() * values * sizeof(float));
+    }
+
+    std::shared_ptr<const LightFieldTile> kept(std::size_t s0, std::size_t t0) const {
+        return recent_.get(std::pair(s0, t0), [&] {
+            const HogelRange range{s0, t0, std::min(size_.ns, grid().hogels_s - s0),
+                                   std::min(size_.nt, grid().hogels_t - t0)};
+            auto tile = std::make_shared<LightFieldTile>(grid(), range, with_depth_);
+            source_->read(*tile);
+            return tile;
+        });
+    }
+
+    std::unique_ptr<LightFieldSource> source_;
+    bool with_depth_;
+    HogelRange size_;
+    mutable RecentResults<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
+};
+
+}  // namespace
+
+std::unique_ptr<LightFieldSource> keep_tiles(std::unique_ptr<LightFieldSource> source, double bytes, bool with_depth) {
+    return std::make_unique<KeptTiles>(std::move(source), bytes, with_depth);
+}
+
+}  // namespace hogel

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/core/parallel.h"
+#include "hogel/optics/film/film.h"
+#include "hogel/optics/film/kernels.h"
+#include "hogel/optics/film/lens.h"
+
+namespace hogel {
+
+void Film::develop(View<const float, 2> intensity, const Camera& camera, const Rectangle& shown, double weight,
+                   Image& image) const {
+    const Grid& picture = camera.picture;
+    const Vec3 eye = band_.geometry.eye();
+    // About a point a pixel for every sample of the film.
+    const double film_pitch = size_.sines.step * eye.z;
+    const auto points = [&](double pitch) {
+        return static_cast<std::size_t>(std::max(2.0, std::ceil(pitch / film_pitch)));
+    };
+    const std::size_t sub_x = points(picture.pitch_x), sub_y = points(picture.pitch_y);
+    const auto place = [](std::size_t pixel, std::size_t point, std::size_t count) {
+        return static_cast<double>(pixel) + (static_cast<double>(point) + 0.5) / static_cast<double>(count) - 0.5;
+    };
+    // The pixels whose points are shown, for each of the points.
+    struct Columns {
+        std::size_t begin = 0, end = 0;
+    };
+    std::vector<Columns> columns(sub_x);
+    for (std::size_t a = 0; a < sub_x; ++a) {
+        const auto held = [&](std::size_t column) {
+            const double x = picture.x(place(column, a, sub_x));
+            return x >= shown.left && x < shown.right;
+        };
+        Columns& c = columns[a];
+        while (c.begin < picture.width && !held(c.begin)) ++c.begin;
+        for (c.end = c.begin; c.end < picture.width && held(c.end);) ++c.end;
+    }
+    // A diffuse surface of radiance L sends L cos θ · (area of the pupil) cos θ/r² through this band, and its plane
+    // waves have 1/cos θ of that as |F|² (docs/notation.md section 4): so the film shows radiance times
+    // (area of the pupil) cos θ/r², and cos θ is c_z/r.
+    const double area = FilmLens(size_.sines, hologram_.wavelength, camera).area();
+    const auto scale = static_cast<float>(weight / (area * eye.z * static_cast<double>(sub_x * sub_y)));
+    // A pixel's mean is taken down the film's columns first, on each of which n_x is constant and
+    // n_y = √(1 − n_x²) · (y − c_y)/√((y − c_y)² + c_z²), and then along the row.
+    std::vector<double> slopes(size_.sines.size_x);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        const double nx = size_.sines.first_x + static_cast<double>(i) * size_.sines.step;
+        slopes[i] = std::sqrt(1 - nx * nx);
+    }
+    parallel_for(picture.height, [&](std::size_t row) {
+        std::vector<float> line(size_.sines.size_x), pixels(picture.width);
+        for (std::size_t b = 0; b < sub_y; ++b) {
+            const double y = picture.y(place(row, b, sub_y)), dy = y - eye.y;
+            if (!(y >= shown.bottom && y < shown.top)) continue;
+            add_down_columns(
+                intensity.data(), size_.sines.size_x, size_.sines.size_y,
+                {slopes, dy / std::hypot(dy, eye.z) / size_.sines.step, -size_.sines.first_y / size_.sines.step}, 1,
+                line);
+        }
+        const double dy = picture.y(static_cast<double>(row)) - eye.y;
+        for (std::size_t a = 0; a < sub_x; ++a) {
+            const Columns& c = columns[a];
+            add_along_line(line,
+                           {picture.x(place(c.begin, a, sub_x)) - eye.x, picture.pitch_x, dy * dy + eye.z * eye.z,
+                            1 / size_.sines.step, -size_.sines.first_x / size_.sines.step},
+                           scale, std::span(pixels).subspan(c.begin, c.end - c.begin));
+        }
+        for (std::size_t column = 0; column < picture.width; ++column) image.pixels(row, column, 0) += pixels[column];
+    });
+}
+
+}  // namespace hogel

@@ -1,0 +1,182 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "hogel/camera.h"
+#include "hogel/optics/phase_walk.h"
+#include "hogel/optics/sine_grid.h"
+
+namespace hogel {
+
+/// What a point in direction sine (n_x, n_y) at depth ζ adds to the path of light to the point δ of the pupil, beside
+/// the term linear in δ that its direction makes: exactly |x − q| − |x − c| + n·δ.
+inline double path(double sine_x, double sine_y, double distance_z, double delta_x, double delta_y) {
+    const double cosine = std::sqrt(1 - sine_x * sine_x - sine_y * sine_y), r = distance_z / cosine;
+    const double along = sine_x * delta_x + sine_y * delta_y, square = delta_x * delta_x + delta_y * delta_y;
+    // |rn − δ| − r without the loss of digits.
+    const double change = square - 2 * r * along;
+    return change / (std::sqrt(r * r + change) + r) + along;
+}
+
+/// How far from the middle of a pupil's plane of frequencies its disc may reach: light in direction n enters a pupil at
+/// δ with a frequency that differs from δ/λ by 3δ²/4Rλ at the most, for eyes up to 55° aside.
+inline double frequency_radius(double pupil, double distance) { return 0.5 * pupil * (1 + 0.75 * pupil / distance); }
+
+/// The same in steps of that plane.
+inline std::ptrdiff_t pupil_reach(double pupil, double distance, double step, std::size_t size) {
+    return std::min(static_cast<std::ptrdiff_t>(frequency_radius(pupil, distance) / step) + 1,
+                    static_cast<std::ptrdiff_t>(size - 1) / 2);
+}
+
+/// Metres in the pupil's plane between the frequencies of a transform of so many samples.
+inline double pupil_step(double wavelength, std::size_t size, double sine_step) {
+    return wavelength / (static_cast<double>(size) * sine_step);
+}
+
+/// A camera's lens at the frequencies of the transform. Around the direction n light that enters the pupil at δ has the
+/// frequency (δ − ∇_n Q)/λ in the sines, Q being the path beside the term linear in δ; so the disc is a little bent
+/// among the frequencies, and more so aslant. The defocus phase depends on the direction, slowly; the film gets as many
+/// nodes as keep it within half a radian, each with a phase of its own.
+class FilmLens {
+  public:
+    FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)
+        : sines_(sines),
+          wavelength_(wavelength),
+          camera_(camera),
+          radius_(0.5 * camera.pupil),
+          step_x_(pupil_step(wavelength, sines.size_x, sines.step)),
+          step_y_(pupil_step(wavelength, sines.size_y, sines.step)) {
+        nodes_x = nodes_for(span_x(), 0);
+        nodes_y = nodes_for(0, span_y());
+    }
+
+    std::size_t nodes_x = 1, nodes_y = 1;
+
+    // The sine in the middle of a node's part of the film.
+    double node_x(std::size_t i) const {
+        return sines_.first_x + span_x() * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes_x);
+    }
+    double node_y(std::size_t j) const {
+        return sines_.first_y + span_y() * (static_cast<double>(j) + 0.5) / static_cast<double>(nodes_y);
+    }
+
+    // Offsets from the middle of the pupil, in steps, that the disc may reach.
+    std::ptrdiff_t reach_x() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_x_, sines_.size_x); }
+    std::ptrdiff_t reach_y() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_y_, sines_.size_y); }
+
+    // Of the opening, as sampled, m².
+    double area() const {
+        const Direction middle(sines_.first_x + 0.5 * span_x(), sines_.first_y + 0.5 * span_y());
+        double sum = 0;
+        for (std::ptrdiff_t row = -reach_y(); row <= reach_y(); ++row)
+            for (std::ptrdiff_t column = -reach_x(); column <= reach_x(); ++column) {
+                const double inside = passes(middle, static_cast<double>(column), static_cast<double>(row));
+                sum += inside * inside;
+            }
+        return sum * step_x_ * step_y_;
+    }
+
+    // Calls emit(column offset, factor) along a row of the pupil, for light from the direction (n_x, n_y).
+    template <class Emit>
+    void row(double nx, double ny, std::ptrdiff_t row, const Emit& emit) const {
+        const Direction from(nx, ny);
+        const double scale = 1 / (static_cast<double>(sines_.size_x) * static_cast<double>(sines_.size_y));
+        const double dy = step_y_ * static_cast<double>(row);
+        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + std::max(step_x_, step_y_);
+        if (std::abs(dy) > widest) return;
+        const auto last =
+            std::min(reach_x(), static_cast<std::ptrdiff_t>(std::sqrt(widest * widest - dy * dy) / step_x_));
+        const double in_focus = ratio(nx, ny);
+        const auto column = [&](double step) { return step - static_cast<double>(last); };
+        walk_phase(
+            static_cast<std::size_t>(2 * last + 1),
+            [&](double step) {
+                const Place at = place(from, step_x_ * column(step), dy);
+                return defocus(nx, ny, in_focus, at.x, at.y);
+            },
+            [&](std::size_t i, std::complex<double> phase) {
+                const double at = column(static_cast<double>(i));
+                emit(static_cast<std::ptrdiff_t>(at),
+                     std::complex<float>(scale * passes(from, at, static_cast<double>(row)) * phase));
+            });
+    }
+
+  private:
+    static constexpr double most_nodes = 33;
+
+    struct Direction {
+        Direction(double nx, double ny) : x(nx), y(ny), cosine(std::sqrt(1 - nx * nx - ny * ny)) {}
+        double x, y, cosine;
+    };
+
+    struct Place {
+        double x, y;    // in the pupil
+        double cosine;  // of the light's direction there
+    };
+
+    // Where the light around a direction n enters that has a frequency fx/λ, fy/λ in the sines: from there the point in
+    // direction n of the hologram lies in direction m = n − (f − n (n·f)) cos θ/R, exactly.
+    Place place(const Direction& n, double fx, double fy) const {
+        const double R = camera_.eye.z, along = n.x * fx + n.y * fy, step = n.cosine / R;
+        const double mx = n.x - step * (fx - n.x * along), my = n.y - step * (fy - n.y * along);
+        const double cosine = std::sqrt(std::max(1 - mx * mx - my * my, 1e-12));
+        return {R * (n.x / n.cosine - mx / cosine), R * (n.y / n.cosine - my / cosine), cosine};
+    }
+
+    // How much of the light passes in amplitude at a frequency, in steps: within the disc (cos θ_n/cos θ_m)², which is
+    // what frequencies lie denser there, to the fourth power, times what the light is stronger nearer by. The edge
+    // falls over one sample, so that the disc has its area on a coarse grid too.
+    double passes(const Direction& n, double column, double row) const {
+        const double edge = std::max(step_x_, step_y_);
+        const Place at = place(n, step_x_ * column, step_y_ * row);
+        const double weight = n.cosine * n.cosine / (at.cosine * at.cosine);
+        const double square = at.x * at.x + at.y * at.y, inner = std::max(radius_ - 0.5 * edge, 0.0);
+        if (square < inner * inner) return weight;
+        return weight * std::clamp((radius_ - std::sqrt(square)) / edge + 0.5, 0.0, 1.0);
+    }
+
+    double span_x() const { return static_cast<double>(sines_.size_x) * sines_.step; }
+    double span_y() const { return static_cast<double>(sines_.size_y) * sines_.step; }
+
+    // In turns, with what is in focus `ratio` times as far away as the hologram.
+    double defocus(double nx, double ny, double ratio, double dx, double dy) const {
+        if (ratio == 1) return 0;
+        const double R = camera_.eye.z;
+        return (path(nx, ny, R, dx, dy) - path(nx, ny, ratio * R, dx, dy)) / wavelength_;
+    }
+
+    // The ratio in a direction of the picture; beside it that of its edge.
+    double ratio(double nx, double ny) const {
+        const double reach = camera_.eye.z / std::sqrt(1 - nx * nx - ny * ny);
+        const Grid& picture = camera_.picture;
+        const double half_x = 0.5 * picture.size_x(), half_y = 0.5 * picture.size_y();
+        return focus_ratio(
+            camera_, std::clamp(camera_.eye.x + reach * nx, picture.center_x - half_x, picture.center_x + half_x),
+            std::clamp(camera_.eye.y + reach * ny, picture.center_y - half_y, picture.center_y + half_y));
+    }
+
+    std::size_t nodes_for(double ux, double uy) const {
+        const double mid_x = sines_.first_x + 0.5 * span_x(), mid_y = sines_.first_y + 0.5 * span_y();
+        double change = 0;
+        for (double a : {0.0, 0.25, 0.5, 0.75}) {
+            const double dx = radius_ * std::cos(std::numbers::pi * a), dy = radius_ * std::sin(std::numbers::pi * a);
+            const auto at = [&](double part) {
+                const double nx = mid_x + part * ux, ny = mid_y + part * uy;
+                return defocus(nx, ny, ratio(nx, ny), dx, dy);
+            };
+            change = std::max(change, std::abs(at(0.5) - at(-0.5)));
+        }
+        const double nodes = std::ceil(2 * std::numbers::pi * change / 0.5);
+        return static_cast<std::size_t>(std::clamp(nodes, 1.0, most_nodes));
+    }
+
+    const SineGrid& sines_;
+    double wavelength_;
+    const Camera& camera_;
+    double radius_, step_x_, step_y_;
+};
+
+}  // namespace hogel

@@ -1,0 +1,275 @@
+#include "hogel/optics/narrow_band/narrow_band.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/core/parallel.h"
+#include "hogel/optics/low_pass.h"
+#include "hogel/optics/narrow_band/kernels.h"
+#include "hogel/optics/phase_walk.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+using Complex = std::complex<float>;
+
+// A pupil's band is made this much wider than it is, so that eyes may share a pass down the columns (see share_columns)
+// and the band's width may vary a little over the hologram.
+constexpr double guard = 0.1;
+
+// Half the width of the band, cycles per metre, at the point of the hologram that is nearest to the eye.
+double half_band(const FieldGrid& hologram, Vec3 eye, double pupil) {
+    const Grid& plane = hologram.plane;
+    const double x = std::clamp(eye.x, plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2);
+    const double y = std::clamp(eye.y, plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2);
+    return 0.5 * pupil / (hologram.wavelength * ViewGeometry(eye, hologram.wavelength).distance(x, y));
+}
+
+// The samples of the band that samples [begin, end) of the hologram add to.
+struct Reach {
+    std::size_t first, end;
+};
+
+Reach reach(const NarrowBand& band, std::size_t samples, std::size_t begin, std::size_t end) {
+    const auto taps = static_cast<std::ptrdiff_t>(band.taps.size());
+    Reach r{0, 0};
+    while (r.first + 1 < samples && band.first_tap(r.first) + taps <= static_cast<std::ptrdiff_t>(begin)) ++r.first;
+    for (r.end = r.first; r.end < samples && band.first_tap(r.end) < static_cast<std::ptrdiff_t>(end);) ++r.end;
+    return r;
+}
+
+// Eyes that are at one height and one distance need, down the columns of a narrow tile, nearly the same demodulation:
+// they share the work there, and what their phases differ by is made up for after the decimation, when samples are few.
+// How fast that difference may vary is what the guard band allows.
+bool share_columns(const NarrowBand& a, const NarrowBand& b, const Grid& plane) {
+    if (a.factor != b.factor) return false;
+    double worst = 0;
+    for (double x : {plane.x(0), plane.x(static_cast<double>(plane.width) - 1)})
+        for (double y : {plane.y(0), plane.y(static_cast<double>(plane.height) - 1)})
+            worst = std::max(worst, std::abs(a.geometry.sine_y(x, y) - b.geometry.sine_y(x, y)));
+    const double passed = LowPass::pass / (static_cast<double>(a.factor) * plane.pitch_y);
+    return worst / a.geometry.wavelength() < 0.5 * guard * passed;
+}
+
+// What one tile adds to one eye's band, for all looks.
+struct Contribution {
+    Reach rows, columns;
+    std::vector<Array<Complex, 2>> looks;
+};
+
+// One tile's passage through the two low-passes, for a group of eyes that share the pass down the columns.
+class TilePass {
+  public:
+    TilePass(const Grid& plane, std::span<const NarrowBand> eyes, std::span<const std::size_t> group,
+             const Region& region)
+        : eyes_(eyes), group_(group), region_(region), lead_(eyes[group.front()]) {
+        rows_ = reach(lead_, lead_.plane.height, region.y0, region.y0 + region.height);
+        columns_ = reach(lead_, lead_.plane.width, region.x0, region.x0 + region.width);
+        // The phase that is taken off down the columns is that of the tile's middle column, as the first eye sees it.
+        const double middle = plane.x(static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5);
+        const auto column_phase = [&](double y) { return lead_.geometry.turns(middle, y); };
+        weigh_rows(plane, column_phase);
+        for (std::size_t eye : group_) phases_.push_back(remaining_phases(plane, eyes_[eye], column_phase));
+        prepare_line_taps();
+    }
+
+    // Adds look after look; contributions are in the order of the group.
+    void add(View<const Complex, 2> tile, std::vector<Contribution>& contributions) const {
+        const std::size_t rows = rows_.end - rows_.first, columns = columns_.end - columns_.first;
+        for (Contribution& contribution : contributions) contribution.looks.emplace_back(Shape<2>{rows, columns});
+        std::vector<Complex> down(region_.width);
+        // Room before and after the line, so that every kernel fits whole.
+        std::vector<Complex> line(before_ + region_.width + after_);
+        for (std::size_t m = 0; m < rows; ++m) {
+            const RowWeights& weights = row_weights_[m];
+            weighted_rows(&tile(weights.first, 0), region_.width, weights.values, down);
+            for (std::size_t e = 0; e < group_.size(); ++e) {
+                multiply(down.data(), phases_[e].view()[m].data(), std::span(line).subspan(before_, region_.width));
+                decimated_line(line.data(), lead_.factor, line_taps_, contributions[e].looks.back()[m].elements());
+            }
+        }
+    }
+
+    Contribution empty_contribution() const { return {rows_, columns_, {}}; }
+
+  private:
+    struct RowWeights {
+        std::size_t first = 0;  // row of the tile
+        std::vector<Complex> values;
+    };
+
+    template <class Phase>
+    void weigh_rows(const Grid& plane, const Phase& phase) {
+        std::vector<Complex> demodulation(region_.height);
+        for (std::size_t r = 0; r < region_.height; ++r)
+            demodulation[r] = Complex(unit_phasor(phase(plane.y(static_cast<double>(region_.y0 + r)))));
+        for (std::size_t m = rows_.first; m < rows_.end; ++m) {
+            // The taps that fall into the tile.
+            const std::ptrdiff_t offset = lead_.first_tap(m) - static_cast<std::ptrdiff_t>(region_.y0);
+            const auto begin = std::max<std::ptrdiff_t>(offset, 0);
+            const auto end = std::min(offset + static_cast<std::ptrdiff_t>(lead_.taps.size()),
+                                      static_cast<std::ptrdiff_t>(region_.height));
+            RowWeights& weights = row_weights_.emplace_back();
+            weights.first = static_cast<std::size_t>(begin);
+            for (std::ptrdiff_t r = begin; r < end; ++r)
+                weights.values.push_back(lead_.taps[static_cast<std::size_t>(r - offset)] *
+                                         demodulation[static_cast<std::size_t>(r)]);
+        }
+    }
+
+    // e^{ik|x−c|} less the phase already taken off, at every hologram column and band row of the tile.
+    template <class Phase>
+    Array<Complex, 2> remaining_phases(const Grid& plane, const NarrowBand& eye, const Phase& taken) const {
+        Array<Complex, 2> phases({rows_.end - rows_.first, region_.width});
+        for (std::size_t m = 0; m < phases.extent(0); ++m) {
+            const double y = plane.y(eye.hologram_index(rows_.first + m)), off = taken(y);
+            walk_phase(
+                region_.width,
+                [&](double step) {
+                    return eye.geometry.turns(plane.x(static_cast<double>(region_.x0) + step), y) - off;
+                },
+                [&](std::size_t x, std::complex<double> value) { phases(m, x) = Complex(value); });
+        }
+        return phases;
+    }
+
+    // Every band sample has the same taps around it; the first of them lies `before_` samples left of the tile's start.
+    void prepare_line_taps() {
+        for (float tap : lead_.taps) line_taps_.insert(line_taps_.end(), 2, tap);
+        before_ = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(region_.x0) - lead_.first_tap(columns_.first));
+        const std::size_t last = (columns_.end - 1 - columns_.first) * lead_.factor + lead_.taps.size();
+        after_ = last > before_ + region_.width ? last - before_ - region_.width : 0;
+    }
+
+    std::span<const NarrowBand> eyes_;
+    std::span<const std::size_t> group_;
+    Region region_;
+    const NarrowBand& lead_;
+    Reach rows_, columns_;
+    std::vector<RowWeights> row_weights_;    // a band row each
+    std::vector<Array<Complex, 2>> phases_;  // [band row][hologram column], an eye each
+    std::vector<float> line_taps_;
+    std::size_t before_ = 0, after_ = 0;
+};
+
+std::vector<Region> tiles(const Grid& plane) {
+    constexpr std::size_t width = NarrowBand::tile_width, height = NarrowBand::tile_height;
+    std::vector<Region> list;
+    for (std::size_t y = 0; y < plane.height; y += height)
+        for (std::size_t x = 0; x < plane.width; x += width)
+            list.push_back({x, y, std::min(width, plane.width - x), std::min(height, plane.height - y)});
+    return list;
+}
+
+}  // namespace
+
+NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geometry(eye, hologram.wavelength) {
+    const Grid& full = hologram.plane;
+    const double needed = half_band(hologram, eye, pupil) * (1 + guard) / LowPass::pass;  // samples per metre
+    const double pitch = std::max(full.pitch_x, full.pitch_y);
+    const double fits = 1 / (pitch * needed);
+    if (fits < 1)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a pupil of {} at {} takes in more than a hologram with a pitch of {} can hold; "
+                                "a pupil of {} or a pitch of {} would do",
+                                format_length(pupil), format_length(eye.z), format_length(pitch),
+                                format_length(pupil * fits), format_length(pitch * fits)));
+    factor = static_cast<std::size_t>(fits);
+    const auto decimate = [&](std::size_t samples) { return (samples + factor - 1) / factor + 2 * margin; };
+    plane = {decimate(full.width),
+             decimate(full.height),
+             full.pitch_x * static_cast<double>(factor),
+             full.pitch_y * static_cast<double>(factor),
+             0,
+             0};
+    const double step = static_cast<double>(factor);
+    if (factor == 1) {
+        taps = {1};
+    } else {
+        const auto count = static_cast<std::size_t>(std::ceil(2 * LowPass::half_width * step)) + 1;
+        taps.resize(count);
+        const double first = static_cast<double>(first_tap(margin)) - hologram_index(margin);
+        double sum = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            taps[k] = static_cast<float>(LowPass::at((first + static_cast<double>(k)) / step));
+            sum += taps[k];
+        }
+        // What the sampling of the kernel changes of its integral, so that a constant stays itself.
+        for (float& tap : taps) tap /= static_cast<float>(sum);
+    }
+    // The first sample must lie where hologram_index(0) says.
+    plane.center_x += full.x(hologram_index(0)) - plane.x(0);
+    plane.center_y += full.y(hologram_index(0)) - plane.y(0);
+}
+
+double NarrowBand::hologram_index(std::size_t index) const {
+    const double step = static_cast<double>(factor);
+    return (static_cast<double>(index) - static_cast<double>(margin)) * step + 0.5 * (step - 1);
+}
+
+std::ptrdiff_t NarrowBand::first_tap(std::size_t index) const {
+    const double middle = hologram_index(index);
+    return static_cast<std::ptrdiff_t>(std::ceil(middle - 0.5 * static_cast<double>(taps.size() - 1)));
+}
+
+std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
+                                                                          std::span<const NarrowBand> eyes,
+                                                                          std::size_t first_look, std::size_t looks,
+                                                                          const Progress& progress) {
+    const Grid& plane = hologram.grid().plane;
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
+            return share_columns(eyes[members.front()], eyes[eye], plane);
+        });
+        if (group == groups.end())
+            groups.push_back({eye});
+        else
+            group->push_back(eye);
+    }
+
+    std::vector<std::vector<Array<Complex, 2>>> bands(eyes.size());
+    for (std::size_t eye = 0; eye < eyes.size(); ++eye)
+        for (std::size_t look = 0; look < looks; ++look)
+            bands[eye].emplace_back(Shape<2>{eyes[eye].plane.height, eyes[eye].plane.width});
+
+    const std::vector<Region> regions = tiles(plane);
+    using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
+    parallel_ordered<Contributions>(
+        regions.size(), default_in_flight(),
+        [&](std::size_t i) {
+            std::vector<TilePass> passes;
+            Contributions contributions;
+            for (const auto& group : groups) {
+                passes.emplace_back(plane, eyes, group, regions[i]);
+                contributions.emplace_back(group.size(), passes.back().empty_contribution());
+            }
+            Array<Complex, 2> tile({regions[i].height, regions[i].width});
+            for (std::size_t look = 0; look < looks; ++look) {
+                hologram.read(regions[i], first_look + look, tile);
+                for (std::size_t g = 0; g < groups.size(); ++g) passes[g].add(tile, contributions[g]);
+            }
+            return contributions;
+        },
+        [&](std::size_t i, Contributions& contributions) {
+            for (std::size_t g = 0; g < groups.size(); ++g)
+                for (std::size_t member = 0; member < groups[g].size(); ++member) {
+                    const Contribution& part = contributions[g][member];
+                    for (std::size_t look = 0; look < looks; ++look) {
+                        Array<Complex, 2>& band = bands[groups[g][member]][look];
+                        const std::size_t last_row = std::min(part.rows.end, band.extent(0));
+                        const std::size_t last_column = std::min(part.columns.end, band.extent(1));
+                        for (std::size_t m = part.rows.first; m < last_row; ++m)
+                            for (std::size_t n = part.columns.first; n < last_column; ++n)
+                                band(m, n) += part.looks[look](m - part.rows.first, n - part.columns.first);
+                    }
+                }
+            report(progress, static_cast<double>(i + 1) / static_cast<double>(regions.size()));
+        });
+    return bands;
+}
+
+}  // namespace hogel

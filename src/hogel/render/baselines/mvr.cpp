@@ -1,0 +1,162 @@
+#include "hogel/render/baselines/mvr.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/row_axes.h"
+#include "hogel/render/row_tile.h"
+#include "hogel/render/span.h"
+
+namespace hogel {
+namespace {
+
+struct Interval {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+
+    void include(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+};
+
+// What the rays of one t and one V can see of a triangle: the points (x, ζ) in the plane of these rays between some
+// corners, two as a rule. A slice is a line of points; a triangle that all but lies in the plane is all of it. On a
+// side of a hemicube ζ is the distance forward, and on the left and right x, t and V change places with y, s and U.
+struct Slice {
+    std::uint32_t triangle = 0, corners = 0;
+    std::array<double, 5> x{}, depth{};  // on two edges at most, and at three vertices
+
+    void include(double corner_x, double corner_depth) {
+        x[corners] = corner_x;
+        depth[corners] = corner_depth;
+        ++corners;
+    }
+};
+
+class MvrRenderer final : public LightFieldSource {
+  public:
+    MvrRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
+        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(triangles_with_area(*scene_)) {}
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return true; }
+    HogelRange preferred_tile() const override { return row_tile(grid_, axes_.turned()); }
+
+    // Source: [K] fig. 5.8.
+    void read(LightFieldTile& tile) const override {
+        const std::size_t hogels = axes_.fast_hogels(tile.range);
+        std::vector<std::vector<Slice>> tables(axes_.slow_directions());
+        Array<NearestTriangle, 2> picture({axes_.fast_directions(), hogels});
+        for (std::size_t row = 0; row < axes_.slow_hogels(tile.range); ++row) {
+            const double place = axes_.slow_hogel(tile.range, row);
+            for (std::vector<Slice>& table : tables) table.clear();
+            for (std::uint32_t index : triangles_) slice_triangle(index, place, tables);
+            for (std::size_t slow = 0; slow < tables.size(); ++slow) {
+                std::ranges::fill(picture.elements(), NearestTriangle{});
+                for (const Slice& slice : tables[slow]) scan_convert(slice, slow, row, tile.range, picture);
+                for (std::size_t i = 0; i < hogels; ++i)
+                    for (std::size_t fast = 0; fast < axes_.fast_directions(); ++fast) {
+                        const auto [t, s, v, u] = axes_.sample(row, i, slow, fast);
+                        store(tile, *scene_, grid_, picture(fast, i), t, s, v, u);
+                    }
+            }
+        }
+    }
+
+  private:
+    std::array<RowAxes::Seen, 3> corners(std::uint32_t index, double place) const {
+        const auto& [a, b, c] = scene_->triangles[index].vertices;
+        return {axes_.seen(scene_->positions[a], place), axes_.seen(scene_->positions[b], place),
+                axes_.seen(scene_->positions[c], place)};
+    }
+
+    // Where points have no direction, or rounding makes one up.
+    bool touches_hologram(const Interval& depth) const {
+        const double least = 1e-3 * grid_.pitch;
+        return depth.low < least && depth.high > -least;
+    }
+
+    // The rows of directions in which a triangle is seen from a row of hogels.
+    Span rows(const std::array<RowAxes::Seen, 3>& triangle) const {
+        Interval row, depth;
+        for (const RowAxes::Seen& p : triangle) {
+            depth.include(p.forward);
+            row.include(axes_.slow_index(p.slow / p.forward));
+        }
+        if (touches_hologram(depth)) return {0, axes_.slow_directions()};
+        return samples_between(row.low, row.high, axes_.slow_directions());
+    }
+
+    void slice_triangle(std::uint32_t index, double place, std::vector<std::vector<Slice>>& tables) const {
+        const std::array<RowAxes::Seen, 3> triangle = corners(index, place);
+        const double margin = scan_margin * grid_.pitch;
+        const Span seen_in = rows(triangle);
+        for (std::size_t v = seen_in.first; v < seen_in.end; ++v) {
+            // The heights of the corners above the plane y = t + Vζ of the rays.
+            std::array<double, 3> height;
+            for (std::size_t i = 0; i < 3; ++i)
+                height[i] = triangle[i].slow - axes_.slow_direction(v) * triangle[i].forward;
+            Slice slice{index};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::size_t j = (i + 1) % 3;
+                const RowAxes::Seen &a = triangle[i], &b = triangle[j];
+                if (std::abs(height[i]) <= margin) slice.include(a.fast, a.forward);
+                if ((height[i] < 0) == (height[j] < 0) || height[i] == 0 || height[j] == 0) continue;
+                const double f = height[i] / (height[i] - height[j]);
+                slice.include(a.fast + f * (b.fast - a.fast), a.forward + f * (b.forward - a.forward));
+            }
+            if (slice.corners > 0) tables[v].push_back(slice);
+        }
+    }
+
+    // A polygon slice track: for each U the slice covers the s between the places x − Uζ of its corners.
+    void scan_convert(const Slice& slice, std::size_t slow, std::size_t row, const HogelRange& range,
+                      Array<NearestTriangle, 2>& picture) const {
+        const std::size_t count = axes_.fast_hogels(range);
+        const double first = axes_.fast_hogel(range, 0);
+        const Span columns = columns_of_directions(slice, first, axes_.fast_hogel(range, count - 1));
+        for (std::size_t fast = columns.first; fast < columns.end; ++fast) {
+            const double U = axes_.fast_direction(fast);
+            Interval s;
+            for (std::size_t i = 0; i < slice.corners; ++i)
+                s.include(axes_.fast_sign() * (slice.x[i] - U * slice.depth[i] - first) / grid_.pitch);
+            const Span hogels = samples_between(s.low, s.high, count);
+            if (hogels.first == hogels.end) continue;
+            const auto [t0, s0, v, u] = axes_.sample(row, 0, slow, fast);
+            const ObliqueTriangle triangle(*scene_, slice.triangle, grid_, static_cast<double>(u),
+                                           static_cast<double>(v));
+            for (std::size_t i = hogels.first; i < hogels.end; ++i) {
+                const std::size_t along_s = axes_.turned() ? 0 : i, along_t = axes_.turned() ? i : 0;
+                see(picture(fast, i), slice.triangle, triangle, grid_.s(static_cast<double>(range.s0 + s0 + along_s)),
+                    grid_.t(static_cast<double>(range.t0 + t0 + along_t)));
+            }
+        }
+    }
+
+    // The columns of directions in which a slice is seen from hogels between two places.
+    Span columns_of_directions(const Slice& slice, double first, double last) const {
+        Interval column, depth;
+        for (std::size_t i = 0; i < slice.corners; ++i) {
+            depth.include(slice.depth[i]);
+            for (double place : {first, last}) column.include(axes_.fast_index((slice.x[i] - place) / slice.depth[i]));
+        }
+        if (touches_hologram(depth)) return {0, axes_.fast_directions()};
+        return samples_between(column.low, column.high, axes_.fast_directions());
+    }
+
+    std::shared_ptr<const ShadedScene> scene_;
+    LightFieldGrid grid_;
+    RowAxes axes_;
+    std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace
+
+std::unique_ptr<LightFieldSource> make_mvr_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                    const LightFieldGrid& grid) {
+    return std::make_unique<MvrRenderer>(std::move(scene), grid);
+}
+
+}  // namespace hogel

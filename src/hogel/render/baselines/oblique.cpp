@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/render/baselines/oblique.h"
+#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/region_memory.h"
+#include "hogel/render/span.h"
+
+namespace hogel {
+namespace {
+
+// The slid triangle's corners as columns and rows of hogels, counted from the tile's first.
+struct TriangleInHogels {
+    std::array<double, 3> s, t;
+
+    TriangleInHogels(const ObliqueTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range) {
+        const double first_s = grid.s(static_cast<double>(range.s0)), first_t = grid.t(static_cast<double>(range.t0));
+        for (std::size_t i = 0; i < 3; ++i) {
+            s[i] = (triangle.s()[i] - first_s) / grid.pitch;
+            t[i] = (first_t - triangle.t()[i]) / grid.pitch;
+        }
+    }
+
+    Span rows(std::size_t nt) const {
+        const auto [low, high] = std::minmax_element(t.begin(), t.end());
+        return samples_between(*low, *high, nt);
+    }
+
+    // Between the outermost places where edges cross the row, or end within the margin of it.
+    Span columns(std::size_t row, std::size_t ns) const {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        const auto include = [&](double place) {
+            low = std::min(low, place);
+            high = std::max(high, place);
+        };
+        const double level = static_cast<double>(row);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            if (std::abs(t[i] - level) <= scan_margin) include(s[i]);
+            if ((t[i] < level && level < t[j]) || (t[j] < level && level < t[i]))
+                include(s[i] + (level - t[i]) / (t[j] - t[i]) * (s[j] - s[i]));
+        }
+        return samples_between(low, high, ns);
+    }
+};
+
+class ObliqueRenderer final : public LightFieldSource {
+  public:
+    ObliqueRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
+        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {}
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return true; }
+
+    void read(LightFieldTile& tile) const override {
+        Array<NearestTriangle, 2> picture(oblique_buffer(tile.range));
+        for (std::size_t v = 0; v < grid_.directions_v; ++v)
+            for (std::size_t u = 0; u < grid_.directions_u; ++u) {
+                std::ranges::fill(picture.elements(), NearestTriangle{});
+                for (std::uint32_t index : triangles_)
+                    scan_convert(ObliqueTriangle(*scene_, index, grid_, static_cast<double>(u), static_cast<double>(v)),
+                                 index, tile.range, picture);
+                for (std::size_t t = 0; t < tile.range.nt; ++t)
+                    for (std::size_t s = 0; s < tile.range.ns; ++s)
+                        store(tile, *scene_, grid_, picture(t, s), t, s, v, u);
+            }
+    }
+
+  private:
+    void scan_convert(const ObliqueTriangle& triangle, std::uint32_t index, const HogelRange& range,
+                      Array<NearestTriangle, 2>& picture) const {
+        const TriangleInHogels in_hogels(triangle, grid_, range);
+        const Span rows = in_hogels.rows(range.nt);
+        for (std::size_t t = rows.first; t < rows.end; ++t) {
+            const Span columns = in_hogels.columns(t, range.ns);
+            for (std::size_t s = columns.first; s < columns.end; ++s)
+                see(picture(t, s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)),
+                    grid_.t(static_cast<double>(range.t0 + t)));
+        }
+    }
+
+    std::shared_ptr<const ShadedScene> scene_;
+    LightFieldGrid grid_;
+    std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace
+
+std::unique_ptr<LightFieldSource> make_oblique_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                        const LightFieldGrid& grid) {
+    return std::make_unique<ObliqueRenderer>(std::move(scene), grid);
+}
+
+}  // namespace hogel

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "hogel/render/sample_store.h"
+
+namespace hogel {
+
+/// A triangle slid along one direction (U, V) into the hologram plane, where the rays of that direction are points.
+///
+/// The renderers that find samples by other ways than testing each one (`simplex`, `simplex-strip`, `simplex3d`,
+/// `oblique`, `mvr`) all decide here whether a ray meets a triangle and where. The answer depends on the ray and the
+/// triangle alone, so it does not matter which way a sample was found, nor how often, nor in which region.
+///
+/// The edge functions of docs/notation.md section 2 are those of the ray's own frame: E = p_A × p_B with p = (x − Uζ −
+/// s, y − Vζ − t). A rounded difference of two rounded products may vanish but never has the wrong sign, so triangles
+/// that share vertices tile the plane. A ray through an edge belongs to the triangle on the edge's left in the plane
+/// (above it if the edge is level), as if the ray ran a little to the left (and, much less, above) of where it does.
+class ObliqueTriangle {
+  public:
+    /// Along the slopes U = dx/dζ and V = dy/dζ.
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, double U, double V) : fronts_only_(scene.fronts_only) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3& p = scene.positions[scene.triangles[index].vertices[i]];
+            depth_[i] = -p.z;
+            s_[i] = p.x - U * depth_[i];
+            t_[i] = p.y - V * depth_[i];
+        }
+    }
+
+    /// Along a ray in column u and row v of a light field's directions, on whatever face.
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid, double u, double v)
+        : ObliqueTriangle(scene, index, grid.along(grid.u(u), grid.v(v))) {}
+
+    const std::array<double, 3>& s() const { return s_; }
+    const std::array<double, 3>& t() const { return t_; }
+
+    struct Hit {
+        std::array<double, 3> weights{};  ///< of the vertices; they sum to one
+        double depth = std::numeric_limits<double>::infinity();
+
+        explicit operator bool() const { return depth < std::numeric_limits<double>::infinity(); }
+    };
+
+    /// Where the ray through (s, t) meets the triangle, if it does.
+    Hit at(double s, double t) const {
+        std::array<double, 3> x, y, w;
+        for (std::size_t i = 0; i < 3; ++i) {
+            x[i] = s_[i] - s;
+            y[i] = t_[i] - t;
+        }
+        w[0] = x[1] * y[2] - y[1] * x[2];
+        w[1] = x[2] * y[0] - y[2] * x[0];
+        w[2] = x[0] * y[1] - y[0] * x[1];
+        const double area = w[0] + w[1] + w[2];
+        if (area == 0 || (area < 0 && fronts_only_)) return {};
+        const double side = area > 0 ? 1 : -1;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (side * w[i] < 0) return {};
+            if (w[i] == 0 && !owns_edge(x[(i + 1) % 3], y[(i + 1) % 3], x[(i + 2) % 3], y[(i + 2) % 3], side))
+                return {};
+        }
+        return {{w[0] / area, w[1] / area, w[2] / area},
+                (w[0] * depth_[0] + w[1] * depth_[1] + w[2] * depth_[2]) / area};
+    }
+
+  private:
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, Vec3 way)
+        : ObliqueTriangle(scene, index, way.x / way.z, way.y / way.z) {}
+
+    // Whether a triangle that lies to the left of the edge A → B (to the right for side = −1) has the points on it.
+    static bool owns_edge(double ax, double ay, double bx, double by, double side) {
+        const double rise = side * (by - ay), run = side * (bx - ax);
+        return rise > 0 || (rise == 0 && run > 0);
+    }
+
+    std::array<double, 3> s_, t_, depth_;
+    bool fronts_only_;
+};
+
+/// What a sample of a region's depth buffer holds: 8 bytes. The rest follows from the ray when all triangles are in.
+struct NearestTriangle {
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    float depth = std::numeric_limits<float>::infinity();
+    std::uint32_t triangle = none;
+};
+
+/// Lets the ray through (s, t) see triangle `index` if it meets it at a depth of at least `least`, and before what it
+/// saw until now; of two at equal depth the one that came first stays.
+inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangle& triangle, double s, double t,
+                double least = -std::numeric_limits<double>::infinity()) {
+    if (seen.triangle == index) return;
+    const ObliqueTriangle::Hit hit = triangle.at(s, t);
+    const float depth = static_cast<float>(hit.depth);
+    if (hit && hit.depth >= least && depth < seen.depth) seen = {depth, index};
+}
+
+/// Shades what the ray of hogel (t, s) of the tile in direction (v, u) saw, and stores it in the tile.
+inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid,
+                  const NearestTriangle& seen, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+    VisiblePoint point;
+    if (seen.triangle != NearestTriangle::none) {
+        const ObliqueTriangle triangle(scene, seen.triangle, grid, static_cast<double>(u), static_cast<double>(v));
+        const ObliqueTriangle::Hit hit =
+            triangle.at(grid.s(static_cast<double>(tile.range.s0 + s)), grid.t(static_cast<double>(tile.range.t0 + t)));
+        point = {seen.triangle, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),
+                 static_cast<float>(hit.weights[2]), hit.depth};
+    }
+    store(tile, scene, grid, point, t, s, v, u);
+}
+
+/// The triangles that can be seen at all. One thinner than 1e-12 of its length covers no sample but by rounding.
+inline std::vector<std::uint32_t> triangles_with_area(const ShadedScene& scene) {
+    std::vector<std::uint32_t> list;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const auto& [a, b, c] = scene.triangles[i].vertices;
+        const Vec3 ab = scene.positions[b] - scene.positions[a], ac = scene.positions[c] - scene.positions[a];
+        const Vec3 bc = ac - ab, normal = cross(ab, ac);
+        const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+        if (dot(normal, normal) > 1e-24 * longest * longest) list.push_back(static_cast<std::uint32_t>(i));
+    }
+    return list;
+}
+
+}  // namespace hogel

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hogel/render/baselines/raytrace.h"
+#include "hogel/render/sample_store.h"
+#include "hogel/trace/ray_caster.h"
+
+namespace hogel {
+namespace {
+
+// Neighbouring directions travel together: the rays of a square of this side share most of their way through the tree.
+constexpr std::size_t bundle = 16;
+
+class RaytraceRenderer final : public LightFieldSource {
+  public:
+    RaytraceRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
+        : scene_(std::move(scene)), grid_(grid), caster_(seen_triangles(*scene_)) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        low_ = {infinity, infinity, infinity};
+        high_ = -low_;
+        for (const ShadedScene::Triangle& triangle : scene_->triangles)
+            for (std::uint32_t vertex : triangle.vertices) {
+                const Vec3& p = scene_->positions[vertex];
+                low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, -p.z)};
+                high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, -p.z)};
+            }
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return true; }
+
+    void read(LightFieldTile& tile) const override {
+        for (std::size_t t = 0; t < tile.range.nt; ++t)
+            for (std::size_t s = 0; s < tile.range.ns; ++s)
+                for (std::size_t v0 = 0; v0 < grid_.directions_v; v0 += bundle)
+                    for (std::size_t u0 = 0; u0 < grid_.directions_u; u0 += bundle) trace(tile, t, s, v0, u0);
+    }
+
+  private:
+    // How many steps forward the rays of a hogel begin and end: a little before the nearest point and a little behind
+    // the farthest.
+    std::pair<double, double> steps(Vec3 hogel) const {
+        const double a = to_face(grid_.face, low_ - hogel).z, b = to_face(grid_.face, high_ - hogel).z;
+        const double low = std::min(a, b), high = std::max(a, b), margin = 1e-3 * (high - low) + 1e-9;
+        return {low - margin, high + margin};
+    }
+
+    void trace(LightFieldTile& tile, std::size_t t, std::size_t s, std::size_t v0, std::size_t u0) const {
+        const std::size_t nv = std::min(bundle, grid_.directions_v - v0),
+                          nu = std::min(bundle, grid_.directions_u - u0);
+        const Vec3 hogel{grid_.s(static_cast<double>(tile.range.s0 + s)),
+                         grid_.t(static_cast<double>(tile.range.t0 + t)), 0};
+        const auto [near, far] = steps(hogel);
+        std::array<Vec3, bundle * bundle> origins, directions;
+        std::array<RayHit, bundle * bundle> hits;
+        for (std::size_t v = 0; v < nv; ++v)
+            for (std::size_t u = 0; u < nu; ++u) {
+                const Vec3 way =
+                    grid_.along(grid_.u(static_cast<double>(u0 + u)), grid_.v(static_cast<double>(v0 + v)));
+                const Vec3 start = hogel + way * near;
+                // z = −ζ: with this direction the distance along the ray is counted in steps.
+                origins[v * nu + u] = {start.x, start.y, -start.z};
+                directions[v * nu + u] = {way.x, way.y, -way.z};
+            }
+        const std::size_t n = nv * nu;
+        caster_.closest(std::span(origins).first(n), std::span(directions).first(n), far - near,
+                        std::span(hits).first(n));
+        for (std::size_t v = 0; v < nv; ++v)
+            for (std::size_t u = 0; u < nu; ++u) {
+                const RayHit& hit = hits[v * nu + u];
+                VisiblePoint point;
+                const bool is_ray = directions[v * nu + u].z != 0;  // a frequency grid has corners beyond all rays
+                if (is_ray && hit.triangle != RayHit::miss)
+                    point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2,
+                             -directions[v * nu + u].z * (near + hit.distance)};
+                store(tile, *scene_, grid_, point, t, s, v0 + v, u0 + u);
+            }
+    }
+
+    std::shared_ptr<const ShadedScene> scene_;
+    LightFieldGrid grid_;
+    RayCaster caster_;
+    Vec3 low_, high_;  // the scene's box in (x, y, ζ)
+};
+
+}  // namespace
+
+std::unique_ptr<LightFieldSource> make_raytrace_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                         const LightFieldGrid& grid) {
+    return std::make_unique<RaytraceRenderer>(std::move(scene), grid);
+}
+
+}  // namespace hogel

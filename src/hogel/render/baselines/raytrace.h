@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "hogel/light_field.h"
+#include "hogel/shading.h"
+
+namespace hogel {
+
+/// One ray a sample, traced through Embree from in front of the whole scene, so scenes on both sides of the hologram
+/// plane need no special care.
+std::unique_ptr<LightFieldSource> make_raytrace_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                         const LightFieldGrid& grid);
+
+}  // namespace hogel

@@ -1,0 +1,254 @@
+// The vector twin of draw_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/render/epi_draw_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "hogel/render/epi/bounds.h"
+#include "hogel/render/epi/hits.h"
+#include "hogel/render/epi/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The directions of a vector in which interleaving makes words of neighbours, and the lanes in their own order.
+struct LaneOrder {
+    HWY_ALIGN float in_order[most_lanes], steps[most_lanes];
+
+    LaneOrder() {
+        const std::size_t half = hn::Lanes(FloatTag()) / 2;
+        for (std::size_t i = 0; i < 2 * half; ++i) {
+            const std::size_t direction = i % 4 / 2 * half + i / 4 * 2 + i % 2;
+            in_order[i] = static_cast<float>(direction);
+            steps[i] = static_cast<float>(i);
+        }
+    }
+};
+
+// What the loops below need to know of a strip and the plane that it is drawn into.
+struct Drawing {
+    const Strip& strip;
+    std::uint32_t index, number;
+    const EpipolarPlane& plane;
+    Hits& hits;
+    Candidates& candidates;
+    const Extent& extent;
+    const LaneOrder& lanes;
+    std::uint32_t nearest;  // ordered bits of a depth in front of all samples of the strip
+};
+
+// The columns that see a strip from each of a vector's rows of cells.
+HWY_INLINE void columns_of_rows(const StripLanes& strip, const Extent& extent, std::size_t first_row, float K_end,
+                                Floats& first, Floats& last) {
+    const FloatTag d;
+    const Floats one = hn::Set(d, 1.0f), size = hn::Set(d, static_cast<float>(cell_directions));
+    const Floats K_low = hn::Add(hn::Set(d, extent.k_first + static_cast<float>(first_row * cell_directions)),
+                                 hn::Mul(hn::Iota(d, 0), size));
+    const Floats K_high = hn::Min(hn::Add(K_low, hn::Sub(size, one)), hn::Set(d, K_end));
+    // c is monotonic in K, also as it is rounded.
+    const Floats a = strip.c0(K_low), b = strip.c0(K_high), c = strip.c1(K_low), e = strip.c1(K_high);
+    const Floats low = hn::Floor(hn::Min(hn::Min(a, b), hn::Min(c, e)));
+    const Floats high = hn::Floor(hn::Max(hn::Max(a, b), hn::Max(c, e)));
+    first = hn::Max(hn::Set(d, extent.n_first), hn::Add(low, one));
+    last = hn::Min(hn::Set(d, extent.n_last), high);
+}
+
+#if HWY_TARGET != HWY_SCALAR
+// One direction a lane, and a column at a time, of which the lanes lie side by side: those that are not hits keep what
+// they have, even if they lie beyond the plane's directions. Vectors begin where cells do, or a part of one, and what
+// is hidden is passed over.
+void along_rows(const Drawing& on, float K_begin, float K_end) {
+    const FloatTag d;
+    const IntTag di;
+    const NumberTag du;
+    const hn::RepartitionToWide<NumberTag> d64;
+    const StripLanes strip = in_all_lanes(on.strip);
+    const std::size_t lanes = hn::Lanes(d), half = lanes / 2;
+    const std::size_t plane_columns = on.plane.columns, directions = on.plane.directions;
+    std::uint64_t* const plane_words = on.plane.words;
+    const bool fronts_only = on.plane.fronts_only;
+    const std::uint32_t* const farthest = on.plane.cells->farthest.data();
+    const auto number = hn::Set(du, on.number), nearest = hn::Set(du, on.nearest);
+    const Floats nothing = hn::BitCast(d, hn::Set(di, -1));
+    const Floats order = hn::Load(d, on.lanes.in_order), last = hn::Set(d, K_end);
+    const auto k_begin = static_cast<std::size_t>(K_begin - on.extent.k_first);
+    const auto k_end = static_cast<std::size_t>(K_end - on.extent.k_first);
+    const std::size_t row_end = k_end / cell_directions + 1;
+    HWY_ALIGN float firsts[most_lanes];
+    HWY_ALIGN std::int32_t columns[most_lanes], counts[most_lanes];
+    std::size_t drawn = 0;
+    for (std::size_t group = k_begin / cell_directions; group < row_end; group += lanes) {
+        Floats from, to;
+        columns_of_rows(strip, on.extent, group, K_end, from, to);
+        hn::Store(from, d, firsts);
+        hn::Store(hn::ConvertTo(di, hn::Sub(from, hn::Set(d, on.extent.n_first))), di, columns);
+        hn::Store(hn::ConvertTo(di, hn::Add(hn::Sub(to, from), hn::Set(d, 1.0f))), di, counts);
+        for (std::size_t row = group; row < std::min(row_end, group + lanes); ++row) {
+            float first = firsts[row - group];
+            auto column = static_cast<std::size_t>(columns[row - group]);
+            for (std::int32_t count = counts[row - group]; count > 0;
+                 count -= static_cast<std::int32_t>(lanes), first += static_cast<float>(lanes), column += lanes) {
+                std::uint64_t open =
+                    bits_of(du, hn::Not(hn::Lt(hn::LoadU(du, farthest + row * plane_columns + column), nearest)));
+                open &= ~std::uint64_t{0} >> (64 - std::min(count, 32));
+                if (open == 0) continue;
+                drawn += static_cast<std::size_t>(std::popcount(open));
+                for (std::size_t k = row * cell_directions; k < (row + 1) * cell_directions && k <= k_end; k += lanes) {
+                    const Floats K = hn::Add(hn::Set(d, on.extent.k_first + static_cast<float>(k)), order);
+                    const Floats c0 = strip.c0(K);
+                    const Floats c1 = hn::IfThenElse(hn::Le(K, last), strip.c1(K, c0, fronts_only), c0);
+                    const Floats slope = strip.slope(c0, c1);
+                    for (std::uint64_t rest = open; rest != 0; rest &= rest - 1) {
+                        const auto next = static_cast<std::size_t>(std::countr_zero(rest));
+                        const Floats n = hn::Set(d, first + on.lanes.steps[next]);
+                        const Floats z = hn::BitCast(d, ordered_bits_of(strip.depth(n, c0, slope)));
+                        const auto depth = hn::BitCast(du, hn::IfThenElse(StripLanes::covers(n, c0, c1), z, nothing));
+                        std::uint64_t* words = plane_words + (column + next) * directions + k;
+                        const auto low = hn::BitCast(d64, hn::InterleaveLower(du, number, depth));
+                        const auto high = hn::BitCast(d64, hn::InterleaveUpper(du, number, depth));
+                        hn::StoreU(hn::Min(low, hn::LoadU(d64, words)), d64, words);
+                        hn::StoreU(hn::Min(high, hn::LoadU(d64, words + half)), d64, words + half);
+                    }
+                }
+            }
+        }
+    }
+    on.plane.cells->drawn += drawn;
+}
+#endif
+
+// One direction a lane: all columns between c_0 and c_1 are hits.
+void along_directions(const Drawing& on, float K_begin, float K_end) {
+    const FloatTag d;
+    const IntTag di;
+    const StripLanes strip = in_all_lanes(on.strip);
+    const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
+    const Floats none = hn::Set(d, on.extent.n_first - 1), K_last = hn::Set(d, K_end),
+                 k_first = hn::Set(d, on.extent.k_first);
+    const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
+    for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
+        const Floats K = hn::Iota(d, begin);
+        const Floats c0 = strip.c0(K), c1 = strip.c1(K, c0, on.plane.fronts_only), slope = strip.slope(c0, c1);
+        const Floats end = hn::IfThenElse(hn::Le(K, K_last), hn::Min(n_last, hn::Floor(hn::Max(c0, c1))), none);
+        const Ints k = hn::ConvertTo(di, hn::Sub(K, k_first));
+        Floats n = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
+        for (FloatMask hit = hn::Le(n, end); !hn::AllFalse(d, hit); hit = hn::Le(n, end)) {
+            const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
+            on.hits.add(hit, strip.depth(n, c0, slope), hn::Add(hn::Mul(column, directions), k), on.number);
+            n = hn::Add(n, one);
+        }
+    }
+}
+
+// How far along_columns has come: a vector's first column, and how many directions of each of its columns are done.
+struct Progress {
+    float begin, directions;
+};
+
+// One column a lane: candidates are the directions from K_0 to K_1, the ends' own, and a margin to either side. False
+// where it has to go on when those that wait have been drawn.
+bool along_columns(const Drawing& on, float n_end, float per_z0, float per_z1, float margin, Progress& at) {
+    const FloatTag d;
+    Candidates& candidates = on.candidates;
+    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1);
+    const Floats steep0 = hn::Set(d, per_z0), steep1 = hn::Set(d, per_z1);
+    const Floats before = hn::Set(d, on.extent.k_first + margin), beyond = hn::Set(d, on.extent.k_first - margin);
+    const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f), none = hn::Set(d, -1.0f);
+    const Floats k_last = hn::Set(d, on.extent.k_last - on.extent.k_first), columns_end = hn::Set(d, n_end);
+    std::size_t count = candidates.begin();
+    float done = at.directions;
+    for (float begin = at.begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d)), done = 0) {
+        const Floats n = hn::Iota(d, begin);
+        const Floats K0 = hn::Mul(hn::Sub(x0, n), steep0), K1 = hn::Mul(hn::Sub(x1, n), steep1);
+        const Floats low = hn::Sub(hn::Min(K0, K1), before), high = hn::Sub(hn::Max(K0, K1), beyond);
+        const Floats end = hn::IfThenElse(hn::Le(n, columns_end), hn::Min(k_last, high), none);
+        Floats k = hn::Add(hn::Max(zero, hn::Ceil(low)), hn::Set(d, done));
+        // Most have one or two.
+        count += candidates.add(n, k, end, count);
+        for (std::size_t more = 1; more != 0;) {
+            k = hn::Add(k, one);
+            done += 1;
+            more = candidates.add(n, k, end, count);
+            count += more;
+            if (HWY_LIKELY(!Candidates::is_full(count))) continue;
+            at = {begin, done + 1};
+            candidates.end(on.index, count);
+            return false;
+        }
+    }
+    candidates.end(on.index, count);
+    return true;
+}
+
+void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
+    const auto n_first = static_cast<float>(plane.first_column);
+    const Extent extent{n_first, n_first + static_cast<float>(plane.columns) - 1, plane.first_direction,
+                        plane.first_direction + static_cast<float>(plane.directions) - 1, plane.fronts_only};
+    const LaneOrder order;
+    Hits hits(plane);
+    Candidates candidates(plane, strips, first, hits);
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    Bounded bounded;
+    HWY_ALIGN Strip last[most_lanes];
+    for (std::size_t begin = 0; begin < strips.size(); begin += lanes) {
+        const std::size_t count = std::min(lanes, strips.size() - begin);
+        const Strip* some = strips.data() + begin;
+        if (count < lanes) {
+            std::fill(last, last + lanes, *some);
+            some = std::copy(some, some + count, last) - count;
+        }
+        bound_strips(&some->x0, extent, bounded);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto index = static_cast<std::uint32_t>(begin + i);
+            const Drawing on{some[i], index, static_cast<std::uint32_t>(first) + index,     plane, hits, candidates,
+                             extent,  order, static_cast<std::uint32_t>(bounded.nearest[i])};
+            switch (bounded.way[i]) {
+#if HWY_TARGET != HWY_SCALAR
+                case Bounded::rows:
+                    along_rows(on, bounded.K_begin[i], bounded.K_end[i]);
+                    break;
+#endif
+                case Bounded::directions:
+                    along_directions(on, bounded.K_begin[i], bounded.K_end[i]);
+                    break;
+                case Bounded::columns:
+                    for (Progress at{bounded.n_begin[i], 0}; !along_columns(on, bounded.n_end[i], bounded.per_z0[i],
+                                                                            bounded.per_z1[i], bounded.margin[i], at);)
+                        candidates.draw();
+                    break;
+                default:
+                    break;
+            }
+        }
+    }
+    candidates.draw();
+    hits.draw();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel {
+
+HWY_EXPORT(Draw);
+
+void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
+    HWY_DYNAMIC_DISPATCH(Draw)(strips, first, plane);
+}
+
+std::vector<std::int64_t> kernel_targets() { return hwy::SupportedAndGeneratedTargets(); }
+
+void use_kernel_target(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace hogel
+#endif

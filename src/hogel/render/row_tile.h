@@ -1,0 +1,18 @@
+#pragma once
+
+#include <algorithm>
+
+#include "hogel/light_field.h"
+
+namespace hogel {
+
+/// A tile about as large as default_tile, but as long as may be along s, or along t: for renderers that treat each row
+/// of hogels by itself, at a cost that grows with rows more than with what they hold.
+inline HogelRange row_tile(const LightFieldGrid& grid, bool along_t = false) {
+    const std::size_t hogels = default_tile(grid).hogels();
+    const std::size_t along = along_t ? grid.hogels_t : grid.hogels_s, across = along_t ? grid.hogels_s : grid.hogels_t;
+    const std::size_t length = std::min(along, hogels), rows = std::clamp<std::size_t>(hogels / length, 1, across);
+    return along_t ? HogelRange{0, 0, rows, length} : HogelRange{0, 0, length, rows};
+}
+
+}  // namespace hogel

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hogel/light_field.h"
+#include "hogel/shading.h"
+
+namespace hogel {
+
+/// What a ray sees first: a triangle, the weights of its vertices, the depth.
+struct VisiblePoint {
+    static constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
+
+    std::size_t triangle = nothing;
+    float b0 = 0, b1 = 0, b2 = 0;
+    double depth = std::numeric_limits<double>::infinity();  ///< ζ, metres
+};
+
+/// By the weights of Rec. ITU-R BT.709: what a light field with one channel holds.
+inline float luminance(Rgb radiance) { return 0.2126f * radiance.r + 0.7152f * radiance.g + 0.0722f * radiance.b; }
+
+/// How the ray (U, V) of a grid looks at what it meets at depth ζ. Neighbouring rays meet a surface a hogel's pitch
+/// apart if they come from neighbouring hogels, and ζΔU apart if they come from one: a sample stands for the larger of
+/// the two.
+inline Sight sight_along(const LightFieldGrid& grid, double U, double V, double depth) {
+    const Vec3 way = grid.along(U, V);
+    const double spread = std::abs(depth / way.z) * std::max(grid.step_u(), grid.step_v());
+    return {normalize({-way.x, -way.y, way.z}), std::max(grid.pitch, spread)};
+}
+
+/// Shades a visible point and stores it as sample (t, s, v, u) of a tile; t and s count from the tile's corner.
+inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid, const VisiblePoint& point,
+                  std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+    Rgb radiance = scene.background;
+    if (point.triangle != VisiblePoint::nothing) {
+        Sight sight;
+        if (scene.needs_samples(point.triangle))
+            sight = sight_along(grid, grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v)), point.depth);
+        radiance = radiance_at(scene, point.triangle, point.b0, point.b1, point.b2, sight);
+    }
+    if (tile.radiance.extent(0) == 3) {
+        tile.radiance(0, t, s, v, u) = radiance.r;
+        tile.radiance(1, t, s, v, u) = radiance.g;
+        tile.radiance(2, t, s, v, u) = radiance.b;
+    } else {
+        tile.radiance(0, t, s, v, u) = luminance(radiance);
+    }
+    if (tile.depth.size() > 0) tile.depth(t, s, v, u) = static_cast<float>(point.depth);
+}
+
+}  // namespace hogel

@@ -1,0 +1,82 @@
+#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/region_memory.h"
+#include "hogel/render/simplex/scan.h"
+#include "hogel/render/simplex/simplex.h"
+#include "hogel/render/simplex/slice.h"
+#include "hogel/render/simplex/volume.h"
+
+namespace hogel {
+namespace {
+
+class SimplexRenderer final : public LightFieldSource {
+  public:
+    SimplexRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
+        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
+        near_ = near_plane(*scene_, "simplex");
+        // Only on a side of a hemicube: in front the triangles are cut.
+        if (grid.face != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return true; }
+
+    // Source: [K] fig. 5.21.
+    void read(LightFieldTile& tile) const override {
+        Array<NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
+        std::vector<Simplex<4>> simplices;
+        for (std::uint32_t index : triangles_) {
+            // Half of the near plane's depth: what lies before it is decided ray by ray.
+            for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
+                const RegionSides sides = split_at_back_face(part, grid_, tile.range);
+                simplices.clear();
+                append_projected_volume(part, sides.front, grid_, tile.range, simplices, nearest_forward_);
+                if (!scene_->fronts_only)
+                    append_projected_volume(part, sides.back, grid_, tile.range, simplices, nearest_forward_);
+                clip_to_view(simplices, grid_);
+                for (const Simplex<4>& simplex : simplices) scan_convert(index, simplex, tile.range, buffer);
+            }
+        }
+        for (std::size_t t = 0; t < tile.range.nt; ++t)
+            for (std::size_t s = 0; s < tile.range.ns; ++s)
+                for (std::size_t v = 0; v < grid_.directions_v; ++v)
+                    for (std::size_t u = 0; u < grid_.directions_u; ++u)
+                        store(tile, *scene_, grid_, buffer(v, u, t, s), t, s, v, u);
+    }
+
+  private:
+    // Source: [K] 5.7.3, 5.7.4.
+    void scan_convert(std::uint32_t index, const Simplex<4>& simplex, const HogelRange& range,
+                      Array<NearestTriangle, 4>& buffer) const {
+        slice_at_samples(simplex, axis::v, [&](double v, const Simplex<3>& at_v) {
+            slice_at_samples(at_v, axis::u, [&](double u, const Simplex<2>& at_uv) {
+                const SliceInHogels slice(at_uv);
+                const Span rows = slice.rows(range.nt);
+                if (rows.first == rows.end) return;
+                const ObliqueTriangle triangle(*scene_, index, grid_, u, v);
+                const View<NearestTriangle, 2> hogels =
+                    buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
+                for (std::size_t t = rows.first; t < rows.end; ++t) {
+                    const Span columns = slice.columns(t, range.ns);
+                    for (std::size_t s = columns.first; s < columns.end; ++s)
+                        see(hogels(t, s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)),
+                            grid_.t(static_cast<double>(range.t0 + t)), near_);
+                }
+            });
+        });
+    }
+
+    std::shared_ptr<const ShadedScene> scene_;
+    LightFieldGrid grid_;
+    std::vector<std::uint32_t> triangles_;
+    double near_ = 0;  // ζ
+    double nearest_forward_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<LightFieldSource> make_simplex_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                        const LightFieldGrid& grid) {
+    return std::make_unique<SimplexRenderer>(std::move(scene), grid);
+}
+
+}  // namespace hogel

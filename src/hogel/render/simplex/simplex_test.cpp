@@ -1,0 +1,393 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <set>
+
+#include "hogel/render/simplex/scan.h"
+#include "hogel/render/simplex/slice.h"
+#include "hogel/render/simplex/volume.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+
+// The determinant of the edges from the first corner, over the first N coordinates: N! times the volume, with a sign.
+template <std::size_t N>
+double determinant(const std::array<ProjectedPoint, N + 1>& corners, std::size_t skip = 5) {
+    std::array<std::array<double, N>, N> m;
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = 0, from = 0; j < N; ++j, ++from) {
+            if (from == skip) ++from;
+            m[i][j] = corners[i + 1][from] - corners[0][from];
+        }
+    double product = 1;
+    for (std::size_t i = 0; i < N; ++i) {
+        std::size_t pivot = i;
+        for (std::size_t k = i + 1; k < N; ++k)
+            if (std::abs(m[k][i]) > std::abs(m[pivot][i])) pivot = k;
+        if (m[pivot][i] == 0) return 0;
+        if (pivot != i) {
+            std::swap(m[pivot], m[i]);
+            product = -product;
+        }
+        product *= m[i][i];
+        for (std::size_t k = i + 1; k < N; ++k) {
+            const double f = m[k][i] / m[i][i];
+            for (std::size_t j = i; j < N; ++j) m[k][j] -= f * m[i][j];
+        }
+    }
+    return product;
+}
+
+// N! times the volume.
+template <std::size_t N>
+double size(const std::array<ProjectedPoint, N + 1>& corners, std::size_t skip = 5) {
+    return std::abs(determinant<N>(corners, skip));
+}
+
+// By Cramer's rule: replacing a corner by the point gives the corner's weight.
+template <std::size_t N>
+bool contains(const std::array<ProjectedPoint, N + 1>& corners, const ProjectedPoint& p, std::size_t skip = 5) {
+    const double whole = determinant<N>(corners, skip);
+    for (std::size_t i = 0; i <= N; ++i) {
+        std::array<ProjectedPoint, N + 1> replaced = corners;
+        replaced[i] = p;
+        if (determinant<N>(replaced, skip) / whole <= 0) return false;
+    }
+    return true;
+}
+
+// A point of a simplex, evenly distributed, or of a product of simplices if drawn for each.
+std::vector<double> random_weights(std::mt19937& random, std::size_t n) {
+    std::exponential_distribution<double> draw;
+    std::vector<double> weights(n);
+    double sum = 0;
+    for (double& w : weights) sum += w = draw(random);
+    for (double& w : weights) w /= sum;
+    return weights;
+}
+
+Simplex<4> random_simplex(std::mt19937& random) {
+    std::uniform_real_distribution<double> place(0, 10);
+    Simplex<4> simplex;
+    for (ProjectedPoint& p : simplex) {
+        for (double& x : p) x = place(random);
+        p[axis::q] = 1 + 0.1 * p[axis::u];
+    }
+    return simplex;
+}
+
+ProjectedPoint random_point(std::mt19937& random, const Simplex<4>& simplex) {
+    const std::vector<double> weights = random_weights(random, 5);
+    ProjectedPoint p{};
+    for (std::size_t i = 0; i < 5; ++i)
+        for (std::size_t j = 0; j < 5; ++j) p[j] += weights[i] * simplex[i][j];
+    return p;
+}
+
+TEST(ProductPaths, count_as_the_tables_of_the_thesis) {
+    EXPECT_EQ(product_paths<5>(2).size(), 6u);  // a (2,2)-simploid
+    EXPECT_EQ(product_paths<4>(2).size(), 3u);  // a (2,1)-simploid
+    EXPECT_EQ(product_paths<3>(1).size(), 2u);  // a quadrilateral
+    EXPECT_EQ(product_paths<5>(0).size(), 1u);  // a simplex
+    EXPECT_EQ(product_paths<5>(1).size(), 4u);
+}
+
+// The product of two triangles of area 1/2 has the volume 1/4 = 6/4!: six simplices of determinant one.
+TEST(ProductPaths, fill_the_product_of_two_triangles_once) {
+    const std::array<std::array<double, 2>, 3> corner{{{0, 0}, {1, 0}, {0, 1}}};
+    std::vector<Simplex<4>> simplices;
+    for (const auto& path : product_paths<5>(2)) {
+        Simplex<4>& simplex = simplices.emplace_back();
+        for (std::size_t k = 0; k < 5; ++k)
+            simplex[k] = {corner[path[k].first][0], corner[path[k].first][1], corner[path[k].second][0],
+                          corner[path[k].second][1], 1};
+    }
+    double sum = 0;
+    for (const Simplex<4>& simplex : simplices) sum += size<4>(simplex);
+    EXPECT_NEAR(sum, 6, 1e-12);
+    std::mt19937 random(1);
+    for (int i = 0; i < 1000; ++i) {
+        const std::vector<double> a = random_weights(random, 3), b = random_weights(random, 3);
+        int within = 0;
+        for (const Simplex<4>& simplex : simplices) within += contains<4>(simplex, {a[1], a[2], b[1], b[2], 1}) ? 1 : 0;
+        ASSERT_EQ(within, 1);
+    }
+}
+
+// [K] 5.7.1: a triangle seen from a triangle, a rectangle, a pentagon.
+TEST(ProjectedVolume, has_6_12_or_18_simplices_that_fill_it_once) {
+    const LightFieldGrid grid{8, 6, 1_mm, 32, 24, 0.5, 0.4, 1};
+    const HogelRange range{2, 1, 4, 3};
+    const DeepTriangle triangle{{{-2e-3, 1e-3, 5e-3}, {3e-3, 0, 9e-3}, {0, 4e-3, 6e-3}}};
+    const std::vector<CameraPoint> pentagon{{0, 0}, {2, -0.3}, {3, 1}, {2.2, 2}, {0.1, 1.4}};
+    std::mt19937 random(2);
+    for (std::size_t corners : {3u, 4u, 5u}) {
+        const std::vector<CameraPoint> region(pentagon.begin(), pentagon.begin() + std::ptrdiff_t(corners));
+        std::vector<Simplex<4>> simplices;
+        append_projected_volume(triangle, region, grid, range, simplices);
+        ASSERT_EQ(simplices.size(), 6 * (corners - 2));
+        for (int i = 0; i < 300; ++i) {
+            // A camera point inside the region, and a point of the triangle.
+            const std::vector<double> a = random_weights(random, corners), b = random_weights(random, 3);
+            CameraPoint from;
+            for (std::size_t k = 0; k < corners; ++k) {
+                from.s += a[k] * region[k].s;
+                from.t += a[k] * region[k].t;
+            }
+            DeepTriangle point{};
+            for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t j = 0; j < 3; ++j) point[0][j] += b[k] * triangle[k][j];
+            point[1] = point[2] = point[0];
+            const ProjectedPoint seen = project(point, from, grid, range)[0];
+            int within = 0;
+            for (const Simplex<4>& simplex : simplices)
+                if (contains<4>(simplex, seen)) {
+                    ++within;
+                    // Q at the point, interpolated between the corners, is 1/ζ: [K] 5.5.
+                    const double whole = determinant<4>(simplex);
+                    double q = 0;
+                    for (std::size_t k = 0; k < 5; ++k) {
+                        Simplex<4> replaced = simplex;
+                        replaced[k] = seen;
+                        q += determinant<4>(replaced) / whole * simplex[k][axis::q];
+                    }
+                    ASSERT_NEAR(q * point[0][2], 1, 1e-9);
+                }
+            ASSERT_EQ(within, 1) << corners;
+        }
+    }
+}
+
+double area(const std::vector<CameraPoint>& polygon) {
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const CameraPoint &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        twice += p.s * q.t - q.s * p.t;
+    }
+    return 0.5 * twice;
+}
+
+// [K] fig. 5.22: on the side of the front face nothing, a triangle, a quadrilateral, a pentagon, everything.
+TEST(BackFace, cuts_the_region_in_one_of_five_ways) {
+    const LightFieldGrid grid{8, 8, 1_mm, 32, 32, 0.5, 0.5, 1};
+    const HogelRange range{2, 2, 4, 4};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-3e-3, 3e-3), deep(1e-3, 9e-3);
+    std::set<std::size_t> cases;
+    for (int i = 0; i < 500; ++i) {
+        DeepTriangle triangle;
+        for (auto& p : triangle) p = {place(random), place(random), deep(random)};
+        const RegionSides sides = split_at_back_face(triangle, grid, range);
+        EXPECT_NEAR(area(sides.front) + area(sides.back), 3.002 * 3.002, 1e-9);
+        cases.insert(sides.front.size());
+        // The triangle's turn in the picture is the same from everywhere on one side, and the opposite on the other.
+        double turns[2] = {0, 0};
+        for (int side = 0; side < 2; ++side) {
+            const std::vector<CameraPoint>& region = side == 0 ? sides.front : sides.back;
+            if (region.size() < 3 || std::abs(area(region)) < 1e-6) continue;
+            for (int k = 0; k < 5; ++k) {
+                const std::vector<double> weights = random_weights(random, region.size());
+                CameraPoint p;
+                for (std::size_t j = 0; j < region.size(); ++j) {
+                    p.s += weights[j] * region[j].s;
+                    p.t += weights[j] * region[j].t;
+                }
+                const auto [a, b, c] = project(triangle, p, grid, range);
+                const double turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+                if (turns[side] != 0) {
+                    ASSERT_GT(turn * turns[side], 0);
+                }
+                turns[side] = turn;
+            }
+        }
+        EXPECT_LE(turns[0] * turns[1], 0);
+    }
+    EXPECT_EQ(cases, (std::set<std::size_t>{0, 3, 4, 5}));  // 4: a quadrilateral, or everything
+}
+
+// Where both faces are seen the volume folds through itself; the lobes of the two sides still fill it once.
+TEST(ProjectedVolume, with_two_lobes_is_filled_once) {
+    const LightFieldGrid grid{8, 8, 1_mm, 32, 32, 0.5, 0.5, 1};
+    const HogelRange range{2, 2, 4, 4};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-3e-3, 3e-3), deep(1e-3, 9e-3), column(0, 3);
+    int folded = 0, folded_rows = 0;
+    for (int round = 0; round < 300; ++round) {
+        DeepTriangle triangle;
+        for (auto& p : triangle) p = {place(random), place(random), deep(random)};
+        std::vector<Simplex<4>> simplices;
+        const RegionSides sides = split_at_back_face(triangle, grid, range);
+        append_projected_volume(triangle, sides.front, grid, range, simplices);
+        append_projected_volume(triangle, sides.back, grid, range, simplices);
+        folded += sides.front.size() >= 3 && sides.back.size() >= 3 ? 1 : 0;
+        std::vector<Simplex<3>> of_row;
+        const std::vector<CameraLine> lines = split_row_at_back_face(triangle, 1, grid, range);
+        for (const CameraLine& line : lines) append_projected_volume(triangle, line, grid, range, of_row);
+        folded_rows += lines.size() == 2 ? 1 : 0;
+        ASSERT_EQ(of_row.size(), 3 * lines.size());
+        for (int i = 0; i < 20; ++i) {
+            const std::vector<double> weights = random_weights(random, 3);
+            DeepTriangle point{};
+            for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t j = 0; j < 3; ++j) point[0][j] += weights[k] * triangle[k][j];
+            point[1] = point[2] = point[0];
+            const double s = column(random), t = column(random);
+            const ProjectedPoint seen = project(point, {s, t}, grid, range)[0];
+            const ProjectedPoint from_row = project(point, {s, 1}, grid, range)[0];
+            int within = 0, within_row = 0;
+            for (const Simplex<4>& simplex : simplices) within += contains<4>(simplex, seen) ? 1 : 0;
+            for (const Simplex<3>& simplex : of_row) within_row += contains<3>(simplex, from_row) ? 1 : 0;
+            ASSERT_EQ(within, 1) << round;
+            ASSERT_EQ(within_row, 1) << round;
+        }
+    }
+    EXPECT_GT(folded, 50);
+    EXPECT_GT(folded_rows, 50);
+}
+
+TEST(NearPlane, keeps_what_lies_behind_it) {
+    const DeepTriangle triangle{{{0, 0, 1}, {4, 0, 1}, {0, 4, 3}}};
+    const auto height_along_depth = [](const DeepTriangle& t) {
+        // Twice the area in the plane of x and ζ, in which the triangle above has 8.
+        return std::abs((t[1][0] - t[0][0]) * (t[2][2] - t[0][2]) - (t[1][2] - t[0][2]) * (t[2][0] - t[0][0]));
+    };
+    const std::array expected{8.0, 2.0, 0.0};
+    const std::array near{0.5, 2.0, 3.5};
+    const std::array<std::size_t, 3> pieces{1, 1, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::vector<DeepTriangle> kept = clip_to_near_plane(triangle, near[i]);
+        ASSERT_EQ(kept.size(), pieces[i]);
+        double sum = 0;
+        for (const DeepTriangle& t : kept) sum += height_along_depth(t);
+        EXPECT_NEAR(sum, expected[i], 1e-12);
+    }
+    // The other way round a quadrilateral is left: 8 − 2.
+    double sum = 0;
+    const std::vector<DeepTriangle> kept = clip_to_near_plane({{{0, 0, 3}, {4, 0, 3}, {0, 4, 1}}}, 2);
+    ASSERT_EQ(kept.size(), 2u);
+    for (const DeepTriangle& t : kept) {
+        sum += height_along_depth(t);
+        for (const auto& corner : t) EXPECT_GE(corner[2], 2);
+    }
+    EXPECT_NEAR(sum, 6, 1e-12);
+}
+
+// The part above a plane and the part below it make up the whole and have no point in common.
+TEST(Clip, divides_a_simplex_without_loss_or_overlap) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> value(1, 9);
+    std::set<std::size_t> pieces;
+    for (int i = 0; i < 200; ++i) {
+        const Simplex<4> whole = random_simplex(random);
+        const std::size_t along = i % 2 == 0 ? axis::u : axis::v;
+        const double bound = value(random);
+        std::vector<Simplex<4>> above{whole}, below{whole};
+        clip(above, along, bound, true);
+        clip(below, along, bound, false);
+        pieces.insert(above.size());
+        double sum = 0;
+        for (const auto* part : {&above, &below})
+            for (const Simplex<4>& simplex : *part) sum += size<4>(simplex);
+        EXPECT_NEAR(sum, size<4>(whole), 1e-9 * (1 + sum));
+        for (int k = 0; k < 20; ++k) {
+            const ProjectedPoint p = random_point(random, whole);
+            int in_above = 0, in_below = 0;
+            for (const Simplex<4>& simplex : above) in_above += contains<4>(simplex, p) ? 1 : 0;
+            for (const Simplex<4>& simplex : below) in_below += contains<4>(simplex, p) ? 1 : 0;
+            ASSERT_EQ(in_above, p[along] > bound ? 1 : 0);
+            ASSERT_EQ(in_below, p[along] < bound ? 1 : 0);
+        }
+    }
+    EXPECT_EQ(pieces, (std::set<std::size_t>{0, 1, 4, 6}));
+}
+
+// A point of the slice lies in one tetrahedron of it exactly if it lies in the simplex, and in one triangle of the
+// slice of the slice.
+TEST(Slice, is_the_simplex_where_the_plane_meets_it) {
+    std::mt19937 random(5);
+    std::set<std::size_t> tetrahedra, triangles;
+    std::uniform_real_distribution<double> place(0, 10);
+    int inside_both = 0;
+    for (int i = 0; i < 2000; ++i) {
+        Simplex<4> simplex = random_simplex(random);
+        const ProjectedPoint p = i % 2 == 0
+                                     ? random_point(random, simplex)
+                                     : ProjectedPoint{place(random), place(random), place(random), place(random), 0};
+        const int inside = contains<4>(simplex, p) ? 1 : 0;
+        int in_tetrahedra = 0, in_triangles = 0;
+        std::size_t tetrahedra_here = 0;
+        sort_along(axis::v, simplex);
+        slice(simplex, axis::v, p[axis::v], [&](Simplex<3> at_v) {
+            ++tetrahedra_here;
+            in_tetrahedra += contains<3>(at_v, p, axis::v) ? 1 : 0;
+            std::size_t triangles_here = 0;
+            sort_along(axis::u, at_v);
+            slice(at_v, axis::u, p[axis::u], [&](const Simplex<2>& at_uv) {
+                ++triangles_here;
+                // In S and T alone.
+                std::array<ProjectedPoint, 3> flat;
+                for (std::size_t k = 0; k < 3; ++k) flat[k] = {at_uv[k][axis::s], at_uv[k][axis::t], 0, 0, 0};
+                in_triangles += contains<2>(flat, {p[axis::s], p[axis::t], 0, 0, 0}) ? 1 : 0;
+            });
+            triangles.insert(triangles_here);
+        });
+        tetrahedra.insert(tetrahedra_here);
+        ASSERT_EQ(in_tetrahedra, inside) << i;
+        ASSERT_EQ(in_triangles, inside) << i;
+        inside_both += inside;
+    }
+    EXPECT_GE(inside_both, 1000);
+    EXPECT_EQ(tetrahedra, (std::set<std::size_t>{0, 1, 3}));
+    EXPECT_EQ(triangles, (std::set<std::size_t>{0, 1, 2}));
+}
+
+// The slice of a simplex at whole values: each once, also where a corner has a whole value itself.
+TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_cut_there_once) {
+    const auto at = [](double v) { return ProjectedPoint{0, v, 0, 0, 1}; };
+    std::vector<double> values;
+    const auto collect = [&](double value, const auto&) { values.push_back(value); };
+    slice_at_samples(std::array{at(0.5), at(2)}, axis::v, collect);
+    slice_at_samples(std::array{at(2), at(4)}, axis::v, collect);
+    EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4}));
+}
+
+// (s, t) = (S, T)/Q: the row crosses an edge where [K] 5.7.4 says, and all of a slice's points are within its spans.
+TEST(Scan, finds_the_samples_between_the_edges_of_a_slice) {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> place(-2, 12), q(0.5, 3);
+    std::size_t samples = 0;
+    for (int round = 0; round < 500; ++round) {
+        Simplex<2> slice{};
+        std::array<std::array<double, 2>, 3> corner;
+        for (std::size_t i = 0; i < 3; ++i) {
+            corner[i] = {place(random), place(random)};
+            const double w = q(random);
+            slice[i] = {0, 0, corner[i][0] * w, corner[i][1] * w, w};
+        }
+        const SliceInHogels in_hogels(slice);
+        const Span rows = in_hogels.rows(10);
+        for (std::size_t t = 0; t < 10; ++t) {
+            const Span columns = t >= rows.first && t < rows.end ? in_hogels.columns(t, 11) : Span{};
+            for (std::size_t s = 0; s < 11; ++s) {
+                bool left = true, right = true;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const auto &a = corner[i], &b = corner[(i + 1) % 3];
+                    const double turn = (b[0] - a[0]) * (double(t) - a[1]) - (b[1] - a[1]) * (double(s) - a[0]);
+                    left = left && turn > 0;
+                    right = right && turn < 0;
+                }
+                ASSERT_EQ(left || right, s >= columns.first && s < columns.end) << round;
+                samples += left || right ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(samples, 3000u);
+}
+
+}  // namespace
+}  // namespace hogel

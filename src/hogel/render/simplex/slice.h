@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "hogel/render/simplex/volume.h"
+
+namespace hogel {
+
+/// Sorts the corners of a simplex along an axis, and where they are level by their other coordinates: simplices that
+/// share corners have them in the same order, so cuts through shared faces agree to the last bit.
+template <std::size_t N>
+void sort_along(std::size_t axis, std::array<ProjectedPoint, N>& corners) {
+    std::sort(corners.begin(), corners.end(), [axis](const ProjectedPoint& a, const ProjectedPoint& b) {
+        // A move leaves numbers as they are. NOLINTNEXTLINE(clang-analyzer-cplusplus.Move)
+        return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
+    });
+}
+
+/// The point between a and b where the coordinate of that axis is `value`; a[axis] < value <= b[axis].
+inline ProjectedPoint point_between(const ProjectedPoint& a, const ProjectedPoint& b, std::size_t axis, double value) {
+    const double f = (value - a[axis]) / (b[axis] - a[axis]);
+    ProjectedPoint p;
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = a[i] + f * (b[i] - a[i]);
+    p[axis] = value;
+    return p;
+}
+
+/// Calls use(Simplex<N − 1>) for the one to three simplices in which the plane axis = value meets a simplex whose
+/// corners are sorted along that axis: none if no corner lies below the plane, or none on it or above.
+/// Source: [K] 5.6.2, fig. 5.19 and 5.20.
+template <std::size_t N, class Use>
+void slice(const std::array<ProjectedPoint, N>& sorted, std::size_t axis, double value, const Use& use) {
+    std::size_t below = 0;
+    while (below < N && sorted[below][axis] < value) ++below;
+    if (below == 0 || below == N) return;
+    // The points in which edges from below to above meet the plane form a (below − 1, above − 1)-simploid.
+    std::array<std::array<ProjectedPoint, N>, N> crossing;
+    for (std::size_t i = 0; i < below; ++i)
+        for (std::size_t j = below; j < N; ++j)
+            crossing[i][j - below] = point_between(sorted[i], sorted[j], axis, value);
+    for (const auto& path : product_paths<N - 1>(below - 1)) {
+        std::array<ProjectedPoint, N - 1> piece;
+        for (std::size_t k = 0; k < piece.size(); ++k) piece[k] = crossing[path[k].first][path[k].second];
+        use(piece);
+    }
+}
+
+/// Calls use(value, Simplex<N − 1>) for the slices of a simplex at all whole values of an axis. Source: [K] 5.7.3.
+template <std::size_t N, class Use>
+void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, const Use& use) {
+    sort_along(axis, simplex);
+    const double last = std::floor(simplex.back()[axis]);
+    for (double value = std::floor(simplex.front()[axis]) + 1; value <= last; ++value)
+        slice(simplex, axis, value, [&](const std::array<ProjectedPoint, N - 1>& piece) { use(value, piece); });
+}
+
+/// Replaces simplices of four or five corners by what is left of them where axis >= bound (keep_above) or axis < bound
+/// (otherwise). Source: [K] 5.6.2, fig. 5.18.
+template <std::size_t N>
+void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axis, double bound, bool keep_above);
+
+/// Clips to the field of view, whose edges lie half a sample outside the first and the last sample. Source: [K] 5.7.2.
+template <std::size_t N>
+void clip_to_view(std::vector<std::array<ProjectedPoint, N>>& simplices, const LightFieldGrid& grid);
+
+}  // namespace hogel

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "hogel/render/epi/kernels.h"
+
+namespace hogel {
+
+/// An epipolar plane for tests, with its words, in which nothing is seen yet.
+struct TestPlane {
+    std::vector<std::uint64_t> words;
+    PlaneCells cells;
+    EpipolarPlane plane;
+
+    TestPlane(std::size_t columns, std::size_t directions, std::int32_t first_column)
+        : words(columns * directions + EpipolarPlane::spare, EpipolarPlane::nothing),
+          plane{words.data(), &cells, columns, directions, first_column, 0.5f - 0.5f * float(directions)} {
+        cells.clear(columns, directions);
+    }
+};
+
+}  // namespace hogel

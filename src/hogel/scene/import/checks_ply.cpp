@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "hogel/scene/import/checks.h"
+
+namespace hogel {
+namespace {
+
+struct Type {
+    std::string_view name, other_name;
+    std::size_t size;
+    bool whole;  ///< an integer
+};
+
+constexpr std::array types{Type{"char", "int8", 1, true},      Type{"uchar", "uint8", 1, true},
+                           Type{"short", "int16", 2, true},    Type{"ushort", "uint16", 2, true},
+                           Type{"int", "int32", 4, true},      Type{"uint", "uint32", 4, true},
+                           Type{"float", "float32", 4, false}, Type{"double", "float64", 8, false}};
+
+struct Property {
+    Type type;
+    std::optional<Type> count;  ///< of a list's length
+};
+
+struct Element {
+    std::string_view name;
+    std::size_t count = 0;
+    std::vector<Property> properties;
+};
+
+enum class Format { ascii, little_endian, big_endian };
+
+struct Header {
+    Format format = Format::ascii;
+    std::vector<Element> elements;
+    std::size_t size = 0;  ///< bytes up to the data
+};
+
+[[noreturn]] void reject(const std::string& file, std::string_view line, const char* expected) {
+    reject_file(file, fmt::format("header line '{}'", one_line(std::string(line))), expected);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> words;
+    for (std::size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != line.npos;) {
+        const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = end;
+    }
+    return words;
+}
+
+Type parse_type(const std::string& file, std::string_view line, std::string_view name) {
+    for (const Type& type : types)
+        if (name == type.name || name == type.other_name) return type;
+    reject(file, line, "a type such as uchar, int or float");
+}
+
+void parse_property(const std::string& file, std::string_view line, const std::vector<std::string_view>& words,
+                    Header& header) {
+    if (header.elements.empty()) reject(file, line, "an element before its properties");
+    auto& properties = header.elements.back().properties;
+    if (words.size() == 3) {
+        properties.push_back({parse_type(file, line, words[1]), std::nullopt});
+    } else if (words.size() == 5 && words[1] == "list") {
+        const Type count = parse_type(file, line, words[2]);
+        if (!count.whole) reject(file, line, "a list length of integer type");
+        properties.push_back({parse_type(file, line, words[3]), count});
+    } else {
+        reject(file, line, "'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+    }
+}
+
+Header parse_header(const std::string& file, std::string_view bytes) {
+    constexpr std::size_t longest = std::size_t{1} << 20;
+    Header header;
+    bool has_format = false;
+    std::size_t at = 0;
+    while (at < std::min(bytes.size(), longest)) {
+        const std::size_t end = bytes.find_first_of("\r\n", at);
+        if (end == bytes.npos) break;
+        const std::string_view line = bytes.substr(at, end - at);
+        at = end + (bytes.substr(end, 2) == "\r\n" ? 2 : 1);
+        const auto words = split(line);
+        if (words.empty() || words[0] == "comment" || words[0] == "obj_info" || words[0] == "ply") continue;
+        if (words[0] == "end_header") {
+            if (!has_format) reject_file(file, "no format in the header", "ascii or binary");
+            header.size = at;
+            return header;
+        }
+        if (words[0] == "format" && words.size() == 3) {
+            has_format = true;
+            if (words[1] == "ascii")
+                header.format = Format::ascii;
+            else if (words[1] == "binary_little_endian")
+                header.format = Format::little_endian;
+            else if (words[1] == "binary_big_endian")
+                header.format = Format::big_endian;
+            else
+                reject(file, line, "ascii, binary_little_endian or binary_big_endian");
+        } else if (words[0] == "element" && words.size() == 3) {
+            Element element{words[1], 0, {}};
+            const auto [rest, status] =
+                std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
+            if (status != std::errc{} || rest != words[2].data() + words[2].size())
+                reject(file, line, "a number of elements");
+            header.elements.push_back(std::move(element));
+        } else if (words[0] == "property") {
+            parse_property(file, line, words, header);
+        } else {
+            reject(file, line, "format, comment, element, property or end_header");
+        }
+    }
+    reject_file(file, "no end_header", "a PLY file");
+}
+
+std::uint64_t read_count(std::string_view bytes, const Type& type, Format format) {
+    std::array<unsigned char, 4> raw{};
+    std::memcpy(raw.data(), bytes.data(), type.size);
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < type.size; ++i)
+        value = value << 8 | raw[format == Format::big_endian ? i : type.size - 1 - i];
+    return value;  // a negative length reads as a huge one, and is found to be too long
+}
+
+/// Walks over binary data; every element must lie inside the file.
+void walk(const std::string& file, const Header& header, std::string_view data) {
+    for (const Element& element : header.elements) {
+        std::size_t fixed = 0;
+        bool lists = false;
+        for (const Property& property : element.properties) {
+            lists = lists || property.count;
+            fixed += property.count ? property.count->size : property.type.size;
+        }
+        const auto truncated = [&](std::size_t done) {
+            reject_file(file, fmt::format("ends in element '{}' {} of {}", element.name, done, element.count),
+                        "the data that the header promises");
+        };
+        if (fixed > 0 && element.count > data.size() / fixed) truncated(data.size() / fixed);
+        if (!lists) {
+            data.remove_prefix(element.count * fixed);
+            continue;
+        }
+        for (std::size_t i = 0; i < element.count; ++i)
+            for (const Property& property : element.properties) {
+                std::size_t size = property.type.size;
+                if (property.count) {
+                    if (data.size() < property.count->size) truncated(i);
+                    const std::uint64_t n = read_count(data, *property.count, header.format);
+                    data.remove_prefix(property.count->size);
+                    if (n > data.size() / size) truncated(i);
+                    size *= n;
+                }
+                if (data.size() < size) truncated(i);
+                data.remove_prefix(size);
+            }
+    }
+}
+
+/// Text has one line an element.
+void count_lines(const std::string& file, const Header& header, std::string_view data) {
+    std::size_t lines = 0;
+    for (std::size_t at = 0; (at = data.find_first_not_of(" \t\r\n", at)) != data.npos; ++lines)
+        at = std::min(data.find_first_of("\r\n", at), data.size());
+    std::size_t expected = 0;
+    for (const Element& element : header.elements) {
+        if (element.count > lines) expected = lines + 1;
+        expected += element.properties.empty() ? 0 : element.count;
+    }
+    if (expected > lines)
+        reject_file(file, fmt::format("{} lines of data", lines), "one for each element that the header promises");
+}
+
+}  // namespace
+
+void check_ply(const std::string& file, std::string_view bytes) {
+    const Header header = parse_header(file, bytes);
+    const std::string_view data = bytes.substr(header.size);
+    if (header.format == Format::ascii)
+        count_lines(file, header, data);
+    else
+        walk(file, header, data);
+}
+
+}  // namespace hogel

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hogel/scene.h"
+#include "hogel/scene/import/files.h"
+
+namespace hogel {
+
+/// Turns assimp's materials into ours. A texture is read once, however many materials use it.
+class MaterialImport {
+  public:
+    /// @param folder  of the mesh, canonical; @param file  the mesh as the caller named it, for messages
+    MaterialImport(const aiScene& source, const std::filesystem::path& folder, std::string file);
+    const Material& operator[](unsigned index);
+    /// Whether the material is to be shown as it is, whatever the lights (glTF: KHR_materials_unlit).
+    bool is_unlit(unsigned index) const;
+
+  private:
+    Material read(const aiMaterial& source);
+    std::shared_ptr<const Image> texture(const std::string& name);
+    std::shared_ptr<const Image> load(const std::string& name) const;
+
+    const aiScene& source_;
+    FolderFiles files_;
+    std::filesystem::path folder_;
+    std::string file_;
+    std::map<unsigned, Material> materials_;
+    std::map<std::string, std::shared_ptr<const Image>> textures_;
+};
+
+}  // namespace hogel

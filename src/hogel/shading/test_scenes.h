@@ -1,0 +1,25 @@
+#pragma once
+
+#include "hogel/scene.h"
+
+namespace hogel {
+
+// A square of two triangles, its sides twice `right` and `up`, that faces their cross product.
+inline Mesh square(Vec3 center, Vec3 right, Vec3 up, Rgb color = {1, 1, 1}) {
+    Mesh mesh;
+    mesh.positions = {center - right - up, center + right - up, center + right + up, center - right + up};
+    mesh.normals.assign(4, normalize(cross(right, up)));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.material.base_color = color;
+    return mesh;
+}
+
+inline Light lamp(Vec3 position, float intensity) {
+    Light light;
+    light.kind = Light::Kind::point;
+    light.position = position;
+    light.intensity = {intensity, intensity, intensity};
+    return light;
+}
+
+}  // namespace hogel
