@@ -50,8 +50,8 @@ Seconds best_of(std::size_t rounds, const std::function<void()>& work) {
 
 void narrow_band(std::size_t across, std::size_t rounds) {
     const Field field = noise(across);
-    const NarrowBand band(field.grid(), {0, 0, 300_mm}, 6_mm);
-    const Seconds seconds = best_of(rounds, [&] { draw_narrow_bands(field, {&band, 1}, 0, 1); });
+    const optics::narrow_band::NarrowBand band(field.grid(), {0, 0, 300_mm}, 6_mm);
+    const Seconds seconds = best_of(rounds, [&] { optics::narrow_band::draw_narrow_bands(field, {&band, 1}, 0, 1); });
     const double samples = double(field.grid().plane.samples()) * 1e-6;
     std::printf("narrow band: %.0f Msamples/s, %.0f a second of processor time, one sample of %zu x %zu kept\n",
                 samples / seconds.wall, samples / seconds.processor, band.factor, band.factor);
@@ -63,7 +63,7 @@ void new_focus(std::size_t rounds) {
     camera.pupil = 6_mm;
     camera.focus_depth = 6_mm;
     camera.picture = {1024, 1024, field.grid().plane.size_x() / 1024, field.grid().plane.size_y() / 1024, 0, 0};
-    const auto eyes = capture(field, {&camera, 1});
+    const auto eyes = optics::capture(field, {&camera, 1});
     const Seconds first = best_of(3 * rounds, [&] { eyes.front().photograph(camera); });
     camera.pupil = 4_mm;
     camera.focus_depth = -5_mm;
@@ -74,9 +74,9 @@ void new_focus(std::size_t rounds) {
 
 void plane_to_plane(std::size_t rounds) {
     const Field field = noise(2048);
-    const Seconds whole = best_of(rounds, [&] { propagate(field, 5_mm); });
+    const Seconds whole = best_of(rounds, [&] { optics::propagate(field, 5_mm); });
     Array<std::complex<float>, 2> window({5120, 5120});
-    const Fft2 fft(5120, 5120);
+    const math::Fft2 fft(5120, 5120);
     const Seconds bare = best_of(rounds, [&] {
         fft.forward(window);
         fft.backward(window);
@@ -98,15 +98,15 @@ void full_camera(std::size_t rounds) {
     const Seconds whole = best_of(rounds, [&] { photograph_fully(field, {&camera, 1}); });
 
     const double pupil = room * camera.pupil;
-    const Grid window = padded(plane, plane.size_x() + pupil, plane.size_y() + pupil);
-    const Band band =
-        band_between(Rectangle(plane), Rectangle(Grid{1, 1, pupil, pupil, 0, 0}), camera.eye.z, wavelength);
+    const Grid window = optics::padded(plane, plane.size_x() + pupil, plane.size_y() + pupil);
+    const optics::Band band =
+        optics::band_between(Rectangle(plane), Rectangle(Grid{1, 1, pupil, pupil, 0, 0}), camera.eye.z, wavelength);
     const auto columns = std::size_t((band.high_x - band.low_x) * window.size_x());
     const double film = std::max(room * double(columns), 3 * pupil / (wavelength * camera.eye.z) * window.size_x());
-    const std::size_t side = good_fft_size(std::size_t(film) + 16);
+    const std::size_t side = math::good_fft_size(std::size_t(film) + 16);
     Array<std::complex<float>, 1> line({std::max(window.width, side)});
     const auto lines = [&](std::size_t samples, std::size_t count) {
-        const Fft1 fft(samples);
+        const math::Fft1 fft(samples);
         for (std::size_t i = 0; i < count; ++i) {
             std::ranges::fill(line.elements(), std::complex<float>(1));
             fft.forward(line.data());

@@ -54,7 +54,7 @@ void add_plane(ShadedScene& scene, double half, double left, double right, doubl
 Image by_rays(const ShadedScene& scene, const Camera& camera) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (const auto& triangle : scene.triangles) triangles.push_back(triangle.vertices);
-    const RayCaster caster(scene.positions, triangles);
+    const trace::RayCaster caster(scene.positions, triangles);
     const Grid& picture = camera.picture;
     Image image(picture.width, picture.height, 1);
     constexpr int pupil = 6, fine = 4;
@@ -70,9 +70,9 @@ Image by_rays(const ShadedScene& scene, const Camera& camera) {
                 const double stretch = (camera.eye.z + camera.focus_depth) / camera.eye.z;
                 const Vec3 focus = camera.eye + stretch * (place - camera.eye);
                 const Vec3 from = camera.eye + Vec3{0.5 * camera.pupil * qx, 0.5 * camera.pupil * qy, 0};
-                const RayHit hit = caster.closest(from, focus - from, 100);
+                const trace::RayHit hit = caster.closest(from, focus - from, 100);
                 count += 1;
-                if (hit.triangle != RayHit::miss)
+                if (hit.triangle != trace::RayHit::miss)
                     sum += radiance_at(scene, hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2).r;
             }
             image.pixels(row, column, 0) = static_cast<float>(sum / count);

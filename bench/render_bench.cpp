@@ -78,7 +78,7 @@ Speed measure(const LightFieldSource& source, std::vector<LightFieldTile>& tiles
         samples += static_cast<double>(tile.range.hogels() * source.grid().directions());
     const auto start = std::chrono::steady_clock::now();
     const std::clock_t processor = std::clock();
-    parallel_for(tiles.size(), [&](std::size_t i) { source.read(tiles[i]); });
+    core::parallel_for(tiles.size(), [&](std::size_t i) { source.read(tiles[i]); });
     const double used = double(std::clock() - processor) / CLOCKS_PER_SEC;
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return {samples / wall, samples / used};

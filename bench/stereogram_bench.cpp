@@ -38,7 +38,7 @@ void measure(std::size_t side, std::size_t directions, std::size_t across, int r
     Field field(stereogram->grid());
     Array<std::complex<float>, 3> squares({hogels * hogels, side, side});
     for (auto& value : squares.elements()) value = {float(random() % 1024) - 512, float(random() % 1024) - 512};
-    const Fft2 fft(side, side);
+    const math::Fft2 fft(side, side);
     double whole = 1e30, bare = 1e30;
     for (int i = 0; i < rounds; ++i) {
         whole = std::min(whole, seconds([&] { copy(*stereogram, field); }));

@@ -1,54 +1,89 @@
-# hogel_module(NAME [USES module...] [LINKS target...])
-#   Compiles src/hogel/NAME/*.cpp (tests aside) into an object library and records who it may include.
+# hogel_module(NAME [FOLDER path] [USES module...] [PUBLIC header...] [LINKS target...])
+#   Compiles FOLDER (src/hogel/NAME) and the folders in it, tests aside, into an object library, and records which modules
+#   it may include and which public headers (include/hogel/HEADER.h) it implements.
 function(hogel_module name)
-  cmake_parse_arguments(arg "" "" "USES;LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/hogel/${name}/*.cpp ${CMAKE_SOURCE_DIR}/src/hogel/${name}/*.h)
+  cmake_parse_arguments(arg "" "FOLDER" "USES;LINKS;PUBLIC" ${ARGN})
+  if(NOT arg_FOLDER)
+    set(arg_FOLDER src/hogel/${name})
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${arg_FOLDER}/*.cpp ${PROJECT_SOURCE_DIR}/${arg_FOLDER}/*.h)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   add_library(hogel_${name} OBJECT ${sources})
   set_target_properties(hogel_${name} PROPERTIES LINKER_LANGUAGE CXX)
   hogel_compile_options(hogel_${name})
-  target_include_directories(hogel_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src ${CMAKE_BINARY_DIR}/generated)
+  hogel_private_includes(hogel_${name})
   target_link_libraries(hogel_${name} PRIVATE ${arg_LINKS} fmt::fmt)
   set_property(GLOBAL APPEND PROPERTY HOGEL_MODULES ${name})
   set_property(GLOBAL APPEND PROPERTY HOGEL_LINKS ${arg_LINKS})
   set_property(GLOBAL PROPERTY HOGEL_TESTS_${name} ${tests})
   list(JOIN arg_USES "," uses)
-  set_property(GLOBAL APPEND_STRING PROPERTY HOGEL_MODULE_TABLE "${name}:${uses}\n")
+  list(JOIN arg_PUBLIC "," public)
+  set_property(GLOBAL APPEND_STRING PROPERTY HOGEL_MODULE_TABLE "${name}:${arg_FOLDER}:${uses}:${public}\n")
 endfunction()
 
+# What every target of the project is compiled with.
+#   -ffp-contract=off  a product and a sum stay two roundings, so that results do not depend on whether the processor has
+#                      fused multiply-add: the same bytes on every machine, and .hgl streams decode alike everywhere
+#   -Wno-psabi         silences g++'s note that passing SIMD vectors by value changed in GCC 4.6; no such call leaves a file
 function(hogel_compile_options target)
+  target_compile_features(${target} PRIVATE cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi -ffp-contract=off
                                            $<$<BOOL:${HOGEL_WERROR}>:-Werror>)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
+                                             CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   if(HOGEL_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${HOGEL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PUBLIC -fsanitize=${HOGEL_SANITIZE})
   endif()
 endfunction()
 
-# The one library that users link: all modules together. Its public headers need nothing but the standard library.
+# The headers of all modules, for the library itself, its tests and its benchmarks.
+function(hogel_private_includes target)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}
+                                               ${PROJECT_BINARY_DIR}/include)
+endfunction()
+
+# The library that users link, hogel::hogel: all modules together, static or shared by BUILD_SHARED_LIBS, with the public
+# headers alone. And hogel_internal, the same objects for the project's own tests and benchmarks, which see every header.
 function(hogel_library)
   get_property(modules GLOBAL PROPERTY HOGEL_MODULES)
   get_property(links GLOBAL PROPERTY HOGEL_LINKS)
   list(REMOVE_DUPLICATES links)
-  add_library(hogel SHARED)
+  set(objects ${modules})
+  list(TRANSFORM objects REPLACE "(.+)" "$<TARGET_OBJECTS:hogel_\\1>")
+
+  add_library(hogel ${objects})
   add_library(hogel::hogel ALIAS hogel)
-  hogel_compile_options(hogel)
-  foreach(module ${modules})
-    target_sources(hogel PRIVATE $<TARGET_OBJECTS:hogel_${module}>)
-  endforeach()
-  set_target_properties(hogel PROPERTIES LINKER_LANGUAGE CXX SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set_target_properties(hogel PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
+                                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(hogel PUBLIC cxx_std_20)
-  target_include_directories(hogel PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+  target_include_directories(hogel PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                          $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_link_libraries(hogel PRIVATE ${links} fmt::fmt)
+  if(HOGEL_SANITIZE)
+    target_link_options(hogel PUBLIC -fsanitize=${HOGEL_SANITIZE})
+  endif()
+
+  add_library(hogel_internal STATIC EXCLUDE_FROM_ALL ${objects})
+  set_target_properties(hogel_internal PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(hogel_internal PUBLIC ${links} fmt::fmt)
 
   get_property(table GLOBAL PROPERTY HOGEL_MODULE_TABLE)
-  file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/module_table.txt CONTENT "${table}")
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/module_table.txt CONTENT "${table}")
   add_custom_target(check_includes ALL
-    COMMAND python3 ${CMAKE_SOURCE_DIR}/cmake/check_includes.py ${CMAKE_BINARY_DIR}/module_table.txt ${CMAKE_SOURCE_DIR}/src/hogel
+    COMMAND python3 ${PROJECT_SOURCE_DIR}/cmake/check_includes.py ${PROJECT_BINARY_DIR}/module_table.txt ${PROJECT_SOURCE_DIR}
     COMMENT "Checking includes against the module table" VERBATIM)
   add_dependencies(hogel check_includes)
+endfunction()
+
+# A program of the project's own that may use every header: a test or a benchmark.
+function(hogel_internal_program name)
+  add_executable(${name} ${ARGN})
+  hogel_compile_options(${name})
+  hogel_private_includes(${name})
+  target_link_libraries(${name} PRIVATE hogel_internal)
 endfunction()
 
 # One test program a module: <module>_tests, from its *_test.cpp.
@@ -58,9 +93,8 @@ function(hogel_module_tests)
   foreach(module ${modules})
     get_property(tests GLOBAL PROPERTY HOGEL_TESTS_${module})
     if(tests)
-      add_executable(${module}_tests ${tests})
-      hogel_compile_options(${module}_tests)
-      target_link_libraries(${module}_tests PRIVATE hogel GTest::gtest_main fmt::fmt)
+      hogel_internal_program(${module}_tests ${tests})
+      target_link_libraries(${module}_tests PRIVATE GTest::gtest_main)
       gtest_discover_tests(${module}_tests TEST_PREFIX ${module}. DISCOVERY_TIMEOUT 60)
     endif()
   endforeach()

@@ -1,61 +1,117 @@
 #!/usr/bin/env python3
-"""Fails when a file of src/hogel includes a header that the module table does not allow.
+# SPDX-License-Identifier: Apache-2.0
+"""Fails when a file includes a header that the module table does not allow.
 
-usage: check_includes.py TABLE SOURCE_DIR      TABLE: a line "module:used,used" each, from hogel_module() in CMakeLists.txt
-A module may include itself, what it uses, and what those use. A third-party header may be included by the modules
-named in THIRD_PARTY alone, and by no public header.
+usage: check_includes.py TABLE PROJECT_DIR
+    TABLE: a line "module:folder:used,used:public,public" each, from hogel_module() in CMakeLists.txt
+
+A module may include itself, what it uses, and what those use; of other modules only what its table row allows, whether the
+header is private (src/hogel/MODULE/...) or public (include/hogel/HEADER.h). A family's folder may not include those that
+FORBIDDEN_IN names. Public headers include public headers alone. A third-party header may be included by the modules named in
+THIRD_PARTY alone, and by no public header. Front ends (apps) include public headers alone.
 """
 import pathlib
 import re
 import sys
 
-THIRD_PARTY = {  # first part of the include path -> the modules whose .cpp files may name it
+THIRD_PARTY = {  # first part of the include path -> the modules whose .cpp files may name it; None: any
     "tbb": {"core"}, "fftw3.h": {"math"}, "OpenImageIO": {"image"}, "assimp": {"scene"}, "embree3": {"trace"},
     "hdf5.h": {"io"}, "hwy": {"codec", "core", "direct", "hologram", "math", "optics", "render", "shading"}, "fmt": None,
     "gtest": None,
 }
+FORBIDDEN_IN = {  # folder -> folders that it may not include
+    "codec/format": ("codec/encode", "codec/decode", "codec/baselines"),
+    "codec/decode": ("codec/encode", "codec/baselines"),
+    "codec/baselines": ("codec/encode", "codec/decode"),
+    "render/epi": ("render/simplex", "render/baselines"),
+    "render/simplex": ("render/epi", "render/baselines"),
+    "render/baselines": ("render/epi", "render/simplex"),
+    "io/hdf5": ("io/arrays",),
+}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
-def closure(table, module):
-    seen, todo = set(), [module]
-    while todo:
-        name = todo.pop()
-        if name not in seen:
-            seen.add(name)
-            todo += table[name]
-    return seen
+class Table:
+    def __init__(self, path):
+        self.folder, self.uses, self.owner = {}, {}, {}
+        for line in path.read_text().splitlines():
+            name, folder, uses, public = line.split(":")
+            self.folder[name] = folder
+            self.uses[name] = [used for used in uses.split(",") if used]
+            for header in public.split(","):
+                if header:
+                    self.owner[f"hogel/{header}.h"] = name
+
+    def closure(self, module):
+        seen, todo = set(), [module]
+        while todo:
+            name = todo.pop()
+            if name not in seen:
+                seen.add(name)
+                todo += self.uses[name]
+        return seen
+
+    def module_of(self, header):
+        """The module that a header of the project belongs to."""
+        if header in self.owner:
+            return self.owner[header]
+        for name, folder in self.folder.items():
+            if header.startswith(folder.removeprefix("src/") + "/"):
+                return name
+        return None
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1)
+
+
+def sources(folder):
+    return (path for path in sorted(folder.rglob("*")) if path.suffix in (".h", ".cpp"))
+
+
+def check_module(table, module, root, wrong):
+    allowed = table.closure(module)
+    for path in sources(root / table.folder[module]):
+        if path.name.endswith("_test.cpp"):
+            continue
+        inside = str(path.parent.relative_to(root)).removeprefix("src/hogel/")
+        for number, header in includes(path):
+            owner = table.module_of(header)
+            if owner is not None and owner not in allowed:
+                wrong.append(f"{path}:{number}: module '{module}' may not include '{header}' of '{owner}'")
+            for folder in FORBIDDEN_IN.get(inside, ()):
+                if header.startswith(f"hogel/{folder}/"):
+                    wrong.append(f"{path}:{number}: {inside} may not include '{header}'")
+            owners = THIRD_PARTY.get(header.split("/")[0])
+            if owners is not None and module not in owners:
+                wrong.append(f"{path}:{number}: only {', '.join(sorted(owners))} may include '{header}'")
+
+
+def check_face(table, root, wrong):
+    """Public headers and front ends name public headers alone."""
+    public = root / "include"
+    own = {str(path.relative_to(public)) for path in public.rglob("*.h")} | {"hogel/version.h"}
+    for header in sorted(own - set(table.owner) - {"hogel/hogel.h", "hogel/version.h", "hogel/export.h"}):
+        wrong.append(f"include/{header}: is in no module's row of the module table")
+    for path in sources(public):
+        for number, header in includes(path):
+            if header.split("/")[0] in THIRD_PARTY or (header.startswith("hogel/") and header not in own):
+                wrong.append(f"{path}:{number}: a public header may not include '{header}'")
+    for path in sources(root / "apps"):
+        for number, header in includes(path):
+            if header.startswith(("hogel/", "showpieces/")) and header not in own:
+                wrong.append(f"{path}:{number}: a front end may not include '{header}', which is private")
 
 
 def main():
-    table = {}
-    for line in pathlib.Path(sys.argv[1]).read_text().splitlines():
-        name, uses = line.split(":")
-        table[name] = [u for u in uses.split(",") if u]
-    root = pathlib.Path(sys.argv[2])
+    table, root = Table(pathlib.Path(sys.argv[1])), pathlib.Path(sys.argv[2])
     wrong = []
-    for path in sorted(root.rglob("*")):
-        if path.suffix not in (".h", ".cpp"):
-            continue
-        module = path.relative_to(root).parts[0]
-        allowed = closure(table, module) if module in table else set()
-        is_test = path.name.endswith("_test.cpp")
-        for number, line in enumerate(path.read_text().splitlines(), 1):
-            match = INCLUDE.match(line)
-            if not match:
-                continue
-            header = match.group(1)
-            first = header.split("/")[0]
-            if first == "hogel":
-                used = header.split("/")[1]
-                if used in table and used not in allowed and not is_test:
-                    wrong.append(f"{path}:{number}: module '{module}' may not include '{header}'")
-            elif first in THIRD_PARTY:
-                owners = THIRD_PARTY[first]
-                if path.suffix == ".h" and not path.name.endswith("_internal.h"):
-                    wrong.append(f"{path}:{number}: a public header may not include '{header}'")
-                elif owners is not None and module not in owners and not is_test:
-                    wrong.append(f"{path}:{number}: only {', '.join(sorted(owners))} may include '{header}'")
+    for module in table.folder:
+        check_module(table, module, root, wrong)
+    check_face(table, root, wrong)
     for line in wrong:
         print(line, file=sys.stderr)
     return 1 if wrong else 0

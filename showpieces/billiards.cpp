@@ -3,14 +3,13 @@
 #include <numbers>
 #include <vector>
 
-#include "hogel/scene/analytic_scenes.h"
+#include "showpieces/showpieces.h"
 #include "hogel/scenes.h"
 #include "showpieces/billiards.h"
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
-using namespace billiards;
 
 // Balls are about twice as large as on a real table, or they would be a few hogels wide.
 constexpr double pi = std::numbers::pi;
@@ -23,7 +22,7 @@ struct PlacedBall {
 
 /// Solids and the eight have a white spot at both poles; stripes are white at both poles and coloured between. Number 0
 /// is the cue ball.
-void add_pool_ball(MeshBuilder& builder, int number, const PlacedBall& placed) {
+void add_pool_ball(scene::MeshBuilder& builder, int number, const PlacedBall& placed) {
     constexpr Rgb white{0.82f, 0.78f, 0.68f};
     constexpr std::array<Rgb, 8> colors{{{0.02f, 0.02f, 0.02f},
                                          {0.85f, 0.50f, 0.03f},
@@ -35,7 +34,7 @@ void add_pool_ball(MeshBuilder& builder, int number, const PlacedBall& placed) {
                                          {0.28f, 0.02f, 0.03f}}};
     const Rgb color = number == 0 ? white : colors[static_cast<std::size_t>(number % 8)];
     const double line = number == 0 ? 0.5 : number <= 8 ? 1.18 : 0.56;  // latitude where white begins
-    std::vector<Ring> rings{{-0.5 * pi, white}};
+    std::vector<scene::Ring> rings{{-0.5 * pi, white}};
     const auto rows = [&](double from, double to, int steps, Rgb c) {
         for (int i = 0; i <= steps; ++i) rings.push_back({from + (to - from) * i / steps, c});
     };
@@ -45,7 +44,7 @@ void add_pool_ball(MeshBuilder& builder, int number, const PlacedBall& placed) {
     rows(-line, line, middle, color);
     rows(line + sharp, 0.5 * pi - 0.5 * pi / 26, caps, white);
     rings.push_back({0.5 * pi, white});
-    add_ball(builder, {placed.x, ball_radius, placed.z}, ball_radius, normalize(placed.axis), 28, rings);
+    scene::add_ball(builder, {placed.x, ball_radius, placed.z}, ball_radius, normalize(placed.axis), 28, rings);
 }
 
 /// A game in progress: the pack has just been opened.
@@ -66,9 +65,9 @@ Mesh balls() {
                                                  {1.02, -0.04, {0.4, 0.9, 0.1}},
                                                  {-0.36, 0.03, {-0.7, 0.7, 0.2}},
                                                  {0.98, 0.40, {0.6, 0.7, 0.4}}}};
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     for (std::size_t i = 0; i < places.size(); ++i) add_pool_ball(builder, static_cast<int>(i), places[i]);
-    drop_slivers(builder.mesh);
+    scene::drop_slivers(builder.mesh);
     builder.mesh.name = "balls";
     return std::move(builder.mesh);
 }
@@ -80,19 +79,19 @@ Mesh cue() {
     constexpr Rgb maple{0.66f, 0.43f, 0.20f}, ebony{0.035f, 0.02f, 0.015f}, ivory{0.80f, 0.75f, 0.62f},
         leather{0.06f, 0.14f, 0.25f};
     const double whole = length(butt - tip);
-    MeshBuilder builder;
-    add_tube(
+    scene::MeshBuilder builder;
+    scene::add_tube(
         builder, 20, steps, [&](std::size_t k) { return tip + static_cast<double>(k) / steps * (butt - tip); },
         [](std::size_t k) { return 0.011 + 0.014 * static_cast<double>(k) / steps; },
         [&](Vec3 p) {
             const double w = length(p - tip) / whole;
             return w < 0.015 ? leather : w < 0.05 ? ivory : w < 0.6 ? maple : std::fmod(w, 0.12) < 0.02 ? ivory : ebony;
         });
-    add_box(builder, {-0.11, rail_top, half_width + 0.075}, {-0.06, rail_top + 0.045, half_width + 0.125}, 0.03,
+    scene::add_box(builder, {-0.11, rail_top, half_width + 0.075}, {-0.06, rail_top + 0.045, half_width + 0.125}, 0.03,
             [](Vec3 p) {
                 return p.y > rail_top + 0.044 ? Rgb{0.06f, 0.22f, 0.45f} : Rgb{0.03f, 0.09f, 0.30f};
             });
-    drop_slivers(builder.mesh);
+    scene::drop_slivers(builder.mesh);
     builder.mesh.name = "cue";
     return std::move(builder.mesh);
 }
@@ -102,7 +101,7 @@ constexpr double lamp_height = 0.86;
 
 /// Three shades on a brass bar: green outside, white inside.
 void add_lamps(Scene& scene) {
-    MeshBuilder outside, inside, brass, bulbs;
+    scene::MeshBuilder outside, inside, brass, bulbs;
     constexpr Rgb gold{0.62f, 0.42f, 0.13f};
     for (double x : lamp_places) {
         const auto shade = [x](bool outer) {
@@ -115,22 +114,22 @@ void add_lamps(Scene& scene) {
         };
         outside.patch(36, 12, true, shade(true), [](Vec3) { return Rgb{0.015f, 0.16f, 0.075f}; });
         inside.patch(36, 12, true, shade(false), [](Vec3) { return Rgb{0.3f, 0.29f, 0.26f}; });
-        add_torus(brass, {x, lamp_height, 0}, {0, 1, 0}, 0.258, 0.008, 40, 8, gold);
-        add_ball(brass, {x, lamp_height + 0.22, 0}, 0.05, 20, 10, gold);
-        add_rod(brass, {x, lamp_height + 0.2, 0}, {x, lamp_height + 0.38, 0}, 0.013, 12, gold);
-        add_ball(bulbs, {x, lamp_height + 0.07, 0}, 0.05, 20, 10, {0, 0, 0});
+        scene::add_torus(brass, {x, lamp_height, 0}, {0, 1, 0}, 0.258, 0.008, 40, 8, gold);
+        scene::add_ball(brass, {x, lamp_height + 0.22, 0}, 0.05, 20, 10, gold);
+        scene::add_rod(brass, {x, lamp_height + 0.2, 0}, {x, lamp_height + 0.38, 0}, 0.013, 12, gold);
+        scene::add_ball(bulbs, {x, lamp_height + 0.07, 0}, 0.05, 20, 10, {0, 0, 0});
     }
-    add_rod(brass, {-0.98, lamp_height + 0.38, 0}, {0.98, lamp_height + 0.38, 0}, 0.02, 16, gold);
+    scene::add_rod(brass, {-0.98, lamp_height + 0.38, 0}, {0.98, lamp_height + 0.38, 0}, 0.02, 16, gold);
     for (double end : {-1.0, 1.0}) {
-        add_ball(brass, {0.98 * end, lamp_height + 0.38, 0}, 0.036, 20, 12, gold);
-        add_rod(brass, {0.4 * end, lamp_height + 0.38, 0}, {0.4 * end, lamp_height + 0.62, 0}, 0.011, 12, gold);
+        scene::add_ball(brass, {0.98 * end, lamp_height + 0.38, 0}, 0.036, 20, 12, gold);
+        scene::add_rod(brass, {0.4 * end, lamp_height + 0.38, 0}, {0.4 * end, lamp_height + 0.62, 0}, 0.011, 12, gold);
     }
     inside.mesh.material.emission = {0.55f, 0.46f, 0.30f};
     bulbs.mesh.material.emission = {3.0f, 2.5f, 1.7f};
     outside.mesh.name = "shades outside", inside.mesh.name = "shades inside";
     brass.mesh.name = "brass", bulbs.mesh.name = "bulbs";
-    for (MeshBuilder* builder : {&outside, &inside, &brass, &bulbs}) {
-        drop_slivers(builder->mesh);
+    for (scene::MeshBuilder* builder : {&outside, &inside, &brass, &bulbs}) {
+        scene::drop_slivers(builder->mesh);
         scene.meshes.push_back(std::move(builder->mesh));
     }
     for (double x : lamp_places) {
@@ -145,7 +144,7 @@ void add_lamps(Scene& scene) {
 /// A round carpet.
 Mesh carpet() {
     constexpr std::size_t columns = 64, rows = 30;
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     builder.revolve(
         {0, floor_height, 0}, columns, rows + 2,
         [](std::size_t k) {
@@ -156,12 +155,12 @@ Mesh carpet() {
         [](Vec3 p) {
             const double r = std::hypot(p.x, p.z), angle = std::atan2(p.x, p.z);
             constexpr Rgb red{0.20f, 0.025f, 0.03f}, dark{0.09f, 0.012f, 0.022f}, cream{0.42f, 0.31f, 0.17f};
-            if (r > 0.93) return mix(cream, red, 0.3);
-            if (r > 0.82) return std::sin(36 * angle) > 0 ? dark : mix(red, cream, 0.45);
-            return mix(red, dark, 0.5 + 0.5 * std::sin(18 * r + 2 * std::sin(12 * angle)) * std::cos(12 * angle));
+            if (r > 0.93) return scene::mix(cream, red, 0.3);
+            if (r > 0.82) return std::sin(36 * angle) > 0 ? dark : scene::mix(red, cream, 0.45);
+            return scene::mix(red, dark, 0.5 + 0.5 * std::sin(18 * r + 2 * std::sin(12 * angle)) * std::cos(12 * angle));
         });
     for (Vec3& p : builder.mesh.positions) p = {1.62 * p.x, p.y, 1.16 * p.z};
-    drop_slivers(builder.mesh);
+    scene::drop_slivers(builder.mesh);
     builder.mesh.name = "carpet";
     return std::move(builder.mesh);
 }
@@ -173,12 +172,12 @@ Scene make_billiards(double hologram_size) {
     scene.meshes = {frame(), cloth(), cushions(), pocket_nets(), sights(), balls(), legs(), cue(), carpet()};
     add_lamps(scene);
     for (Mesh& mesh : scene.meshes) mesh.material.base_color = {1, 1, 1};
-    polish(scene, "balls", 0.06f, 0, 0.22f);
-    polish(scene, "frame", 0.04f, 0, 0.4f);
-    polish(scene, "legs", 0.04f, 0, 0.4f);
-    polish(scene, "cue", 0.04f, 0, 0.35f);
-    polish(scene, "shades outside", 0.05f, 0, 0.3f);
-    polish(scene, "brass", 0.04f, 0.6f, 0.35f);
+    scene::polish(scene, "balls", 0.06f, 0, 0.22f);
+    scene::polish(scene, "frame", 0.04f, 0, 0.4f);
+    scene::polish(scene, "legs", 0.04f, 0, 0.4f);
+    scene::polish(scene, "cue", 0.04f, 0, 0.35f);
+    scene::polish(scene, "shades outside", 0.05f, 0, 0.3f);
+    scene::polish(scene, "brass", 0.04f, 0.6f, 0.35f);
     add_missing_normals(scene, 0.6);
 
     Light window;
@@ -187,9 +186,9 @@ Scene make_billiards(double hologram_size) {
     scene.lights.push_back(window);
     scene.ambient = {0.07f, 0.07f, 0.08f};
     scene.background = {0.006f, 0.005f, 0.006f};
-    turn(scene, -0.42, 0.42);
+    scene::turn(scene, -0.42, 0.42);
     fit_scene(scene, {hologram_size, hologram_size, 0.94, 0.5});
     return scene;
 }
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

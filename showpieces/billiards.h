@@ -3,7 +3,7 @@
 #include "hogel/scene/shapes.h"
 
 /// What the parts of the pool table share. Lengths are arbitrary: the cloth is the plane y = 0, 2.4 long and 1.28 wide.
-namespace hogel::billiards {
+namespace hogel::showpieces {
 
 inline constexpr double half_length = 1.2, half_width = 0.64;
 inline constexpr double rail_top = 0.075, floor_height = -0.78;
@@ -19,4 +19,4 @@ Mesh sights();
 /// Turned, under the corners and the middle.
 Mesh legs();
 
-}  // namespace hogel::billiards
+}  // namespace hogel::showpieces

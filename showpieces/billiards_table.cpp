@@ -4,7 +4,7 @@
 
 #include "showpieces/billiards.h"
 
-namespace hogel::billiards {
+namespace hogel::showpieces {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -13,7 +13,7 @@ constexpr double rail_width = 0.15, corner = 0.11;
 /// Rosewood along a direction: dark lines in a warm ground.
 Rgb wood(double along, double across, Rgb light, Rgb dark) {
     const double ring = std::sin(46 * across + 3 * std::sin(2.3 * along) + 1.5 * std::sin(11 * across + along));
-    return mix(light, dark, 0.5 + 0.32 * ring + 0.18 * std::sin(150 * across + 9 * along));
+    return scene::mix(light, dark, 0.5 + 0.32 * ring + 0.18 * std::sin(150 * across + 9 * along));
 }
 
 Rgb rosewood(Vec3 p) {
@@ -52,7 +52,7 @@ struct Around {
 
 /// A moulding around the table: its profile as steps outwards from the rectangle, and heights.
 template <std::size_t n>
-void add_moulding(MeshBuilder& builder, const Around& around, const std::array<std::pair<double, double>, n>& profile,
+void add_moulding(scene::MeshBuilder& builder, const Around& around, const std::array<std::pair<double, double>, n>& profile,
                   Rgb (*color)(Vec3)) {
     builder.patch(
         around.count(), n - 1, true,
@@ -90,7 +90,7 @@ Mesh frame() {
                                                                  {0.3 * w, 0.9 * rail_top},
                                                                  {0.3 * w, -0.02},
                                                                  {0.0, -0.02}}};
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     add_moulding(builder, {half_length, half_width, corner, 10, 44, 24}, profile, rosewood);
     builder.mesh.name = "frame";
     return std::move(builder.mesh);
@@ -99,7 +99,7 @@ Mesh frame() {
 Mesh cloth() {
     constexpr std::size_t columns = 90, rows = 48;
     constexpr double over = 0.3 * rail_width;  // reaches under the rails
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     builder.patch(
         columns, rows, false,
         [](std::size_t i, std::size_t k) {
@@ -108,7 +108,7 @@ Mesh cloth() {
         },
         [](Vec3 p) {
             const double nap = 0.5 + 0.25 * std::sin(61 * p.x + 5 * std::sin(23 * p.z)) * std::sin(53 * p.z);
-            return mix({0.020f, 0.205f, 0.105f}, {0.030f, 0.245f, 0.130f}, nap);
+            return scene::mix({0.020f, 0.205f, 0.105f}, {0.030f, 0.245f, 0.130f}, nap);
         });
     builder.mesh.name = "cloth";
     return std::move(builder.mesh);
@@ -118,7 +118,7 @@ Mesh cushions() {
     constexpr std::array<std::pair<double, double>, 6> profile{
         {{0.0, -0.004}, {-0.035, 0.03}, {-0.055, 0.052}, {-0.052, 0.066}, {0.0, rail_top}, {0.045, rail_top}}};
     constexpr std::size_t steps = 26;
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     const auto cushion = [&](Vec3 middle, Vec3 right, Vec3 out, double half, double from_jaw, double to_jaw) {
         builder.patch(
             profile.size() - 1, steps, false,
@@ -129,7 +129,7 @@ Mesh cushions() {
                 return middle + (left + w * (end - left)) * right + away * out + Vec3{0, height, 0};
             },
             [](Vec3 p) {
-                return mix({0.018f, 0.185f, 0.095f}, {0.030f, 0.235f, 0.120f}, 8 * p.y);
+                return scene::mix({0.018f, 0.185f, 0.095f}, {0.030f, 0.235f, 0.120f}, 8 * p.y);
             });
     };
     constexpr double mouth = 0.1, side_mouth = 0.085;
@@ -148,7 +148,7 @@ Mesh cushions() {
 }
 
 Mesh pocket_nets() {
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     for (const auto& [x, z] : pockets) {
         constexpr double radius = 0.085;
         const Vec3 center{x, 0.0015, z};
@@ -162,17 +162,17 @@ Mesh pocket_nets() {
             [](Vec3) {
                 return Rgb{0.004f, 0.004f, 0.004f};
             });
-        add_torus(builder, {x, rail_top - 0.004, z}, {0, 1, 0}, radius, 0.016, 36, 8, {0.035f, 0.025f, 0.02f});
+        scene::add_torus(builder, {x, rail_top - 0.004, z}, {0, 1, 0}, radius, 0.016, 36, 8, {0.035f, 0.025f, 0.02f});
     }
-    drop_slivers(builder.mesh);
+    scene::drop_slivers(builder.mesh);
     builder.mesh.name = "pockets";
     return std::move(builder.mesh);
 }
 
 Mesh sights() {
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     const auto sight = [&](double x, double z) {
-        add_tube(
+        scene::add_tube(
             builder, 12, 1,
             [&](std::size_t k) {
                 return Vec3{x, rail_top - 0.002 + 0.004 * static_cast<double>(k), z};
@@ -187,14 +187,14 @@ Mesh sights() {
         for (int i : {-3, -2, -1, 1, 2, 3}) sight(0.29 * i, side * (half_width + out));
         for (int i : {-1, 0, 1}) sight(side * (half_length + out), 0.3 * i);
     }
-    drop_slivers(builder.mesh);
+    scene::drop_slivers(builder.mesh);
     builder.mesh.name = "sights";
     return std::move(builder.mesh);
 }
 
 Mesh legs() {
     constexpr double top = -0.2, height = top - floor_height;
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     for (double x : {-1.0, 0.0, 1.0})
         for (double z : {-1.0, 1.0})
             builder.revolve(
@@ -210,9 +210,9 @@ Mesh legs() {
                 [](Vec3 p) {
                     return wood(p.y, p.x + p.z, {0.30f, 0.11f, 0.045f}, {0.16f, 0.05f, 0.02f});
                 });
-    drop_slivers(builder.mesh);
+    scene::drop_slivers(builder.mesh);
     builder.mesh.name = "legs";
     return std::move(builder.mesh);
 }
 
-}  // namespace hogel::billiards
+}  // namespace hogel::showpieces

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
 using Index = std::uint32_t;
@@ -189,4 +189,4 @@ CarvedGrid carve(std::span<const double> columns, std::span<const double> rows, 
     return Carver(columns, rows, holes).carve();
 }
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

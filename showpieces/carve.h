@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hogel {
+namespace hogel::showpieces {
 
 /// A point of a surface's parameter plane.
 struct Parameter {
@@ -28,4 +28,4 @@ struct CarvedGrid {
 CarvedGrid carve(std::span<const double> columns, std::span<const double> rows,
                  std::span<const std::vector<Parameter>> holes);
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/scene/analytic_scenes.h"
+#include "showpieces/showpieces.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scenes.h"
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
 // Lengths in this file are arbitrary: the chandelier is about 2 wide and hangs from y = 1.25.
@@ -39,7 +39,7 @@ Vec3 arm_point(const Tier& tier, std::size_t arm, double w) {
 }
 
 /// The stem: balls and vases on an axis, from the knob below to the ring above.
-void add_stem(MeshBuilder& brass) {
+void add_stem(scene::MeshBuilder& brass) {
     constexpr std::array<std::pair<double, double>, 16> knots{{{-0.66, 0.0},
                                                                {-0.63, 0.035},
                                                                {-0.59, 0.02},
@@ -66,15 +66,15 @@ void add_stem(MeshBuilder& brass) {
             const auto [y1, r1] = knots[i + 1];
             return std::pair{r0 + ease * (r1 - r0), y0 + w * (y1 - y0)};
         },
-        [](Vec3 p) { return mix(gold, old_gold, 0.5 + 0.5 * std::sin(45 * p.y)); });
+        [](Vec3 p) { return scene::mix(gold, old_gold, 0.5 + 0.5 * std::sin(45 * p.y)); });
 }
 
-void add_chain(MeshBuilder& brass) {
+void add_chain(scene::MeshBuilder& brass) {
     constexpr int links = 7;
     constexpr double step = (hook - 0.06 - 0.70) / links;
     for (int i = 0; i < links; ++i) {
         const double turn = i % 2 == 0 ? 0.3 : 0.3 + 0.5 * pi;
-        add_torus(brass, {0, 0.70 + (i + 0.5) * step, 0}, outwards(turn), 0.5 * step, 0.010, 24, 8, gold);
+        scene::add_torus(brass, {0, 0.70 + (i + 0.5) * step, 0}, outwards(turn), 0.5 * step, 0.010, 24, 8, gold);
     }
     constexpr std::array<std::pair<double, double>, 6> rose{
         {{0.0, -0.05}, {0.03, -0.05}, {0.06, -0.02}, {0.17, 0.0}, {0.18, 0.02}, {0.0, 0.025}}};
@@ -83,7 +83,7 @@ void add_chain(MeshBuilder& brass) {
 }
 
 /// Cup, candle and flame at the end of an arm.
-void add_candle(MeshBuilder& brass, MeshBuilder& candles, MeshBuilder& flames, Vec3 foot) {
+void add_candle(scene::MeshBuilder& brass, scene::MeshBuilder& candles, scene::MeshBuilder& flames, Vec3 foot) {
     constexpr std::array<std::pair<double, double>, 9> bowl{{{0.0, -0.035},
                                                              {0.022, -0.03},
                                                              {0.03, -0.005},
@@ -122,12 +122,12 @@ void add_candle(MeshBuilder& brass, MeshBuilder& candles, MeshBuilder& flames, V
 }
 
 /// A drop cut like a jewel: a small table on top, a girdle, a long point below. Its facets keep their edges.
-void add_drop(MeshBuilder& crystal, Vec3 top, double size, std::uint32_t number) {
+void add_drop(scene::MeshBuilder& crystal, Vec3 top, double size, std::uint32_t number) {
     constexpr std::size_t sides = 8;
-    const double turn = hashed(number, 3, 5);
-    const float bright = static_cast<float>(0.75 + 0.35 * hashed(number, 7, 1));
-    const Rgb tint = hashed(number, 1, 9) < 0.12   ? Rgb{0.62f, 0.72f, 0.95f}
-                     : hashed(number, 2, 9) < 0.12 ? Rgb{0.95f, 0.78f, 0.66f}
+    const double turn = scene::hashed(number, 3, 5);
+    const float bright = static_cast<float>(0.75 + 0.35 * scene::hashed(number, 7, 1));
+    const Rgb tint = scene::hashed(number, 1, 9) < 0.12   ? Rgb{0.62f, 0.72f, 0.95f}
+                     : scene::hashed(number, 2, 9) < 0.12 ? Rgb{0.95f, 0.78f, 0.66f}
                                                    : Rgb{0.84f, 0.87f, 0.92f};
     crystal.patch(
         sides, 4, true,
@@ -142,17 +142,17 @@ void add_drop(MeshBuilder& crystal, Vec3 top, double size, std::uint32_t number)
 }
 
 /// A string of beads that hangs between two points, sagging like a chain.
-void add_beads(MeshBuilder& crystal, Vec3 from, Vec3 to, double sag, std::size_t beads, double radius) {
+void add_beads(scene::MeshBuilder& crystal, Vec3 from, Vec3 to, double sag, std::size_t beads, double radius) {
     for (std::size_t i = 0; i < beads; ++i) {
         const double w = (static_cast<double>(i) + 0.5) / static_cast<double>(beads);
         const Vec3 p = from + w * (to - from) - Vec3{0, 4 * sag * w * (1 - w), 0};
         const float bright = i % 2 == 0 ? 1.0f : 0.8f;
-        add_ball(crystal, p, i % 2 == 0 ? radius : 0.7 * radius, 8, 6, bright * Rgb{0.84f, 0.87f, 0.92f});
+        scene::add_ball(crystal, p, i % 2 == 0 ? radius : 0.7 * radius, 8, 6, bright * Rgb{0.84f, 0.87f, 0.92f});
     }
 }
 
 /// Crystal: a drop below each cup and a ring of them around it, strings between neighbours and up to the crown.
-void add_crystal(MeshBuilder& crystal) {
+void add_crystal(scene::MeshBuilder& crystal) {
     std::uint32_t number = 0;
     for (const Tier& tier : tiers) {
         for (std::size_t arm = 0; arm < tier.arms; ++arm) {
@@ -180,24 +180,24 @@ void add_crystal(MeshBuilder& crystal) {
             add_drop(crystal, 0.15 * outwards(angle) + Vec3{0, tier.root + 0.03, 0}, 0.04, ++number);
         }
     }
-    add_ball(crystal, {0, -0.735, 0}, 0.06, 14, 9, {0.84f, 0.87f, 0.92f});
+    scene::add_ball(crystal, {0, -0.735, 0}, 0.06, 14, 9, {0.84f, 0.87f, 0.92f});
 }
 
 }  // namespace
 
 Scene make_chandelier(double hologram_size) {
-    MeshBuilder brass, candles, flames, crystal;
+    scene::MeshBuilder brass, candles, flames, crystal;
     add_stem(brass);
     add_chain(brass);
     for (const Tier& tier : tiers) {
-        add_torus(brass, {0, tier.root + 0.035, 0}, {0, 1, 0}, 0.15, 0.014, 60, 10, gold);
+        scene::add_torus(brass, {0, tier.root + 0.035, 0}, {0, 1, 0}, 0.15, 0.014, 60, 10, gold);
         for (std::size_t arm = 0; arm < tier.arms; ++arm) {
             constexpr std::size_t steps = 44;
-            add_tube(
+            scene::add_tube(
                 brass, 13, steps, [&](std::size_t k) { return arm_point(tier, arm, static_cast<double>(k) / steps); },
                 [](std::size_t k) {
                     const double w = static_cast<double>(k) / steps;
-                    return 0.015 + 0.010 * std::exp(-square(w / 0.1)) + 0.009 * std::exp(-square((w - 0.45) / 0.03));
+                    return 0.015 + 0.010 * std::exp(-scene::square(w / 0.1)) + 0.009 * std::exp(-scene::square((w - 0.45) / 0.03));
                 },
                 [](Vec3) { return gold; });
             add_candle(brass, candles, flames, cup(tier, arm));
@@ -212,12 +212,12 @@ Scene make_chandelier(double hologram_size) {
     flames.mesh.material.emission = {3.2f, 2.1f, 0.85f};
     scene.meshes = {std::move(brass.mesh), std::move(candles.mesh), std::move(flames.mesh), std::move(crystal.mesh)};
     for (Mesh& mesh : scene.meshes) {
-        drop_slivers(mesh);
+        scene::drop_slivers(mesh);
         mesh.material.base_color = {1, 1, 1};
     }
-    polish(scene, "brass", 0.04f, 0.6f, 0.4f);
-    polish(scene, "candles", 0.03f, 0, 0.5f);
-    polish(scene, "crystal", 0.1f, 0, 0.2f);
+    scene::polish(scene, "brass", 0.04f, 0.6f, 0.4f);
+    scene::polish(scene, "candles", 0.03f, 0, 0.5f);
+    scene::polish(scene, "crystal", 0.1f, 0, 0.2f);
     add_missing_normals(scene, 0.62);
 
     // The candles' light comes from four places between them, for every flame would be a light.
@@ -237,9 +237,9 @@ Scene make_chandelier(double hologram_size) {
     scene.lights.insert(scene.lights.end(), {crown, room});
     scene.ambient = {0.12f, 0.11f, 0.11f};
     scene.background = {0.010f, 0.006f, 0.007f};
-    turn(scene, 0.12, 0.10);
+    scene::turn(scene, 0.12, 0.10);
     fit_scene(scene, {hologram_size, hologram_size, 0.94, 0.5});
     return scene;
 }
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

@@ -2,14 +2,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/scene/analytic_scenes.h"
+#include "showpieces/showpieces.h"
 #include "hogel/scenes.h"
 #include "showpieces/church.h"
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
-using namespace church;
 
 constexpr double pi = std::numbers::pi;
 constexpr double below_floor = -0.06;  // walls begin here, so that nothing lies in the plane of the floor
@@ -21,7 +20,7 @@ constexpr Rgb stone{0.66f, 0.56f, 0.42f}, warm_stone{0.70f, 0.60f, 0.46f}, trim{
 /// The far wall of the nave, seen from the nave; a = x.
 Frame nave_wall() { return {{0, 0, -nave_half}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
 
-void nave_bay(Masonry& masonry, std::array<MeshBuilder, 4>& glass, std::size_t bay) {
+void nave_bay(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, std::size_t bay) {
     const double a0 = bay_start(bay), a1 = a0 + bay_length, middle = 0.5 * (a0 + a1);
     const Frame wall = nave_wall();
     const Frame back{{0, 0, -nave_half - wall_thickness}, {-1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
@@ -53,7 +52,7 @@ void nave_bay(Masonry& masonry, std::array<MeshBuilder, 4>& glass, std::size_t b
     masonry.slab(wall, a0, a1, springing - 0.12, springing + 0.02, 0.16, trim);
 }
 
-void aisle_bay(Masonry& masonry, std::array<MeshBuilder, 4>& glass, std::size_t bay) {
+void aisle_bay(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, std::size_t bay) {
     const double a0 = bay_start(bay), a1 = a0 + bay_length, middle = 0.5 * (a0 + a1);
     const Frame wall{{0, 0, -aisle_back}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const Opening window{middle, 0.62, 1.5, 3.1, 12};
@@ -65,7 +64,7 @@ void aisle_bay(Masonry& masonry, std::array<MeshBuilder, 4>& glass, std::size_t 
 }
 
 /// The shafts that rise from the floor to the vault and go on as its ribs.
-void shafts_and_ribs(MeshBuilder& smooth) {
+void shafts_and_ribs(scene::MeshBuilder& smooth) {
     constexpr std::array<std::pair<double, double>, 16> profile{{{0.0, 0.0},
                                                                  {0.42, 0.0},
                                                                  {0.42, 0.16},
@@ -88,7 +87,7 @@ void shafts_and_ribs(MeshBuilder& smooth) {
         smooth.revolve(
             {x, 0, -nave_half + 0.12}, 16, profile.size() - 1, [&](std::size_t k) { return profile[k]; }, color);
         constexpr std::size_t steps = 24;
-        add_tube(
+        scene::add_tube(
             smooth, 10, steps,
             [&](std::size_t k) {
                 const auto [z, y] = vault(vault_cut * static_cast<double>(k) / steps, -0.02);
@@ -104,7 +103,7 @@ void shafts_and_ribs(MeshBuilder& smooth) {
             color);
     }
     // The ridge of the vault.
-    add_tube(
+    scene::add_tube(
         smooth, 10, 40,
         [](std::size_t k) {
             const auto [z, y] = vault(0.5 * pi, -0.01);
@@ -114,7 +113,7 @@ void shafts_and_ribs(MeshBuilder& smooth) {
 }
 
 /// A barrel of blue plaster from the far wall to a little past its crown, with a roof over it.
-void barrel(MeshBuilder& smooth, MeshBuilder& stars) {
+void barrel(scene::MeshBuilder& smooth, scene::MeshBuilder& stars) {
     constexpr std::size_t columns = 90, rows = 20;
     const auto along = [](std::size_t i) { return half_length * (2 * static_cast<double>(i) / columns - 1); };
     const auto surface = [&](double thickness, bool inside) {
@@ -126,7 +125,7 @@ void barrel(MeshBuilder& smooth, MeshBuilder& stars) {
     constexpr double thickness = 0.3;
     smooth.patch(columns, rows, false, surface(0, true), [](Vec3 p) {
         const double cloud = 0.5 + 0.5 * std::sin(2.1 * p.x + std::sin(1.7 * p.z)) * std::sin(1.9 * p.z + p.y);
-        return mix({0.075f, 0.115f, 0.33f}, {0.11f, 0.16f, 0.42f}, cloud);
+        return scene::mix({0.075f, 0.115f, 0.33f}, {0.11f, 0.16f, 0.42f}, cloud);
     });
     smooth.patch(
         30, rows, false,
@@ -158,7 +157,7 @@ void barrel(MeshBuilder& smooth, MeshBuilder& stars) {
 }
 
 /// Plaster over the aisle, sloping down to its wall, and a roof.
-void aisle_ceiling(MeshBuilder& smooth) {
+void aisle_ceiling(scene::MeshBuilder& smooth) {
     constexpr double high = 5.0;
     for (const bool below : {true, false})
         smooth.patch(
@@ -175,7 +174,7 @@ void aisle_ceiling(MeshBuilder& smooth) {
 }
 
 /// Five sides of a decagon, of which the last near one is cut away, under a half dome.
-void apse(Masonry& masonry, std::array<MeshBuilder, 4>& glass, MeshBuilder& mosaic) {
+void apse(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, scene::MeshBuilder& mosaic) {
     constexpr int sides = 4;
     for (int side = 0; side < sides; ++side) {
         const double from = pi / 5 * side, to = pi / 5 * (side + 1), half_angle = pi / 10;
@@ -206,7 +205,7 @@ void apse(Masonry& masonry, std::array<MeshBuilder, 4>& glass, MeshBuilder& mosa
             const double up = (p.y - apse_springing) / nave_half;
             const double rays = std::sin(20 * std::atan2(p.x - half_length, -p.z));
             return up > 0.82 ? Rgb{0.16f, 0.22f, 0.5f}
-                             : mix({0.74f, 0.52f, 0.16f}, {0.55f, 0.33f, 0.09f}, 0.5 + 0.5 * rays);
+                             : scene::mix({0.74f, 0.52f, 0.16f}, {0.55f, 0.33f, 0.09f}, 0.5 + 0.5 * rays);
         });
     // The wall over the arch between nave and apse.
     mosaic.patch(
@@ -263,8 +262,8 @@ std::vector<Light> lights() {
 
 Scene make_church(double hologram_size) {
     Masonry masonry;
-    MeshBuilder smooth, mosaic, floor, slab, wood, brass, stars, globes;
-    std::array<MeshBuilder, 4> glass;
+    scene::MeshBuilder smooth, mosaic, floor, slab, wood, brass, stars, globes;
+    std::array<scene::MeshBuilder, 4> glass;
     for (std::size_t bay = 0; bay < bays; ++bay) {
         nave_bay(masonry, glass, bay);
         aisle_bay(masonry, glass, bay);
@@ -281,8 +280,8 @@ Scene make_church(double hologram_size) {
     add_pendants(brass, globes);
 
     Scene scene;
-    const auto add = [&](MeshBuilder& builder, const char* name, Rgb emission) {
-        drop_slivers(builder.mesh);
+    const auto add = [&](scene::MeshBuilder& builder, const char* name, Rgb emission) {
+        scene::drop_slivers(builder.mesh);
         builder.mesh.name = name;
         builder.mesh.material.base_color = {1, 1, 1};
         builder.mesh.material.emission = emission;
@@ -302,17 +301,17 @@ Scene make_church(double hologram_size) {
                                                                  {"glass, gold", {0.95f, 0.60f, 0.12f}},
                                                                  {"glass, green", {0.10f, 0.50f, 0.22f}}}};
     for (std::size_t i = 0; i < glass.size(); ++i) add(glass[i], colors[i].first, colors[i].second);
-    polish(scene, "floor", 0.04f, 0, 0.35f);
-    polish(scene, "wood", 0.04f, 0, 0.5f);
-    polish(scene, "mosaic", 0.04f, 0.4f, 0.5f);
-    polish(scene, "brass", 0.04f, 0.6f, 0.4f);
+    scene::polish(scene, "floor", 0.04f, 0, 0.35f);
+    scene::polish(scene, "wood", 0.04f, 0, 0.5f);
+    scene::polish(scene, "mosaic", 0.04f, 0.4f, 0.5f);
+    scene::polish(scene, "brass", 0.04f, 0.6f, 0.4f);
     add_missing_normals(scene, 0.7);
     scene.lights = lights();
     scene.ambient = {0.045f, 0.045f, 0.055f};
     scene.background = {0.006f, 0.007f, 0.011f};
-    turn(scene, 0.3, 0.13);
+    scene::turn(scene, 0.3, 0.13);
     fit_scene(scene, {hologram_size, hologram_size, 0.96, 0.5});
     return scene;
 }
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

@@ -9,7 +9,7 @@
 
 /// The measures that the parts of the church share. Its length runs along x, the altar to the right; the nave lies
 /// between z = -nave_half and nave_half, the aisle behind it; the near half is cut away. Lengths are arbitrary.
-namespace hogel::church {
+namespace hogel::showpieces {
 
 inline constexpr std::size_t bays = 6;
 inline constexpr double bay_length = 3.3, half_length = 0.5 * bay_length * bays;
@@ -33,15 +33,15 @@ inline Vec3 pendant(std::size_t i) {
 inline Vec3 altar_candle(std::size_t i) { return {half_length + 1.35, 1.72, -0.9 + 0.45 * static_cast<double>(i)}; }
 
 /// Panes between leads, in four colours, in an opening at a depth behind the wall.
-void add_stained_glass(std::array<MeshBuilder, 4>& glass, const Frame& wall, const Opening& opening, double depth,
+void add_stained_glass(std::array<scene::MeshBuilder, 4>& glass, const Frame& wall, const Opening& opening, double depth,
                        std::uint32_t number);
-void add_stars(MeshBuilder& stars);
+void add_stars(scene::MeshBuilder& stars);
 /// The tiles, and the slab that all stands on.
-void add_floor(MeshBuilder& floor);
-void add_slab(MeshBuilder& slab);
-void add_pews(MeshBuilder& wood);
+void add_floor(scene::MeshBuilder& floor);
+void add_slab(scene::MeshBuilder& slab);
+void add_pews(scene::MeshBuilder& wood);
 /// Steps, altar, candles and cross, and the rail before them.
-void add_choir(Masonry& masonry, MeshBuilder& wood, MeshBuilder& brass, MeshBuilder& flames);
-void add_pendants(MeshBuilder& brass, MeshBuilder& globes);
+void add_choir(Masonry& masonry, scene::MeshBuilder& wood, scene::MeshBuilder& brass, scene::MeshBuilder& flames);
+void add_pendants(scene::MeshBuilder& brass, scene::MeshBuilder& globes);
 
-}  // namespace hogel::church
+}  // namespace hogel::showpieces

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -27,8 +27,8 @@ std::pair<double, double> Opening::outline(std::size_t i, double grow) const {
 
 Rgb Masonry::vary(Rgb color, double amount) {
     const std::uint32_t n = blocks_++;
-    const auto light = static_cast<float>(1 + amount * (hashed(n, 1, 7) + hashed(n, 2, 7) - 1));
-    const auto warm = static_cast<float>(1 + 0.25 * amount * (hashed(n, 3, 7) - 0.5));
+    const auto light = static_cast<float>(1 + amount * (scene::hashed(n, 1, 7) + scene::hashed(n, 2, 7) - 1));
+    const auto warm = static_cast<float>(1 + 0.25 * amount * (scene::hashed(n, 3, 7) - 0.5));
     return light * (color * Rgb{warm, 1, 1 / warm});
 }
 
@@ -316,7 +316,7 @@ void Masonry::lawn(Vec3 center, double half_width, double half_depth) {
         },
         [](Vec3 p) {
             const double tufts = 0.5 + 0.5 * std::sin(9 * p.x + 3 * std::sin(8 * p.z)) * std::sin(11 * p.z);
-            return mix({0.09f, 0.15f, 0.045f}, {0.16f, 0.22f, 0.07f}, tufts);
+            return scene::mix({0.09f, 0.15f, 0.045f}, {0.16f, 0.22f, 0.07f}, tufts);
         });
     const std::size_t first = smooth.mesh.positions.size() - columns * (rows + 2);
     for (std::size_t i = first; i < smooth.mesh.positions.size(); ++i) {
@@ -339,8 +339,8 @@ void Masonry::tree(Vec3 foot, double height) {
         [&](Vec3 p) {
             if (p.y < foot.y + 0.11 * height) return Rgb{0.16f, 0.10f, 0.05f};
             const double leaves = 0.5 + 0.5 * std::sin(19 * p.x + 23 * p.y) * std::sin(17 * p.z + 13 * p.y);
-            return mix({0.05f, 0.10f, 0.04f}, {0.13f, 0.19f, 0.06f}, leaves);
+            return scene::mix({0.05f, 0.10f, 0.04f}, {0.13f, 0.19f, 0.06f}, leaves);
         });
 }
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

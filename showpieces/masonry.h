@@ -2,7 +2,7 @@
 
 #include "hogel/scene/mesh_builder.h"
 
-namespace hogel {
+namespace hogel::showpieces {
 
 /// A wall's own coordinates: a to the right, b up, c out of the wall.
 struct Frame {
@@ -23,8 +23,8 @@ struct Opening {
 /// Builds in stone: everything comes as blocks or small patches, so that vertex lighting shows shadows.
 class Masonry {
   public:
-    MeshBuilder faceted;  ///< vertices of their own for each block: each has its own shade of stone
-    MeshBuilder smooth;
+    scene::MeshBuilder faceted;  ///< vertices of their own for each block: each has its own shade of stone
+    scene::MeshBuilder smooth;
 
     /// A rectangle a0..a1 × b0..b1 of a wall in courses of blocks.
     void wall(const Frame& frame, double a0, double a1, double b0, double b1, Rgb stone);
@@ -65,4 +65,4 @@ class Masonry {
     std::uint32_t blocks_ = 0;
 };
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/scene/analytic_scenes.h"
+#include "showpieces/showpieces.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scenes.h"
 #include "showpieces/carve.h"
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
 // Lengths in this file are arbitrary (the pumpkin is about one unit in radius); fit_scene gives them their size.
@@ -20,7 +20,7 @@ constexpr Vec3 flame_tip{0.03, -0.27, 0.12};
 /// How deep in a groove between two ribs an azimuth lies: 1 at its bottom, 0 on the ribs.
 double groove(double azimuth) {
     const double s = std::sin(0.5 * ribs * (azimuth + pi / ribs) + 0.35 * std::sin(3 * azimuth + 1));
-    return square(1 - std::sqrt(s * s + 0.004) / std::sqrt(1.004));
+    return scene::square(1 - std::sqrt(s * s + 0.004) / std::sqrt(1.004));
 }
 
 /// A point of the body at an azimuth (0 in front) and an elevation; `thickness` below the skin.
@@ -28,7 +28,7 @@ Vec3 body(Parameter at, double thickness) {
     const double around = std::cos(at.b), up = std::sin(at.b);
     const double inner = thickness / wall;  // grooves fade towards the inside
     const double rib = 1 - (0.17 - 0.1 * inner) * groove(at.a) * std::pow(std::abs(around), 0.35);
-    const double dimple = 0.30 * std::exp(-square(around / 0.38)) * (up > 0 ? 1 : 0.75);
+    const double dimple = 0.30 * std::exp(-scene::square(around / 0.38)) * (up > 0 ? 1 : 0.75);
     const double radius = rib * std::pow(std::abs(around), 0.88) * (1 - thickness * 1.05) * (1 - 0.05 * up);
     const double lumps = 1 + 0.012 * std::sin(5 * at.a + 7 * at.b) + 0.01 * std::sin(3 * at.a - 4 * at.b + 2);
     return {lumps * radius * std::sin(at.a), height * up * (1 - dimple) * (1 - 1.3 * thickness) * (0.94 + 0.06 * rib),
@@ -39,11 +39,11 @@ Rgb skin_color(Parameter at) {
     constexpr Rgb orange{0.86f, 0.235f, 0.022f}, dark{0.50f, 0.095f, 0.008f}, yellow{0.93f, 0.33f, 0.035f},
         green{0.20f, 0.24f, 0.04f};
     Rgb color =
-        mix(orange, yellow, 0.5 + 0.5 * std::sin(9 * at.a + 3 * std::sin(4 * at.b)) * std::sin(6 * at.b + at.a));
-    color = mix(color, dark, 1.15 * std::sqrt(groove(at.a)) - 0.1);
+        scene::mix(orange, yellow, 0.5 + 0.5 * std::sin(9 * at.a + 3 * std::sin(4 * at.b)) * std::sin(6 * at.b + at.a));
+    color = scene::mix(color, dark, 1.15 * std::sqrt(groove(at.a)) - 0.1);
     const double near_stem = (at.b - 0.95) / 0.45 + 0.25 * groove(at.a);
-    color = mix(color, green, 0.75 * near_stem);
-    return mix(color, {0, 0, 0}, 0.10 * (0.5 + 0.5 * std::sin(31 * at.a) * std::sin(23 * at.b)));
+    color = scene::mix(color, green, 0.75 * near_stem);
+    return scene::mix(color, {0, 0, 0}, 0.10 * (0.5 + 0.5 * std::sin(31 * at.a) * std::sin(23 * at.b)));
 }
 
 std::vector<std::vector<Parameter>> face() {
@@ -104,7 +104,7 @@ CarvedGrid carved_body() {
 }
 
 Mesh skin(const CarvedGrid& grid) {
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     for (Parameter p : grid.points) builder.vertex(body(p, 0), skin_color(p));
     builder.mesh.triangles = grid.triangles;
     builder.mesh.name = "skin";
@@ -115,16 +115,16 @@ Mesh skin(const CarvedGrid& grid) {
 Mesh flesh(const CarvedGrid& grid) {
     constexpr Rgb pale{0.95f, 0.60f, 0.20f}, rind{0.90f, 0.38f, 0.07f};
     constexpr std::uint32_t layers = 2;
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     for (Parameter p : grid.points)
-        builder.vertex(body(p, wall), mix(pale, rind, 0.3 + 0.3 * std::sin(17 * p.a + 5 * std::sin(9 * p.b))));
+        builder.vertex(body(p, wall), scene::mix(pale, rind, 0.3 + 0.3 * std::sin(17 * p.a + 5 * std::sin(9 * p.b))));
     for (const auto& [a, b, c] : grid.triangles) builder.triangle(a, c, b);
     for (const auto& [a, b] : grid.rims) {
         const auto step = [&](std::uint32_t end, std::uint32_t layer) {
             const double w = static_cast<double>(layer) / layers;
             const Vec3 out = body(grid.points[end], 0), in = body(grid.points[end], wall);
             const Vec3 p = layer == 0 ? out : layer == layers ? in : out + w * (in - out);
-            return builder.vertex(p, mix(rind, pale, 0.4 + w));
+            return builder.vertex(p, scene::mix(rind, pale, 0.4 + w));
         };
         for (std::uint32_t layer = 0; layer < layers; ++layer)
             builder.quad(step(b, layer), step(a, layer), step(a, layer + 1), step(b, layer + 1));
@@ -148,12 +148,12 @@ Mesh stem() {
         const Vec3 right = normalize(cross(along, {0, 0, 1})), front = cross(right, along);
         return middle(w) + radius * (std::sin(angle) * right + std::cos(angle) * front);
     };
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     const auto angle = [](std::size_t i) { return 2 * pi * static_cast<double>(i % columns) / columns; };
     for (std::size_t k = 0; k <= rows; ++k)
         for (std::size_t i = 0; i < columns; ++i) {
             const double w = static_cast<double>(k) / rows;
-            builder.vertex(at(angle(i), w, 1), mix(mix(green, brown, 1.1 * w - 0.2), {0.05f, 0.06f, 0.02f},
+            builder.vertex(at(angle(i), w, 1), scene::mix(scene::mix(green, brown, 1.1 * w - 0.2), {0.05f, 0.06f, 0.02f},
                                                    0.45 - 0.45 * std::cos(5 * angle(i) + 1.2 * w)));
         }
     const auto index = [](std::size_t i, std::size_t k) {
@@ -175,7 +175,7 @@ Mesh stem() {
 Mesh candle() {
     constexpr std::array<std::pair<double, double>, 7> profile{
         {{0.0, -0.58}, {0.1, -0.58}, {0.1, -0.52}, {0.098, -0.46}, {0.09, -0.445}, {0.045, -0.45}, {0.0, -0.455}}};
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     builder.revolve(
         {flame_tip.x, 0, flame_tip.z}, 20, profile.size() - 1, [&](std::size_t k) { return profile[k]; },
         [](Vec3) {
@@ -188,7 +188,7 @@ Mesh candle() {
 
 Mesh flame() {
     constexpr std::size_t rows = 8;
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     builder.revolve(
         {flame_tip.x, flame_tip.y - 0.17, flame_tip.z}, 14, rows,
         [](std::size_t k) {
@@ -207,7 +207,7 @@ Mesh flame() {
 Mesh ground() {
     constexpr std::size_t columns = 60, rows = 16;
     constexpr double top = -0.605, radius = 1.09;
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     builder.revolve(
         {0, 0, 0}, columns, rows + 3,
         [&](std::size_t k) {
@@ -220,7 +220,7 @@ Mesh ground() {
         },
         [](Vec3 p) {
             const double veins = 0.5 + 0.5 * std::sin(7 * p.x + 4 * std::sin(5 * p.z + 3 * p.x));
-            return mix({0.17f, 0.165f, 0.18f}, {0.27f, 0.25f, 0.25f}, veins);
+            return scene::mix({0.17f, 0.165f, 0.18f}, {0.27f, 0.25f, 0.25f}, veins);
         });
     for (Vec3& p : builder.mesh.positions) p.z *= depth_squash;
     builder.mesh.name = "ground";
@@ -234,7 +234,7 @@ Scene make_pumpkin(double hologram_size) {
     const CarvedGrid grid = carved_body();
     scene.meshes = {skin(grid), flesh(grid), stem(), candle(), flame(), ground()};
     for (Mesh& mesh : scene.meshes) {
-        drop_slivers(mesh);
+        scene::drop_slivers(mesh);
         if (mesh.material.emission.r < 1) mesh.material.base_color = {1, 1, 1};
     }
     add_missing_normals(scene, 0.8);
@@ -249,9 +249,9 @@ Scene make_pumpkin(double hologram_size) {
     scene.lights = {moon, glow};
     scene.ambient = {0.05f, 0.055f, 0.08f};
     scene.background = {0.0045f, 0.0055f, 0.010f};
-    turn(scene, -0.1, 0.22);
+    scene::turn(scene, -0.1, 0.22);
     fit_scene(scene, {hologram_size, hologram_size, 0.88, 0.5});
     return scene;
 }
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

@@ -2,49 +2,51 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 
 #include "hogel/error.h"
 #include "hogel/scene/analytic_scenes.h"
+#include "showpieces/showpieces.h"
 
 namespace hogel {
 namespace {
 
-constexpr std::array scenes{
-    BuiltinScene{"pumpkin", "a jack-o'-lantern with a candle inside, by moonlight"},
-    BuiltinScene{"tower", "a bell tower with clock, open belfry and bell, in evening sun"},
-    BuiltinScene{"church", "the nave of a church, cut open along its length, in the light of 30 lamps"},
-    BuiltinScene{"chandelier", "sixteen candles, brass and crystal"},
-    BuiltinScene{"billiards", "a pool table under its lamps, just after the break"},
-    BuiltinScene{"plane", "a picture parallel to the hologram, behind it (has a closed form)"},
-    BuiltinScene{"two-planes", "a small picture in front of the hologram, a large one behind it (has a closed form)"},
-    BuiltinScene{"sphere", "a diffuse ball about the centre of the hologram (has a closed form)"},
-    BuiltinScene{"point", "a tiny bright disc behind the hologram (has a closed form)"},
-};
-constexpr std::array makers{&make_pumpkin, &make_tower,      &make_church, &make_chandelier, &make_billiards,
-                            &make_plane,   &make_two_planes, &make_sphere, &make_point};
-static_assert(scenes.size() == makers.size());
+// A row for a scene that is made at once.
+SceneInfo row(std::string name, std::string text, Scene (*make)(double)) {
+    return {std::move(name), std::move(text), [make](double hologram_size, const Progress&) { return make(hologram_size); }};
+}
 
 }  // namespace
 
-std::span<const BuiltinScene> builtin_scenes() { return scenes; }
+Table<SceneInfo>& scenes() {
+    static Table<SceneInfo> table(
+        "built-in scene",
+        {
+            row("pumpkin", "a jack-o'-lantern with a candle inside, by moonlight", &showpieces::make_pumpkin),
+            row("tower", "a bell tower with clock, open belfry and bell, in evening sun", &showpieces::make_tower),
+            row("church", "the nave of a church, cut open along its length, in the light of 30 lamps",
+                &showpieces::make_church),
+            row("chandelier", "sixteen candles, brass and crystal", &showpieces::make_chandelier),
+            row("billiards", "a pool table under its lamps, just after the break", &showpieces::make_billiards),
+            row("plane", "a picture parallel to the hologram, behind it (has a closed form)", &scene::make_plane),
+            row("two-planes", "a small picture in front of the hologram, a large one behind it (has a closed form)",
+                &scene::make_two_planes),
+            row("sphere", "a diffuse ball about the centre of the hologram (has a closed form)", &scene::make_sphere),
+            row("point", "a tiny bright disc behind the hologram (has a closed form)", &scene::make_point),
+            {"church-radiance", "the church with all its reflected light, 3.4 million triangles",
+             &showpieces::make_church_radiance},
+        });
+    return table;
+}
 
-Scene make_builtin_scene(std::string_view name, double hologram_size) {
+Scene make_scene(std::string_view name, double hologram_size, const Progress& progress) {
+    const SceneInfo& info = scenes().find(name);
     if (!(hologram_size > 0 && std::isfinite(hologram_size)))
         throw Error(ErrorCode::usage,
                     fmt::format("scene '{}': hologram size {} m; expected a positive length", name, hologram_size));
-    for (std::size_t i = 0; i < scenes.size(); ++i)
-        if (scenes[i].name == name) {
-            Scene scene = makers[i](hologram_size);
-            scene.name = name;
-            return scene;
-        }
-    std::string names;
-    for (const BuiltinScene& scene : scenes) names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
-    throw Error(ErrorCode::usage, fmt::format("no built-in scene '{}'; expected one of {}", name, names));
+    Scene scene = info.make(hologram_size, progress);
+    scene.name = name;
+    return scene;
 }
 
 }  // namespace hogel

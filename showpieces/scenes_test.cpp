@@ -16,7 +16,7 @@
 #include "hogel/shading.h"
 #include "hogel/trace/ray_caster.h"
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
 constexpr double size = 0.02;
@@ -29,19 +29,19 @@ struct Eye {
         for (const auto& triangle : scene.triangles) list.push_back(triangle.vertices);
         return list;
     }
-    AnalyticSample see(double s, double t, double U, double V) const {
-        const RayHit hit = caster.closest({s - U * size, t - V * size, size}, {U, V, -1}, infinity);
-        if (hit.triangle == RayHit::miss) return {shaded.background, infinity, 0};
+    scene::AnalyticSample see(double s, double t, double U, double V) const {
+        const trace::RayHit hit = caster.closest({s - U * size, t - V * size, size}, {U, V, -1}, infinity);
+        if (hit.triangle == trace::RayHit::miss) return {shaded.background, infinity, 0};
         return {radiance_at(shaded, hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2), hit.distance - size, 0};
     }
     ShadedScene shaded;
-    RayCaster caster;
+    trace::RayCaster caster;
 };
 
 TEST(Analytic, closed_forms_agree_with_traced_meshes) {
-    for (const BuiltinScene& builtin : builtin_scenes()) {
-        if (!has_analytic_radiance(builtin.name)) continue;
-        const Eye eye(make_builtin_scene(builtin.name, size));
+    for (const SceneInfo& builtin : scenes().rows()) {
+        if (!scene::has_analytic_radiance(builtin.name)) continue;
+        const Eye eye(make_scene(builtin.name, size));
         std::mt19937 engine(5);
         std::uniform_real_distribution<double> place(-0.5 * size, 0.5 * size), direction(-0.36, 0.36);
         int hits = 0, misses = 0;
@@ -52,9 +52,9 @@ TEST(Analytic, closed_forms_agree_with_traced_meshes) {
                 s = 0.1 * size - U * 0.15 * size + 0.01 * s;
                 t = 0.05 * size - V * 0.15 * size + 0.01 * t;
             }
-            const AnalyticSample exact = analytic_radiance(builtin.name, size, s, t, U, V);
+            const scene::AnalyticSample exact = scene::analytic_radiance(builtin.name, size, s, t, U, V);
             if (exact.clearance < (builtin.name == "point" ? 1e-5 : 1e-3) * size) continue;
-            const AnalyticSample seen = eye.see(s, t, U, V);
+            const scene::AnalyticSample seen = eye.see(s, t, U, V);
             ASSERT_EQ(std::isfinite(seen.depth), std::isfinite(exact.depth)) << builtin.name;
             (std::isfinite(exact.depth) ? hits : misses)++;
             ASSERT_NEAR(seen.radiance.r, exact.radiance.r, 1e-3) << builtin.name;
@@ -69,13 +69,13 @@ TEST(Analytic, closed_forms_agree_with_traced_meshes) {
 }
 
 TEST(Analytic, names_what_it_knows) {
-    EXPECT_FALSE(has_analytic_radiance("pumpkin"));
-    EXPECT_THROW(analytic_radiance("pumpkin", size, 0, 0, 0, 0), Error);
+    EXPECT_FALSE(scene::has_analytic_radiance("pumpkin"));
+    EXPECT_THROW(scene::analytic_radiance("pumpkin", size, 0, 0, 0, 0), Error);
 }
 
 TEST(Builtin, scenes_fill_the_hologram_and_straddle_it) {
     for (const char* name : {"pumpkin", "tower", "church", "chandelier", "billiards"}) {
-        const Scene scene = make_builtin_scene(name, size);
+        const Scene scene = make_scene(name, size);
         EXPECT_NO_THROW(validate(scene));
         const auto [low, high] = bounds(scene);
         EXPECT_NEAR(std::max(high.x - low.x, high.y - low.y), 0.92 * size, 0.05 * size) << name;
@@ -102,7 +102,7 @@ std::vector<Showpiece> showpieces() {
 
 TEST(Builtin, scenes_have_the_triangles_and_lights_of_those_in_the_thesis) {
     for (const Showpiece& expected : showpieces()) {
-        const Scene scene = make_builtin_scene(expected.name, size);
+        const Scene scene = make_scene(expected.name, size);
         EXPECT_NEAR(static_cast<double>(triangle_count(scene)), expected.triangles, 0.05 * expected.triangles)
             << expected.name;
         EXPECT_EQ(scene.lights.size(), expected.lights) << expected.name;
@@ -110,8 +110,8 @@ TEST(Builtin, scenes_have_the_triangles_and_lights_of_those_in_the_thesis) {
 }
 
 TEST(Builtin, scenes_have_no_triangle_without_area_and_no_normal_without_length) {
-    for (const BuiltinScene& builtin : builtin_scenes())
-        for (const Mesh& mesh : make_builtin_scene(builtin.name, size).meshes) {
+    for (const SceneInfo& builtin : scenes().rows())
+        for (const Mesh& mesh : make_scene(builtin.name, size).meshes) {
             for (const auto& [a, b, c] : mesh.triangles) {
                 const Vec3 ab = mesh.positions[b] - mesh.positions[a], ac = mesh.positions[c] - mesh.positions[a];
                 const double longest = std::max(dot(ab, ab), dot(ac, ac));
@@ -123,7 +123,7 @@ TEST(Builtin, scenes_have_no_triangle_without_area_and_no_normal_without_length)
 
 TEST(Builtin, scenes_are_the_same_every_time) {
     for (const Showpiece& showpiece : showpieces()) {
-        const Scene a = make_builtin_scene(showpiece.name, size), b = make_builtin_scene(showpiece.name, size);
+        const Scene a = make_scene(showpiece.name, size), b = make_scene(showpiece.name, size);
         ASSERT_EQ(a.meshes.size(), b.meshes.size());
         for (std::size_t i = 0; i < a.meshes.size(); ++i) {
             EXPECT_EQ(a.meshes[i].positions, b.meshes[i].positions);
@@ -164,19 +164,19 @@ TEST(Builtin, what_should_be_watertight_is) {
         for (const auto& [edge, count] : edges) open += count != 0;
         EXPECT_EQ(open, 0u) << scene.name << ": " << names.front();
     };
-    expect_closed(make_builtin_scene("pumpkin", size), {"skin", "flesh"});
+    expect_closed(make_scene("pumpkin", size), {"skin", "flesh"});
     for (const Showpiece& showpiece : showpieces()) {
-        const Scene scene = make_builtin_scene(showpiece.name, size);
+        const Scene scene = make_scene(showpiece.name, size);
         for (const std::string& name : showpiece.closed) expect_closed(scene, {name});
     }
-    EXPECT_GT(std::ranges::count_if(rims(make_builtin_scene("billiards", size), {"cloth"}),
+    EXPECT_GT(std::ranges::count_if(rims(make_scene("billiards", size), {"cloth"}),
                                     [](const auto& edge) { return edge.second != 0; }),
               200);
 }
 
 TEST(Builtin, radiances_are_those_of_a_picture) {
-    for (const BuiltinScene& builtin : builtin_scenes()) {
-        const ShadedScene shaded = shade_vertices(make_builtin_scene(builtin.name, size));
+    for (const SceneInfo& builtin : scenes().rows()) {
+        const ShadedScene shaded = shade_vertices(make_scene(builtin.name, size));
         float brightest = 0;
         for (const Rgb& c : shaded.radiance) brightest = std::max({brightest, c.r, c.g, c.b});
         EXPECT_GT(brightest, 0.5f) << builtin.name;
@@ -185,8 +185,8 @@ TEST(Builtin, radiances_are_those_of_a_picture) {
 }
 
 TEST(Builtin, the_size_of_the_hologram_changes_nothing_but_the_size) {
-    for (const BuiltinScene& builtin : builtin_scenes()) {
-        const Scene small = make_builtin_scene(builtin.name, size), large = make_builtin_scene(builtin.name, 2 * size);
+    for (const SceneInfo& builtin : scenes().rows()) {
+        const Scene small = make_scene(builtin.name, size), large = make_scene(builtin.name, 2 * size);
         ASSERT_EQ(small.meshes.size(), large.meshes.size());
         for (std::size_t m = 0; m < small.meshes.size(); ++m)
             for (std::size_t i = 0; i < small.meshes[m].positions.size(); ++i)
@@ -202,16 +202,16 @@ TEST(Builtin, the_size_of_the_hologram_changes_nothing_but_the_size) {
 
 TEST(Builtin, unknown_names_and_sizes_are_usage_errors_that_list_the_scenes) {
     try {
-        make_builtin_scene("teapot", size);
+        make_scene("teapot", size);
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
-        for (const BuiltinScene& builtin : builtin_scenes())
+        for (const SceneInfo& builtin : scenes().rows())
             EXPECT_NE(std::string(error.what()).find(builtin.name), std::string::npos);
     }
-    EXPECT_THROW(make_builtin_scene("plane", 0), Error);
-    EXPECT_THROW(make_builtin_scene("plane", infinity), Error);
+    EXPECT_THROW(make_scene("plane", 0), Error);
+    EXPECT_THROW(make_scene("plane", infinity), Error);
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::showpieces

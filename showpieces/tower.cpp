@@ -2,12 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/scene/analytic_scenes.h"
+#include "showpieces/showpieces.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scenes.h"
 #include "showpieces/masonry.h"
 
-namespace hogel {
+namespace hogel::showpieces {
 namespace {
 
 // Lengths in this file are arbitrary (the shaft is 2 wide and the tower about 12 high); fit_scene gives them their
@@ -113,12 +113,12 @@ Mesh bell() {
                                                                  {0.10, 0.84},
                                                                  {0.05, 0.90},
                                                                  {0.05, 1.1}}};
-    MeshBuilder builder;
+    scene::MeshBuilder builder;
     builder.revolve(
         {0, clock_top + 0.68, 0}, 36, profile.size() - 1, [&](std::size_t k) { return profile[k]; },
         [](Vec3 p) {
             const double belt = std::sin(24 * p.y);
-            return mix({0.62f, 0.38f, 0.12f}, {0.80f, 0.52f, 0.18f}, 0.5 + 0.5 * belt);
+            return scene::mix({0.62f, 0.38f, 0.12f}, {0.80f, 0.52f, 0.18f}, 0.5 + 0.5 * belt);
         });
     builder.mesh.name = "bell";
     return std::move(builder.mesh);
@@ -177,14 +177,14 @@ Scene make_tower(double hologram_size) {
     masonry.lawn({1.5, 0, 0.2}, 5.4, 3.9);
     for (const Vec3 foot :
          {Vec3{-2.0, 0, 1.2}, Vec3{-2.6, 0, -0.4}, Vec3{-1.7, 0, -1.9}, Vec3{3.0, 0, 2.6}, Vec3{4.5, 0, 2.3}})
-        masonry.tree(foot, 1.7 + 0.9 * hashed(static_cast<std::uint32_t>(100 + 10 * foot.x), 1, 2));
+        masonry.tree(foot, 1.7 + 0.9 * scene::hashed(static_cast<std::uint32_t>(100 + 10 * foot.x), 1, 2));
 
     Scene scene;
     scene.meshes = {std::move(masonry.faceted.mesh), bell(), std::move(masonry.smooth.mesh)};
     scene.meshes[0].name = "masonry";
     scene.meshes[2].name = "trees and finial";
     for (Mesh& mesh : scene.meshes) {
-        drop_slivers(mesh);
+        scene::drop_slivers(mesh);
         mesh.material.base_color = {1, 1, 1};
     }
     add_missing_normals(scene, 0.7);
@@ -198,9 +198,9 @@ Scene make_tower(double hologram_size) {
     scene.lights = {sun, sky};
     scene.ambient = {0.10f, 0.12f, 0.18f};
     scene.background = {0.008f, 0.013f, 0.030f};
-    turn(scene, -0.42, 0.17);
+    scene::turn(scene, -0.42, 0.17);
     fit_scene(scene, {hologram_size, hologram_size, 0.9, 0.5});
     return scene;
 }
 
-}  // namespace hogel
+}  // namespace hogel::showpieces

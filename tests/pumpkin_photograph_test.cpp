@@ -29,7 +29,7 @@ struct Photographs {
     Photographs() {
         const LightFieldGrid grid{pixels, pixels, size / pixels, 32, 32, 0.15, 0.15, 3};
         LightField light_field(grid);
-        const auto scene = std::make_shared<const ShadedScene>(shade_vertices(make_builtin_scene("pumpkin", size)));
+        const auto scene = std::make_shared<const ShadedScene>(shade_vertices(make_scene("pumpkin", size)));
         copy(*make_renderer("raytrace", scene, grid), light_field);
         for (const Vec3 eye : {Vec3{-25_mm, 0, 300_mm}, Vec3{20_mm, 15_mm, 300_mm}})
             for (double focus : {0_mm, 2.5_mm}) {

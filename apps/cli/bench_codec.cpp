@@ -44,14 +44,14 @@ std::optional<RatePoint> RateCurve::at_rate(double pixels_per_bit) const {
     return std::nullopt;
 }
 
-RateCurve measure_method(const LightField& field, const CodingMethod& method, const QualityRange& range,
+RateCurve measure_method(const LightField& field, const codec::CodingMethod& method, const QualityRange& range,
                          const Progress& go_on) {
     constexpr int most_points = 24;
     const ThreadLimit one(1);
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.path() / "a.hgl";
     RateCurve curve{method.transform.empty() ? method.coder : method.coder + " " + method.transform, {}};
-    if (method.table == QuantisationTable::jpeg) curve.name = method.coder + ", table jpeg";
+    if (method.table == coding::QuantisationTable::jpeg) curve.name = method.coder + ", table jpeg";
     CompressionOptions options;
     options.method = method;
     // An error of step/√12 where there is detail of the step's size; less where there is none.

@@ -33,7 +33,7 @@ struct QualityRange {
 /// One of our coders, with steps that halve until the whole range is covered.
 /// @param go_on   asked on the way
 /// Throws Error(cancelled) once that says no.
-RateCurve measure_method(const LightField& field, const CodingMethod& method, const QualityRange& range,
+RateCurve measure_method(const LightField& field, const codec::CodingMethod& method, const QualityRange& range,
                          const Progress& go_on);
 
 /// Coders that other programs have.

@@ -17,7 +17,7 @@ constexpr double finest = 0.22;  // cycles a direction
 // Numbers from 0 to 1, one after the other.
 class Numbers {
   public:
-    double operator()() { return philox({next_++, 0, 0, 0}, {2000, 4})[0] * 0x1p-32; }
+    double operator()() { return core::philox({next_++, 0, 0, 0}, {2000, 4})[0] * 0x1p-32; }
     double between(double low, double high) { return low + (high - low) * (*this)(); }
 
   private:

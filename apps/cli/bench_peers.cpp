@@ -183,7 +183,7 @@ std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange
     RateCurve curve{"zfp", {}};
     std::vector<float> decoded(truth.size());
     for (int k = 0; k < 16; ++k, tolerance *= 2) {
-        report(go_on, 0);
+        go_on.report(0);
         const std::string what = fmt::format("zfp -q -f -{}{} -a {} -z {}", count, axes, tolerance, quoted(coded));
         const double began = processor_seconds_of_programs();
         if (!run(fmt::format("{} -i {}", what, quoted(raw)))) break;
@@ -211,7 +211,7 @@ std::optional<RateCurve> measure_openjpeg(const LightField& field, const Quality
     RateCurve curve{"OpenJPEG", {}};
     const double samples = field.grid().samples() * 1e-6;
     for (const int ratio : {2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256}) {
-        report(go_on, 0);
+        go_on.report(0);
         for (const auto& path : {plain, coded}) {
             std::filesystem::remove_all(path);
             std::filesystem::create_directory(path);
@@ -259,7 +259,7 @@ std::optional<RateCurve> measure_peer(const LightField& field, const std::string
     RateCurve curve{name, {}};
     const double samples = field.grid().samples() * 1e-6;
     for (const double quality : peer.qualities) {
-        report(go_on, 0);
+        go_on.report(0);
         std::filesystem::remove_all(coded);
         std::filesystem::create_directory(coded);
         const double began = processor_seconds_of_programs();

@@ -109,7 +109,7 @@ void print_limits(const std::string& algorithm, const LightFieldGrid& grid, doub
     constexpr int not_zero = 0x3f;
     const double writing = times_of(
                                [&] {
-                                   parallel_for(some.tiles().size(), [&](std::size_t i) {
+                                   core::parallel_for(some.tiles().size(), [&](std::size_t i) {
                                        const auto values = some.tiles()[i].radiance.elements();
                                        std::memset(values.data(), not_zero, values.size_bytes());
                                    });

@@ -30,7 +30,7 @@ class ConsumingSink final : public LightFieldSink {
         for (std::size_t c = 0; c < grid_.channels; ++c)
             for (std::size_t t = 0; t < tile.range.nt; ++t)
                 for (std::size_t s = 0; s < tile.range.ns; ++s) {
-                    to_half(&tile.radiance(c, t, s, 0, 0), halves.data(), halves.size());
+                    core::to_half(&tile.radiance(c, t, s, 0, 0), halves.data(), halves.size());
                     const std::size_t place =
                         (c * grid_.hogels_t + tile.range.t0 + t) * grid_.hogels_s + tile.range.s0 + s;
                     sum += (2 * place + 1) * digest(halves);

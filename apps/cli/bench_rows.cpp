@@ -22,7 +22,7 @@ HogelRows::HogelRows(const LightFieldSource& source, std::size_t rows) : source_
 }
 
 void HogelRows::render() {
-    parallel_for(tiles_.size(), [&](std::size_t i) { source_.read(tiles_[i]); });
+    core::parallel_for(tiles_.size(), [&](std::size_t i) { source_.read(tiles_[i]); });
 }
 
 std::vector<HogelPlace> HogelRows::some(std::size_t count) const {

@@ -50,20 +50,20 @@ std::unique_ptr<LightFieldSource> open(const Session& session, const Options& op
 }
 
 // Each coder with the transforms that go with it.
-std::vector<CodingMethod> methods_of(const Options& options) {
+std::vector<codec::CodingMethod> methods_of(const Options& options) {
     const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::ranges::count(names, name) > 0;
     };
-    std::vector<CodingMethod> methods;
-    for (const std::string_view coder : coder_names()) {
+    std::vector<codec::CodingMethod> methods;
+    for (const std::string_view coder : codec::coder_names()) {
         if (!wanted(options.coders, coder)) continue;
-        if (default_transform(coder).empty()) methods.push_back({std::string(coder), ""});
-        for (const std::string_view transform : transform_names())
-            if (!default_transform(coder).empty() && (coder == "jpeg4d") == (transform == "dct8") &&
+        if (codec::default_transform(coder).empty()) methods.push_back({std::string(coder), ""});
+        for (const std::string_view transform : transform::transform_names())
+            if (!codec::default_transform(coder).empty() && (coder == "jpeg4d") == (transform == "dct8") &&
                 wanted(options.transforms, transform)) {
                 methods.push_back({std::string(coder), std::string(transform)});
                 if (coder == "jpeg4d")
-                    methods.push_back({std::string(coder), std::string(transform), QuantisationTable::jpeg});
+                    methods.push_back({std::string(coder), std::string(transform), coding::QuantisationTable::jpeg});
             }
     }
     return methods;
@@ -97,7 +97,7 @@ std::string table(const std::vector<RateCurve>& curves, const std::vector<double
 int bench(const Options& options, const Session& session) {
     const auto source = open(session, options);
     for (const std::string& name : options.coders)
-        make_tile_coder({name, std::string(default_transform(name))}, source->grid());
+        codec::make_tile_coder({name, std::string(codec::default_transform(name))}, source->grid());
     std::optional<Stage> reading(std::in_place, session, "reading");
     const LightField field = load(*source, options.grey, reading->progress());
     reading.reset();
@@ -111,7 +111,7 @@ int bench(const Options& options, const Session& session) {
     const QualityRange range{sqnrs.front(), sqnrs.back()};
     std::vector<RateCurve> curves;
     const Progress go_on = [](double) { return interrupted_by() == 0; };
-    for (const CodingMethod& method : methods_of(options)) {
+    for (const codec::CodingMethod& method : methods_of(options)) {
         session.detail(fmt::format("{} {}", method.coder, method.transform));
         curves.push_back(measure_method(field, method, range, go_on));
     }
@@ -140,7 +140,7 @@ int bench(const Options& options, const Session& session) {
         if (options.thesis) drawn.push_back({"[K]", {{8, 30}}});
         const std::string svg =
             plot_svg({name, subtitle, "Pixels per bit", "SQNR (dB)", PlotText::Scale::linear}, drawn);
-        write_file(folder->path() / fmt::format("codec_{}.svg", name),
+        core::write_file(folder->path() / fmt::format("codec_{}.svg", name),
                    {reinterpret_cast<const unsigned char*>(svg.data()), svg.size()});
     }
     return 0;
@@ -162,13 +162,13 @@ void add_bench_codec(CLI::App& app, Session& session) {
     command->add_option("-o,--output", options->output, "Folder for a plot, SVG")->type_name("DIR");
     command
         ->add_option("--coders", options->coders,
-                     fmt::format("{}; all if none are named", fmt::join(coder_names(), ", ")))
+                     fmt::format("{}; all if none are named", fmt::join(codec::coder_names(), ", ")))
         ->type_name("NAME,...")
         ->delimiter(',');
     command->add_option("--transforms", options->transforms, "Transforms; all if none are named")
         ->type_name("NAME,...")
         ->delimiter(',')
-        ->check(CLI::IsMember(transform_names()).description(""));
+        ->check(CLI::IsMember(transform::transform_names()).description(""));
     command->add_option("--sqnr", options->sqnrs, "SQNRs to tell the rate at")
         ->type_name("DB,...")
         ->delimiter(',')

@@ -154,7 +154,7 @@ std::shared_ptr<const ShadedScene> bench_scene(const Session& session, const std
     if (input_kind(plain) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", plain));
     Scene scene = behind(load_scene(session, plain, render), 0.05 * render.size);
-    if (parts != 1) scene = tessellate(scene, parts);
+    if (parts != 1) scene = scene::tessellate(scene, parts);
     return lit(session, scene, render);
 }
 

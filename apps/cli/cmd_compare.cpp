@@ -63,11 +63,11 @@ Difference sum_blocks(const Blocks& blocks, Stage& stage,
                       const std::function<Difference(const Region&)>& compare_block) {
     Difference sum;
     const Progress progress = stage.progress();
-    parallel_ordered<Difference>(
-        blocks.count(), default_in_flight(), [&](std::size_t i) { return compare_block(blocks[i]); },
+    core::parallel_ordered<Difference>(
+        blocks.count(), core::default_in_flight(), [&](std::size_t i) { return compare_block(blocks[i]); },
         [&](std::size_t i, Difference& block) {
             sum.add(block);
-            report(progress, static_cast<double>(i + 1) / static_cast<double>(blocks.count()));
+            progress.report(static_cast<double>(i + 1) / static_cast<double>(blocks.count()));
         });
     return sum;
 }

@@ -10,6 +10,9 @@
 #include "outputs.h"
 
 namespace hogel::cli {
+
+using namespace codec::format;
+
 namespace {
 
 struct Options {
@@ -21,8 +24,8 @@ struct Options {
     bool no_depth = false;
 };
 
-const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
-                                                      {"own", QuantisationTable::own}};
+const std::map<std::string, coding::QuantisationTable> tables{{"jpeg", coding::QuantisationTable::jpeg},
+                                                      {"own", coding::QuantisationTable::own}};
 const std::vector<std::string> tones{"none", "histogram"};
 const std::vector<std::string> layouts{"faces", "unfolded"};
 
@@ -39,7 +42,7 @@ int compress_file(Options options, const Session& session) {
         target.sqnr = defaults.sqnr;
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
     if (compression.method.transform.empty())
-        compression.method.transform = default_transform(compression.method.coder);
+        compression.method.transform = codec::default_transform(compression.method.coder);
     if (!options.table.empty()) {
         if (compression.method.coder != "jpeg4d")
             throw Error(ErrorCode::usage, fmt::format("coder {} has no quantisation table; --table goes with jpeg4d",
@@ -68,7 +71,7 @@ void add_compress(CLI::App& app, Session& session) {
                                     "  hogel compress pumpkin.h5 -o exact.hgl --lossless\n"
                                     "  hogel compress pumpkin.h5 -o k.hgl --coder ezw --transform ai33 --sqnr 30",
                                     [options, &session] { return compress_file(*options, session); });
-    CodingMethod& method = options->compression.method;
+    codec::CodingMethod& method = options->compression.method;
     CompressionTarget& target = options->compression.target;
     command->add_option("input", options->input, "Light field")->type_name("X.h5|X.hgl")->required();
     command->add_option("-o,--output", options->output, "Compressed light field to write")
@@ -98,13 +101,13 @@ void add_compress(CLI::App& app, Session& session) {
         ->excludes(ppb)
         ->excludes(step)
         ->excludes(max_error);
-    command->add_option("--coder", method.coder, fmt::format("{}", fmt::join(coder_names(), ", ")))
+    command->add_option("--coder", method.coder, fmt::format("{}", fmt::join(codec::coder_names(), ", ")))
         ->type_name("NAME")
         ->capture_default_str();
     command
         ->add_option(
             "--transform", method.transform,
-            fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform_names(), ", ")))
+            fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform::transform_names(), ", ")))
         ->type_name("NAME");
     command
         ->add_option("--table", options->table,

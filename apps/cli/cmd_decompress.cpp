@@ -28,7 +28,7 @@ void copy_together(const std::vector<std::unique_ptr<LightFieldSource>>& faces,
                 faces[i]->read(tile);
                 sinks[i]->write(tile);
             }
-            report(progress, static_cast<double>(t) / static_cast<double>(grid.hogels_t));
+            progress.report(static_cast<double>(t) / static_cast<double>(grid.hogels_t));
         }
     for (const auto& sink : sinks) sink->finish();
 }

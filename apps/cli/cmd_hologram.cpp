@@ -34,16 +34,16 @@ void say_what_was_made(const Options& options, const std::vector<FieldGrid>& gri
 
 // Said, not refused: it shows only where things are deep.
 void warn_of_parallax(const Session& session, const LightFieldSource& light_field, double pitch) {
-    const double parallax = neighbouring_parallax(light_field, pitch);
-    if (parallax <= most_parallax) return;
+    const double parallax = hologram::neighbouring_parallax(light_field, pitch);
+    if (parallax <= hologram::most_parallax) return;
     const LightFieldGrid& grid = light_field.grid();
     const auto enough = [&](std::size_t count) {
-        return std::ceil(static_cast<double>(count) * parallax / most_parallax);
+        return std::ceil(static_cast<double>(count) * parallax / hologram::most_parallax);
     };
     session.say(
         fmt::format("neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap "
                     "well up to {:.0f}; {}x{} directions would do",
-                    parallax, most_parallax, enough(grid.directions_u), enough(grid.directions_v)));
+                    parallax, hologram::most_parallax, enough(grid.directions_u), enough(grid.directions_v)));
 }
 
 // The field of a scene by a method that knows no light fields.

@@ -45,7 +45,7 @@ int print(const Options& options, const Session& session) {
     Stage stage(session, "pictures");
     const Progress progress = stage.progress();
     for (std::size_t t = 0; t < grid.hogels_t; ++t) {
-        report(progress, static_cast<double>(t) / static_cast<double>(grid.hogels_t));
+        progress.report(static_cast<double>(t) / static_cast<double>(grid.hogels_t));
         LightFieldTile tile(grid, {0, t, grid.hogels_s, 1}, false);
         light_field->read(tile);
         if (options.strips) {
@@ -54,7 +54,7 @@ int print(const Options& options, const Session& session) {
                 paste(tile, place_in_row(i, t, grid.hogels_s, serpentine), strip, i * grid.directions_u);
             write_image(name(t + 1), strip, options.exposure, describe_run(session));
         } else {
-            parallel_for(grid.hogels_s, [&](std::size_t i) {
+            core::parallel_for(grid.hogels_s, [&](std::size_t i) {
                 Image hogel(grid.directions_u, grid.directions_v, grid.channels);
                 paste(tile, place_in_row(i, t, grid.hogels_s, serpentine), hogel, 0);
                 write_image(name(t * grid.hogels_s + i + 1), hogel, options.exposure);

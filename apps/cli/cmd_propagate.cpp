@@ -6,6 +6,7 @@
 #include "display.h"
 #include "fields.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/propagate.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -64,7 +65,7 @@ int propagate_fields(const Options& options, const Session& session) {
     for (const auto& field : file.fields) grids.push_back(field->grid());
     Stage stage(session, "propagation");
     const auto colour = [&](std::size_t c, FieldSink& sink) {
-        propagate(*file.fields[c], options.distance, sink, 0, scratch, stage.progress(c, grids.size()));
+        hogel::propagate(*file.fields[c], options.distance, sink, 0, scratch, stage.progress(c, grids.size()));
     };
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::hologram) {

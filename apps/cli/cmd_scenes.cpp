@@ -8,8 +8,7 @@ namespace hogel::cli {
 
 void add_scenes(CLI::App& app, Session& session) {
     add_command(app, session, "scenes", "List the built-in scenes", "  hogel scenes", [] {
-        for (const BuiltinScene& scene : builtin_scenes()) fmt::print("{:<16} {}\n", scene.name, scene.description);
-        fmt::print("{:<16} {}\n", church_radiance_scene.name, church_radiance_scene.description);
+        for (const SceneInfo& scene : scenes().rows()) fmt::print("{:<16} {}\n", scene.name, scene.text);
         return 0;
     });
 }

@@ -28,10 +28,7 @@ constexpr double kept_bytes = 2e9;
 // Of a larger one rows of hogels are kept up to this, while the squares that they hold are read.
 constexpr double kept_tile_bytes = 1e9;
 
-bool is_builtin(const std::string& name) {
-    return name == church_radiance_scene.name ||
-           std::ranges::any_of(builtin_scenes(), [&](const BuiltinScene& scene) { return scene.name == name; });
-}
+bool is_builtin(const std::string& name) { return scenes().look_up(name) != nullptr; }
 
 // The middle and half of the range of U that a field of view spans around an angle.
 struct Tangents {
@@ -217,7 +214,7 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
               ->add_option("--basis", options.basis,
                            fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
                                        "direction), {} (default: the file's, or {})",
-                                       fmt::join(transform_names(), ", "), defaults.basis))
+                                       fmt::join(transform::transform_names(), ", "), defaults.basis))
               ->type_name("NAME"));
     group(command
               ->add_option("--tolerance", options.tolerance,
@@ -250,7 +247,7 @@ InputKind input_kind(const std::string& name) {
     if (!std::filesystem::exists(name)) {
         if (name.find_first_of("./") != std::string::npos)
             throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
-        make_builtin_scene(name, defaults.size);  // knows the names that exist, and says so
+        make_scene(name, defaults.size);  // knows the names that exist, and says so
     }
     switch (file_kind(name)) {
         case FileKind::light_field:
@@ -269,11 +266,10 @@ InputKind input_kind(const std::string& name) {
 }
 
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options) {
-    if (name == church_radiance_scene.name) {
-        Stage stage(session, "baking");
-        return make_church_radiance(options.size, stage.progress());
+    if (is_builtin(name)) {
+        Stage stage(session, "scene");
+        return make_scene(name, options.size, stage.progress());
     }
-    if (is_builtin(name)) return make_builtin_scene(name, options.size);
     Scene scene = import_scene(name);
     if (!options.as_is) {
         Fit fit;
@@ -297,8 +293,8 @@ std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scen
     auto shaded = std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
     shaded->fronts_only = options.fronts_only;
     if (options.light_spacing > 0)
-        cache_light(*shaded,
-                    light_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.light_spacing));
+        shading::cache_light(*shaded,
+                    render::light_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.light_spacing));
     if (const auto& cache = shaded->light_cache)
         session.detail(fmt::format("light on surfaces: at most {}; no room for that of {} of {} triangles",
                                    format_bytes(cache->bytes()), cache->triangles_without_room(),
@@ -329,7 +325,7 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
 std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramOptions& hologram) {
     if (methods.at(hologram.method) == Method::basis && is_stream(name)) {
         const StreamInfo info = read_stream_info(name);
-        const CodingMethod& stored = info.method;
+        const codec::CodingMethod& stored = info.method;
         if (stored.coder == "fringes" && !info.mapping.changes() &&
             (hologram.basis.empty() || hologram.basis == stored.transform)) {
             hologram.basis = stored.transform;

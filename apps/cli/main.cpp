@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "help.h"
+#include "hogel/version.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "session.h"

@@ -13,13 +13,13 @@ namespace hogel::cli {
 namespace fs = std::filesystem;
 
 void require_writable(const fs::path& file) {
-    const OutputFile output(file);  // complains about a missing folder, or a folder in the file's place
+    const core::OutputFile output(file);  // complains about a missing folder, or a folder in the file's place
     if (access(output.temporary().parent_path().c_str(), W_OK) != 0)
         throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-    write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+    core::write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
 }
 
 void add_resume_flag(CLI::App* command, bool& resume) {

@@ -76,7 +76,7 @@ std::optional<RateCurve> measure_openexr(const LightField& field, const std::str
     for (const float value : sheet.samples()) signal += static_cast<double>(value) * value;
     RateCurve curve{"OpenEXR " + compression, {}};
     for (const int level : levels) {
-        report(go_on, 0);
+        go_on.report(0);
         const double began = processor_seconds();
         const auto bytes = sheet.coded(fmt::format("{}:{}", compression, level));
         const double between = processor_seconds();

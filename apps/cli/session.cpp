@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "help.h"
+#include "hogel/version.h"
 
 namespace hogel::cli {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "hogel/progress.h"
 #include "hogel/scene.h"
-#include "hogel/scenes.h"
 
 namespace hogel {
 
@@ -27,11 +26,5 @@ struct BakeOptions {
 /// The same bytes for any number of threads. Cost: vertices × rays × (1 + bounces/8) rays, and a shadow ray a light for
 /// each vertex of the cut triangles. Throws what shade() throws, and Error(usage) for zero rays or parts.
 Scene bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
-
-/// The built-in church, cut into 3.4 million triangles, with its global solution: [K] fig. 5.27. Not one of
-/// builtin_scenes(), because it takes a while to make.
-inline constexpr BuiltinScene church_radiance_scene{"church-radiance",
-                                                    "the church with all its reflected light, 3.4 million triangles"};
-Scene make_church_radiance(double hologram_size, const Progress& progress = {});
 
 }  // namespace hogel

@@ -24,12 +24,12 @@ struct CompressionTarget {
 };
 
 struct CompressionOptions {
-    CodingMethod method;
+    codec::CodingMethod method;
     CompressionTarget target;
     std::optional<HogelRange> tile;  ///< size of the tiles; by default what suits the coder
     Metadata metadata;               ///< no word of the name `filler`
     /// By default `gathered` where that can be and the coder is hogel, otherwise `faces`.
-    std::optional<StreamLayout> layout;
+    std::optional<codec::format::StreamLayout> layout;
     bool with_depth = false;  ///< whether the sources' depth is stored, too
     double depth_error = 0;   ///< of each at most, metres; 0: a 1,000th of the depths' range
     /// Decades of luminance that the light field is mapped to before it is coded, by the adjustment of its histogram
@@ -71,12 +71,12 @@ CompressionResult compress(std::span<const LightFieldSource* const> faces, const
 struct StreamInfo {
     LightFieldGrid grid;
     HogelRange tile;  ///< size of the tiles that are coded apart, s0 = t0 = 0
-    CodingMethod method;
+    codec::CodingMethod method;
     Metadata metadata;
     std::vector<LightFieldGrid> sides = {};  ///< further faces of a hemicube, whose front is `grid`
-    StreamLayout layout = StreamLayout::faces;
-    RadianceMapping mapping = {};            ///< of what is coded
-    std::uint32_t version = latest_version;  ///< of the format
+    codec::format::StreamLayout layout = codec::format::StreamLayout::faces;
+    codec::format::RadianceMapping mapping = {};            ///< of what is coded
+    std::uint32_t version = codec::latest_version;  ///< of the format
     std::uint64_t filler = 0;                ///< bytes that say nothing, so that the file is as long as was asked for
     /// How often the file gets finer: where each layer of all tiles ends in it, the last one at its end. Older versions
     /// have a single one.

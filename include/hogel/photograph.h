@@ -7,7 +7,7 @@
 
 #include "hogel/array.h"
 #include "hogel/camera.h"
-#include "hogel/core/paged_array.h"
+#include "hogel/resources.h"
 #include "hogel/field.h"
 #include "hogel/image.h"
 

@@ -1,25 +1,30 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
+#include <functional>
 #include <string>
 #include <string_view>
 
+#include "hogel/progress.h"
 #include "hogel/scene.h"
+#include "hogel/table.h"
+
 namespace hogel {
 
-struct BuiltinScene {
-    std::string_view name;
-    std::string_view description;  ///< one line
+/// A scene that is made by a program rather than read from a file.
+struct SceneInfo {
+    std::string name;
+    std::string text;  ///< one line
+    /// For a square hologram with the given side (metres): the scene's size and its depths scale with it.
+    std::function<Scene(double hologram_size, const Progress& progress)> make;
 };
 
-/// All built-in scenes, in the order in which to show them.
-std::span<const BuiltinScene> builtin_scenes();
+/// The built-in scenes.
+Table<SceneInfo>& scenes();
 
-/// Makes a built-in scene for a square hologram with the given side (metres): its size and its depths scale with it.
-/// Throws Error(usage) for an unknown name, with the names that exist.
-Scene make_builtin_scene(std::string_view name, double hologram_size);
-
+/// Makes the scene of that name. Throws Error(usage) for an unknown name, with the names that exist, and for a size that
+/// is not positive.
+Scene make_scene(std::string_view name, double hologram_size, const Progress& progress = {});
 
 /// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
 /// colours and base-colour textures, glTF's metallic-roughness materials, with all node transforms applied, in the
@@ -44,7 +49,6 @@ void fit_scene(Scene& scene, const Fit& fit);
 /// A key light from the upper left in front, a weaker fill light from the right and a little ambient light, for scenes
 /// that bring no lights. Directional, so independent of the scene's size.
 void add_default_lights(Scene& scene);
-
 
 /// Writes a scene with given radiance as a binary glTF file (.glb), in metres and in the world frame: the radiance of a
 /// vertex is its colour (linear, 32-bit floats, above 1 where it is), the materials are unlit (KHR_materials_unlit),

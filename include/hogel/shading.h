@@ -10,8 +10,13 @@
 
 #include "hogel/progress.h"
 #include "hogel/scene.h"
-#include "hogel/shading/texture.h"
+
 namespace hogel {
+
+struct ShadedScene;
+namespace shading {
+class LightCache;
+}
 
 /// Where light is worked out. The models of [K] 5.8.
 enum class ShadingModel {
@@ -55,9 +60,24 @@ ShadedScene shade(const Scene& scene, const ShadingOptions& options, const Progr
 ShadedScene shade_vertices(const Scene& scene);
 
 
-class LightCache;
-class RayCaster;
-struct ShadedScene;
+
+/// A picture on a surface, repeated in both directions, with coarser versions of itself to be seen from afar.
+class Texture {
+  public:
+    /// Point sampled unless `filtered`: then levels of half the size, each the mean of the one before, down to a single
+    /// texel, are made (a third more memory).
+    Texture(std::shared_ptr<const Image> finest, bool filtered = false);
+
+    /// The picture interpolated between texels, averaged over about `width` texels of the finest level.
+    Rgb sample(TextureCoordinate at, double width) const;
+    /// Texels of the finest level in the unit square of texture coordinates.
+    double texels() const { return static_cast<double>(finest_->width()) * static_cast<double>(finest_->height()); }
+    bool filtered() const { return !coarser_.empty(); }
+
+  private:
+    std::shared_ptr<const Image> finest_;
+    std::vector<Image> coarser_;
+};
 
 /// How a sample looks at a surface.
 struct Sight {
@@ -115,7 +135,7 @@ struct ShadedScene {
     /// both sides and is kept off by both.
     bool fronts_only = false;
     std::shared_ptr<const SampleLighting> lighting;  ///< null where `radiance` says it all
-    std::shared_ptr<LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null: worked out
+    std::shared_ptr<shading::LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null: worked out
                                               ///< for each ray
 
     /// Whether light is worked out for the samples of this triangle, and its vertices have none.
@@ -125,11 +145,6 @@ struct ShadedScene {
     /// Whether interpolating the vertices' radiance is not all there is to this triangle.
     bool needs_samples(std::size_t index) const { return triangles[index].texture != no_texture || is_lit(index); }
 };
-
-/// All triangles, numbered as in the scene, for rays to meet (trace/ray_caster.h): for light, both sides of them, or
-/// those that are seen.
-RayCaster all_triangles(const ShadedScene& scene);
-RayCaster seen_triangles(const ShadedScene& scene);
 
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).
 Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const Sight& sight = {});

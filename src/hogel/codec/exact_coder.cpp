@@ -12,7 +12,10 @@
 #include "hogel/codec/hogel_coder.h"
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::codec {
+
+using namespace format;
+
 namespace {
 
 // Floats as whole numbers in the same order, without the bits that are zero in all floats of a tile.
@@ -190,7 +193,7 @@ class ExactDecoder final : public TileDecoder {
 
     void read(LightFieldTile& part) override {
         // A thread that waits inside must not begin something else that waits for this tile.
-        isolate([&] {
+        core::isolate([&] {
             const std::lock_guard lock(mutex_);
             HogelRange coded = part.range;  // whole codes
             if (!tile_.hogels_apart) {
@@ -204,7 +207,7 @@ class ExactDecoder final : public TileDecoder {
             if (!missing.empty()) {
                 LightFieldTile made(grid_, coded, false);
                 prediction_->read(made);
-                parallel_for(missing.size(), [&](std::size_t k) {
+                core::parallel_for(missing.size(), [&](std::size_t k) {
                     const std::size_t t = missing[k] / across, s = missing[k] % across;
                     const std::size_t first = place(coded.t0 + t, coded.s0 + s);
                     tile_.decode(first / a_code, made, t, s, counted_);
@@ -214,7 +217,7 @@ class ExactDecoder final : public TileDecoder {
                     }
                 });
             }
-            parallel_for(part.range.hogels(), [&](std::size_t n) {
+            core::parallel_for(part.range.hogels(), [&](std::size_t n) {
                 const std::size_t t = part.range.t0 + n / part.range.ns, s = part.range.s0 + n % part.range.ns;
                 copy_common(*kept(t, s), part);
             });
@@ -269,7 +272,7 @@ class ExactCoder final : public TileCoder {
         const auto exact = ExactTile<Rule>::take(bytes, tile.range);
         predictor_->decode(exact.prediction, tile);
         const std::size_t across = exact.hogels_apart ? tile.range.ns : 1;
-        parallel_for(exact.codes.size(),
+        core::parallel_for(exact.codes.size(),
                      [&](std::size_t k) { exact.decode(k, tile, k / across, k % across, counted_); });
     }
 
@@ -309,7 +312,7 @@ class ExactCoder final : public TileCoder {
     // Whether hogels are large enough to have codes of their own, going by a row in the middle.
     bool hogels_apart(const LightFieldTile& tile, const Rule& rule, const LightFieldTile& prediction) const {
         std::vector<std::size_t> bytes(tile.range.ns);
-        parallel_for(bytes.size(), [&](std::size_t s) {
+        core::parallel_for(bytes.size(), [&](std::size_t s) {
             bytes[s] = encode_code(tile, rule, prediction, tile.range.nt / 2, s, s + 1, nullptr).size();
         });
         return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= least_own_code * bytes.size();
@@ -341,7 +344,7 @@ class ExactCoder final : public TileCoder {
                       ByteWriter& bytes) const {
         const std::size_t across = apart ? tile.range.ns : 1, a_code = tile.range.ns / across;
         std::vector<std::vector<std::uint8_t>> codes(across * tile.range.nt);
-        parallel_for(codes.size(), [&](std::size_t k) {
+        core::parallel_for(codes.size(), [&](std::size_t k) {
             const std::size_t s = k % across;
             codes[k] = encode_code(tile, rule, prediction, k / across, s, s + a_code, &prediction);
         });
@@ -367,4 +370,4 @@ std::unique_ptr<TileCoder> make_bounded_coder(const LightFieldGrid& grid, const 
     return std::make_unique<ExactCoder<Bounded>>(grid, counted, version, max_error);
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec

@@ -10,7 +10,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -76,7 +76,7 @@ TEST(Lossless, every_bit_comes_back) {
 TEST(Lossless, noise_takes_little_more_than_it_is) {
     LightField field = textured_planes(6, 6, 32, 24, 1);
     std::uint32_t k = 0;
-    for (float& value : field.radiance.elements()) value = std::bit_cast<float>(philox({k++, 7, 7, 7}, {1, 2})[0]);
+    for (float& value : field.radiance.elements()) value = std::bit_cast<float>(core::philox({k++, 7, 7, 7}, {1, 2})[0]);
     CompressionResult result;
     expect_same_bits(field, through(field, lossless(), &result));
     EXPECT_LT(double(result.bytes), 1.1 * 4 * 6 * 6 * 32 * 24);
@@ -177,7 +177,7 @@ TEST(Exact, bytes_of_any_kind_do_no_harm) {
     // A hogel with a code of its own.
     LightField noise(LightFieldGrid{1, 1, 1e-3, 72, 64, 0.3, 0.3, 1});
     std::uint32_t k = 0;
-    for (float& value : noise.radiance.elements()) value = static_cast<float>(philox({k++, 7, 7, 7}, {1, 2})[0]);
+    for (float& value : noise.radiance.elements()) value = static_cast<float>(core::philox({k++, 7, 7, 7}, {1, 2})[0]);
     LightFieldTile one(noise.grid(), {0, 0, 1, 1}, false);
     noise.read(one);
     const auto coder = make_lossless_coder(noise.grid(), {});
@@ -185,4 +185,4 @@ TEST(Exact, bytes_of_any_kind_do_no_harm) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec

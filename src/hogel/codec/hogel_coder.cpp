@@ -19,7 +19,10 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec {
+
+using namespace format;
+
 namespace {
 
 constexpr std::size_t preferred_side = 32;  // where prediction gains little more
@@ -51,7 +54,7 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Pictu
 
 // Of the first hogels the first one has no references, and the others have none near by.
 constexpr std::size_t first_hogels = 9;
-using Estimates = std::array<Estimate, first_hogels>;
+using Estimates = std::array<encode::Estimate, first_hogels>;
 
 // Codes a tile level by level: decides on all hogels of a level, and then writes their codes, each by itself.
 class TileEncoder {
@@ -61,7 +64,7 @@ class TileEncoder {
                 std::uint8_t references)
         : tile_(tile),
           counted_(counted),
-          setup_(HogelOrder(tile.range.ns, tile.range.nt, references, tellers_a_side), grid.directions_u,
+          setup_(HogelOrder(tile.range.ns, tile.range.nt, references, decode::tellers_a_side), grid.directions_u,
                  grid.directions_v, grid.channels, step, expected_growth,
                  static_cast<float>(grid.step_u() / grid.step_v()), latest_version),
           references_(references),
@@ -73,8 +76,8 @@ class TileEncoder {
 
     Estimates estimate() const {
         Estimates estimates;
-        parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
-            if (order_[k].level < 2) estimates[k] = estimate_disparities(setup_, tile_, order_[k]);
+        core::parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
+            if (order_[k].level < 2) estimates[k] = encode::estimate_disparities(setup_, tile_, order_[k]);
         });
         return estimates;
     }
@@ -93,7 +96,7 @@ class TileEncoder {
         TileCoder::Encoded result;
         for (std::size_t level = 0; level + 1 < waves_of_levels.size(); ++level) {
             for (std::size_t wave = waves_of_levels[level]; wave < waves_of_levels[level + 1]; ++wave) {
-                parallel_for(waves[wave + 1] - waves[wave], [&](std::size_t n) { decide(waves[wave] + n); });
+                core::parallel_for(waves[wave + 1] - waves[wave], [&](std::size_t n) { decide(waves[wave] + n); });
                 if (go_on && !go_on(error(), bytes_.bytes.size())) return std::nullopt;
             }
             write(waves[waves_of_levels[level]], waves[waves_of_levels[level + 1]]);
@@ -119,7 +122,7 @@ class TileEncoder {
         // Nobody looks at this part of the tile any more: what is decoded may lie there.
         pictures_[k] = setup_.whole_blocks() ? as_in_tile(tile_, setup_, hogel.s, hogel.t) : setup_.blank();
         const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
-        coded_[k] = analyse(setup_, k, source, moved, beside(hogel),
+        coded_[k] = encode::analyse(setup_, k, source, moved, beside(hogel),
                             k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
         BlockRecorder recorder;
         BlockModelNumbers numbers = numbers_;
@@ -138,9 +141,9 @@ class TileEncoder {
         std::vector<BitCount> counts(states_.count());
         for (std::size_t k = begin; k < end; k += apart) count_bits(records_[k], counts);
         const ModelStates states(counts, states_);
-        const std::vector<BitModel> models = states.models_in_order();
+        const std::vector<coding::BitModel> models = states.models_in_order();
         std::vector<std::vector<std::uint8_t>> codes(end - begin);
-        parallel_for(codes.size(), [&](std::size_t n) {
+        core::parallel_for(codes.size(), [&](std::size_t n) {
             codes[n] = write_bits(records_[begin + n], models);
             records_[begin + n] = {};
         });
@@ -197,13 +200,13 @@ class ReferencesTrial {
     double cost(std::uint8_t references, double most = std::numeric_limits<double>::infinity()) {
         std::array<std::atomic<double>, windows> costs{};
         std::atomic<bool> too_much = false;
-        parallel_for(windows, [&](std::size_t n) {
+        core::parallel_for(windows, [&](std::size_t n) {
             Window window = window_of(tile_, grid_, 1 + 2 * n);
             const DirectionCross all;
             TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(step_), references);
             if (!estimates_[n]) estimates_[n] = encoder.estimate();
             const auto cost = [&](double error, std::size_t bytes) {
-                return error + bit_worth * step_ * step_ * 8 * static_cast<double>(bytes);
+                return error + encode::bit_worth * step_ * step_ * 8 * static_cast<double>(bytes);
             };
             const auto coded = encoder.run(*estimates_[n], [&](double error, std::size_t bytes) {
                 costs[n] = cost(error, bytes);
@@ -249,7 +252,7 @@ class HogelCoder final : public TileCoder {
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         std::size_t side = preferred_side;
-        while (side > 1 && side * side * samples_in_blocks(grid) > preferred_samples) --side;
+        while (side > 1 && side * side * decode::samples_in_blocks(grid) > preferred_samples) --side;
         // Tiles of nearly one size rather than whole ones and a narrow rest.
         const auto even = [&](std::size_t count) {
             const std::size_t tiles = (count + side - 1) / side;
@@ -262,28 +265,28 @@ class HogelCoder final : public TileCoder {
 
     std::size_t layers(const HogelRange& tile) const override {
         return version_ < 3 ? 1
-                            : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, begin_of_order(version_)));
+                            : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, decode::begin_of_order(version_)));
     }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
-        if (!hogel_tile_fits(grid_, tile.range))
+        if (!decode::hogel_tile_fits(grid_, tile.range))
             throw Error(ErrorCode::usage, fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
                                                       "{} and {} samples in whole blocks",
-                                                      tile.range.ns, tile.range.nt, most_hogel_tile_side,
-                                                      most_hogel_tile_side, most_hogel_tile_samples));
+                                                      tile.range.ns, tile.range.nt, decode::most_hogel_tile_side,
+                                                      decode::most_hogel_tile_side, decode::most_hogel_tile_samples));
         TileEncoder encoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step));
         return *encoder.run(encoder.estimate());
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        if (version_ < 3) return decode_chained_hogels(bytes, grid_, tile);
-        HogelDecoder({bytes.begin(), bytes.end()}, grid_, tile.range, layers(tile.range), version_).read(tile);
+        if (version_ < 3) return encode::decode_chained_hogels(bytes, grid_, tile);
+        decode::HogelDecoder({bytes.begin(), bytes.end()}, grid_, tile.range, layers(tile.range), version_).read(tile);
     }
 
     std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
                                       const HogelRange& range, std::size_t levels) const override {
         if (version_ < 3) return TileCoder::open(std::move(bytes), grid, range, levels);
-        return std::make_unique<HogelDecoder>(std::move(bytes), grid, range, levels, version_);
+        return std::make_unique<decode::HogelDecoder>(std::move(bytes), grid, range, levels, version_);
     }
 
   private:
@@ -299,4 +302,4 @@ std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const Di
     return std::make_unique<HogelCoder>(grid, counted, version);
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec

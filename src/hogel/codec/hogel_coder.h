@@ -4,12 +4,12 @@
 
 #include "hogel/codec/tile_coder.h"
 
-namespace hogel {
+namespace hogel::codec {
 
 // The coder "hogel" (docs/codec.md): hogels predicted from each other along their disparities, from far apart to side
 // by side.
 // @param version   of the format
-std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted = {},
+std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const format::DirectionCross& counted = {},
                                             std::uint32_t version = latest_version);
 
-}  // namespace hogel
+}  // namespace hogel::codec

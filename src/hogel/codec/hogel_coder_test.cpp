@@ -12,7 +12,10 @@
 #include "hogel/codec/test_fields.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec {
+
+using namespace format;
+
 namespace {
 
 LightFieldTile whole(const LightField& field) {
@@ -122,7 +125,7 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
                               static_cast<float>(grid.step_u() / grid.step_v()), latest_version);
         for (const HogelOrder::Hogel& hogel : setup.order.hogels()) {
             if (hogel.level > 0) break;
-            std::vector<std::int16_t> estimated = estimate_disparities(setup, tile, hogel).disparities;
+            std::vector<std::int16_t> estimated = encode::estimate_disparities(setup, tile, hogel).disparities;
             std::ranges::nth_element(estimated, estimated.begin() + std::ptrdiff_t(estimated.size() / 2));
             EXPECT_NEAR(estimated[estimated.size() / 2] / 64.0, disparity, 0.04) << disparity;
         }
@@ -187,7 +190,7 @@ TEST(HogelCoder, single_samples_and_lines_take_few_bits) {
         return 8 * bytes / (side * side / block_samples);
     };
     const auto place = [](std::size_t at, std::uint32_t seed) {
-        return 1 + philox({static_cast<std::uint32_t>(at / block_side), seed, 0, 0}, {7, 8})[0] % 6;
+        return 1 + core::philox({static_cast<std::uint32_t>(at / block_side), seed, 0, 0}, {7, 8})[0] % 6;
     };
     // A sample somewhere in each block; a line across all blocks below each other; across all those side by side.
     EXPECT_LT(bits_of_a_block([&](std::size_t v, std::size_t u) {
@@ -209,7 +212,7 @@ TEST(Blocks, levels_of_all_bases_come_back) {
         Levels levels{};
         const std::uint32_t filled = 1 + n % block_samples;
         for (std::uint32_t k = 0; k < filled; ++k) {
-            const auto random = philox({n, k, 0, 0}, {3, 4});
+            const auto random = core::philox({n, k, 0, 0}, {3, 4});
             levels[random[0] % block_samples] = static_cast<std::int32_t>(random[1]) >> (8 + random[2] % 24);
         }
         levels[n % block_samples] = n % 2 == 0 ? 1 : -1;  // at least one
@@ -281,7 +284,7 @@ TEST(HogelCoder, bytes_of_any_kind_do_no_harm) {
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
         std::vector<std::uint8_t> noise(good.begin(), good.begin() + 8);
         for (std::uint32_t i = 0; i < 1000; ++i)
-            noise.push_back(static_cast<std::uint8_t>(philox({i, seed, 0, 0}, {5, 6})[0]));
+            noise.push_back(static_cast<std::uint8_t>(core::philox({i, seed, 0, 0}, {5, 6})[0]));
         refuses(*coder, noise, tile);
     }
 }
@@ -300,4 +303,4 @@ TEST(HogelCoder, tiles_that_are_too_large_are_refused) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec

@@ -12,7 +12,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec {
 namespace {
 
 CompressionOptions small_tiles(const char* coder, const char* transform) {
@@ -26,7 +26,7 @@ CompressionOptions small_tiles(const char* coder, const char* transform) {
 
 TEST(Stream, checksum_is_the_one_of_png) {
     const std::string text = "123456789";
-    EXPECT_EQ(checksum({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0xCBF43926u);
+    EXPECT_EQ(core::checksum({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0xCBF43926u);
 }
 
 TEST(Stream, header_says_what_was_written) {
@@ -50,7 +50,7 @@ TEST(Stream, reads_any_range_the_same) {
     copy(*open_stream(folder / "a.hgl"), whole);
     for (const std::size_t memory : {std::size_t{1}, std::size_t{5000}, std::size_t{1} << 30}) {
         const auto source = open_stream(folder / "a.hgl", {.memory = memory});
-        parallel_for(200, [&](std::size_t i) {
+        core::parallel_for(200, [&](std::size_t i) {
             HogelRange range{i % 7, i / 7 % 5, 0, 0};
             range.ns = 1 + i % (7 - range.s0);
             range.nt = 1 + i % (5 - range.t0);
@@ -296,4 +296,4 @@ TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec

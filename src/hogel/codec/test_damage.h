@@ -11,7 +11,7 @@
 #include "hogel/codec/tile_coder.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec {
 
 /// Whether a tile's bytes are refused, which must be by Error(bad_input).
 inline bool refuses(const TileCoder& coder, std::span<const std::uint8_t> bytes, LightFieldTile tile) {
@@ -50,9 +50,9 @@ inline std::size_t end_of_header(const std::vector<std::uint8_t>& stream) {
 inline std::vector<std::uint8_t> with_number(std::vector<std::uint8_t> stream, std::size_t at, std::uint64_t value) {
     const std::size_t end = end_of_header(stream);
     for (std::size_t i = 0; i < 8; ++i) stream[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
-    const std::uint32_t sum = checksum(std::span(std::as_const(stream)).first(end));
+    const std::uint32_t sum = core::checksum(std::span(std::as_const(stream)).first(end));
     for (std::size_t i = 0; i < 4; ++i) stream[end + i] = static_cast<std::uint8_t>(sum >> (8 * i));
     return stream;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec

@@ -16,7 +16,7 @@
 #include "hogel/error.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::codec {
 
 // Two textured planes at different depths, the nearer one covering the middle, with a little noise.
 inline LightField textured_planes(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u,
@@ -37,7 +37,7 @@ inline LightField textured_planes(std::size_t hogels_s, std::size_t hogels_t, st
                     if (!near) std::tie(x, y) = at(4 * per_hogel);
                     const double scale = 20 / per_hogel;
                     const auto noise =
-                        philox({std::uint32_t(i), std::uint32_t(j), std::uint32_t(k), std::uint32_t(l)}, {1, 2})[0];
+                        core::philox({std::uint32_t(i), std::uint32_t(j), std::uint32_t(k), std::uint32_t(l)}, {1, 2})[0];
                     for (std::size_t c = 0; c < channels; ++c)
                         field.radiance(c, j, i, l, k) =
                             static_cast<float>(0.6 + 0.2 * std::sin(scale * x + double(c)) * std::cos(1.3 * scale * y) +
@@ -98,4 +98,4 @@ inline ErrorCode code_of(const std::function<void()>& call) {
     return ErrorCode{0};
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec

@@ -10,7 +10,9 @@
 #include "hogel/codec/hogel_coder.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec {
+
+using namespace format;
 
 std::vector<std::string_view> coder_names() { return {"hogel", "threepass", "ezw", "jpeg4d", "fringes"}; }
 
@@ -45,7 +47,7 @@ std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const Lig
     if (!std::ranges::count(coder_names(), method.coder))
         throw Error(ErrorCode::usage, fmt::format("there is no coder '{}'; expected one of {}", method.coder,
                                                   fmt::join(coder_names(), ", ")));
-    if (method.coder != "hogel") return make_classic_coder(method, counted, version);
+    if (method.coder != "hogel") return baselines::make_classic_coder(method, counted, version);
     if (!method.transform.empty())
         throw Error(ErrorCode::usage,
                     fmt::format("coder hogel has its own transform; expected none, not {}", method.transform));
@@ -57,4 +59,4 @@ std::string_view default_transform(std::string_view coder) {
     return coder == "jpeg4d" ? "dct8" : "cdf97";
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec

@@ -13,7 +13,7 @@
 #include "hogel/coding/jpeg4d.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::codec {
 
 /// A tile that is decoded where it is read.
 class TileDecoder {
@@ -67,7 +67,7 @@ class TileCoder {
 struct CodingMethod {
     std::string coder = "hogel";
     std::string transform;                             ///< empty for the coder hogel, which has one of its own
-    QuantisationTable table = QuantisationTable::own;  ///< for jpeg4d to encode with; each tile says which it has
+    coding::QuantisationTable table = coding::QuantisationTable::own;  ///< for jpeg4d to encode with; each tile says which it has
     friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
 };
 
@@ -81,9 +81,9 @@ constexpr std::uint32_t latest_version = 6;
 /// @param version   of the format (docs/format.md); only of the latest one anything can be encoded
 /// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
-                                           const DirectionCross& counted = {}, std::uint32_t version = latest_version);
+                                           const format::DirectionCross& counted = {}, std::uint32_t version = latest_version);
 
 /// The transform that a coder is used with where none is named.
 std::string_view default_transform(std::string_view coder);
 
-}  // namespace hogel
+}  // namespace hogel::codec

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 constexpr std::uint32_t most_total = 1u << 16;
@@ -118,4 +118,4 @@ std::uint32_t ArithmeticDecoder::raw(int count) {
     return value;
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

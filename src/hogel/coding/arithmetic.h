@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hogel {
+namespace hogel::coding {
 
 /// Adaptive arithmetic coding: a range coder with carry propagation, and models that learn as they code. Encoder and
 /// decoder have to be given the same models in the same order.
@@ -155,4 +155,4 @@ inline bool ArithmeticDecoder::even() {
     return value;
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

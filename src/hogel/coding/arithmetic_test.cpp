@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -166,4 +166,4 @@ TEST(Arithmetic, a_flat_model_is_searched_as_it_is_summed) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::coding

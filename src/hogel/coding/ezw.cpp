@@ -10,7 +10,7 @@
 #include "hogel/coding/quantise.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 constexpr int planes = 30;
@@ -121,7 +121,7 @@ class Decoding {
     ArithmeticDecoder decoder_;
 };
 
-void check_size(const Pyramid& pyramid, std::size_t size) {
+void check_size(const transform::Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
         throw Error(ErrorCode::usage,
                     fmt::format("EZW: {} values given, expected the {} of the pyramid", size, pyramid.size()));
@@ -129,7 +129,7 @@ void check_size(const Pyramid& pyramid, std::size_t size) {
 
 }  // namespace
 
-std::vector<std::uint8_t> ezw_encode(const Pyramid& pyramid, std::span<const float> values, const EzwLimit& limit) {
+std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::span<const float> values, const EzwLimit& limit) {
     check_size(pyramid, values.size());
     if (limit.sqnr && !(*limit.sqnr > 0))
         throw Error(ErrorCode::usage, fmt::format("EZW: an SQNR of {} dB, expected more than 0", *limit.sqnr));
@@ -155,7 +155,7 @@ std::vector<std::uint8_t> ezw_encode(const Pyramid& pyramid, std::span<const flo
     return bytes;
 }
 
-void ezw_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
+void ezw_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
     check_size(pyramid, values.size());
     std::fill(values.begin(), values.end(), 0.0f);
     if (bytes.size() < header) return;
@@ -168,4 +168,4 @@ void ezw_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std
     ezw_passes(Forest(pyramid), planes, decoding);
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -8,7 +8,7 @@
 
 #include "hogel/coding/forest.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 enum class EzwSymbol { positive, negative, zerotree, isolated };
 
@@ -80,4 +80,4 @@ class EzwMagnitudes {
     std::vector<std::uint8_t> subtree_bits_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::coding

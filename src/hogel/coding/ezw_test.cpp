@@ -10,7 +10,7 @@
 #include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 using Extents = std::vector<std::size_t>;
@@ -32,7 +32,7 @@ class Figure {
     }
     bool full() const { return false; }
 
-    const Forest forest{Pyramid(Extents{16}, {{{0}, 4}})};
+    const Forest forest{transform::Pyramid(Extents{16}, {{{0}, 4}})};
     std::array<std::string, 3> passes, refinements;
 
   private:
@@ -61,7 +61,7 @@ TEST(Ezw, figure_4_16_symbol_by_symbol) {
     EXPECT_EQ(figure.refinements[0], "1101110");
 }
 
-std::vector<float> picture(const Pyramid& pyramid) {
+std::vector<float> picture(const transform::Pyramid& pyramid) {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     const std::vector<std::size_t> strides = pyramid.strides();
@@ -73,7 +73,7 @@ std::vector<float> picture(const Pyramid& pyramid) {
                      (0.11 + 0.07 * static_cast<double>(axis));
         values[i] = static_cast<float>(std::sin(phase) + (phase > 2 ? 0.5 : 0)) + 0.01f * normal(random);
     }
-    transform("ai33").forward(pyramid, values);
+    transform::transform("ai33").forward(pyramid, values);
     return values;
 }
 
@@ -85,9 +85,9 @@ double error(std::span<const float> a, std::span<const float> b) {
 }
 
 TEST(Ezw, whole_streams_are_exact_to_the_last_plane) {
-    for (const Pyramid& pyramid :
-         {Pyramid::interleaved({1}), Pyramid::interleaved({37}), Pyramid::interleaved({16, 31, 9}),
-          Pyramid::interleaved({7, 6, 9, 8}), Pyramid::separate({7, 6, 9, 8}, {{0, 1}, {2, 3}})}) {
+    for (const transform::Pyramid& pyramid :
+         {transform::Pyramid::interleaved({1}), transform::Pyramid::interleaved({37}), transform::Pyramid::interleaved({16, 31, 9}),
+          transform::Pyramid::interleaved({7, 6, 9, 8}), transform::Pyramid::separate({7, 6, 9, 8}, {{0, 1}, {2, 3}})}) {
         const std::vector<float> values = picture(pyramid);
         std::vector<float> decoded(values.size());
         ezw_decode(pyramid, ezw_encode(pyramid, values), decoded);
@@ -98,7 +98,7 @@ TEST(Ezw, whole_streams_are_exact_to_the_last_plane) {
 }
 
 TEST(Ezw, any_prefix_decodes_and_more_bytes_are_better) {
-    const Pyramid pyramid = Pyramid::interleaved({15, 16, 9});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({15, 16, 9});
     const std::vector<float> values = picture(pyramid);
     const Bytes whole = ezw_encode(pyramid, values);
     std::vector<float> decoded(values.size());
@@ -119,7 +119,7 @@ TEST(Ezw, any_prefix_decodes_and_more_bytes_are_better) {
 }
 
 TEST(Ezw, stops_at_the_sqnr_asked_for) {
-    const Pyramid pyramid = Pyramid::interleaved({15, 16, 9, 5});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({15, 16, 9, 5});
     const std::vector<float> values = picture(pyramid);
     std::vector<float> decoded(values.size());
     for (double asked : {3.0, 10.0, 25.0, 40.0, 90.0}) {
@@ -136,7 +136,7 @@ TEST(Ezw, stops_at_the_sqnr_asked_for) {
 
 TEST(Ezw, hostile_bytes_decode_to_finite_values_or_an_error) {
     std::mt19937 random(6);
-    const Pyramid pyramid = Pyramid::interleaved({9, 8, 7});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 8, 7});
     const Bytes good = ezw_encode(pyramid, picture(pyramid), {300, {}});
     std::vector<float> decoded(pyramid.size());
     for (int trial = 0; trial < 1000; ++trial) {
@@ -155,7 +155,7 @@ TEST(Ezw, hostile_bytes_decode_to_finite_values_or_an_error) {
 }
 
 TEST(Ezw, zeros_and_nonsense) {
-    const Pyramid pyramid = Pyramid::interleaved({4, 4});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({4, 4});
     std::vector<float> values(16), decoded(16, 1.0f);
     EXPECT_EQ(ezw_encode(pyramid, values).size(), 4u);
     ezw_decode(pyramid, ezw_encode(pyramid, values), decoded);
@@ -167,4 +167,4 @@ TEST(Ezw, zeros_and_nonsense) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::coding

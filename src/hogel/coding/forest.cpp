@@ -7,7 +7,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 // What a band is along one axis.
@@ -30,7 +30,7 @@ std::vector<std::size_t> halved(std::size_t children, std::size_t begin, std::si
     return places;
 }
 
-std::vector<GroupBand> bands_of_group(const Pyramid& pyramid, const AxisGroup& group) {
+std::vector<GroupBand> bands_of_group(const transform::Pyramid& pyramid, const transform::AxisGroup& group) {
     const std::size_t axes = group.axes.size();
     const auto extent = [&](std::size_t a, int level) { return pyramid.coarse_extent(group.axes[a], level); };
     // The orientations of a level are sets of axes, as bits: those along which a band holds details.
@@ -78,19 +78,19 @@ std::vector<GroupBand> bands_of_group(const Pyramid& pyramid, const AxisGroup& g
 
 }  // namespace
 
-Forest::Forest(const Pyramid& pyramid) : strides_(pyramid.strides()), size_(pyramid.size()) {
+Forest::Forest(const transform::Pyramid& pyramid) : strides_(pyramid.strides()), size_(pyramid.size()) {
     const std::size_t rank = pyramid.shape().size();
     if (rank > 8) throw Error(ErrorCode::usage, fmt::format("zerotrees: {} dimensions, expected at most 8", rank));
     // Axes in no group are groups that are never halved.
-    std::vector<AxisGroup> groups = pyramid.groups();
+    std::vector<transform::AxisGroup> groups = pyramid.groups();
     for (std::size_t axis = 0; axis < rank; ++axis)
-        if (std::none_of(groups.begin(), groups.end(), [&](const AxisGroup& group) {
+        if (std::none_of(groups.begin(), groups.end(), [&](const transform::AxisGroup& group) {
                 return std::find(group.axes.begin(), group.axes.end(), axis) != group.axes.end();
             }))
             groups.push_back({{axis}, 0});
     std::vector<std::vector<GroupBand>> by_group;
     std::size_t combinations = 1;
-    for (const AxisGroup& group : groups) {
+    for (const transform::AxisGroup& group : groups) {
         by_group.push_back(bands_of_group(pyramid, group));
         combinations *= by_group.back().size();
         if (combinations > 100000)
@@ -122,4 +122,4 @@ Forest::Forest(const Pyramid& pyramid) : strides_(pyramid.strides()), size_(pyra
     std::stable_sort(bands_.begin(), bands_.end(), [](const Band& a, const Band& b) { return a.depth < b.depth; });
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -6,7 +6,7 @@
 
 #include "hogel/transform/pyramid.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 /// The coefficients of a wavelet transform as trees ([K] 4.4.2, fig. 4.15, in any dimensions): the parent of a
 /// coefficient is the one at the same place in the same orientation one level coarser, that of the coarsest details the
@@ -31,7 +31,7 @@ class Forest {
     };
 
     /// Throws Error(usage) for more than 8 axes or more than 100000 bands.
-    explicit Forest(const Pyramid& pyramid);
+    explicit Forest(const transform::Pyramid& pyramid);
 
     /// From roots to leaves: a band stands after that of its parents.
     const std::vector<Band>& bands() const { return bands_; }
@@ -69,4 +69,4 @@ void Forest::for_each(const Band& band, Visit&& visit) const {
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

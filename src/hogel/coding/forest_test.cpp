@@ -6,26 +6,26 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 using Extents = std::vector<std::size_t>;
 
-std::vector<Pyramid> pyramids() {
-    std::vector<Pyramid> all;
-    for (std::size_t n = 1; n <= 40; ++n) all.push_back(Pyramid::interleaved({n}));
+std::vector<transform::Pyramid> pyramids() {
+    std::vector<transform::Pyramid> all;
+    for (std::size_t n = 1; n <= 40; ++n) all.push_back(transform::Pyramid::interleaved({n}));
     for (std::size_t n = 1; n <= 13; ++n)
-        for (std::size_t m = 1; m <= 13; ++m) all.push_back(Pyramid::interleaved({n, m}));
-    all.push_back(Pyramid::interleaved({5, 1, 17, 8}));
-    all.push_back(Pyramid(Extents{2, 3, 33, 31}, {{{0, 1, 2, 3}, 9}}));
-    all.push_back(Pyramid::separate({6, 7, 9, 16}, {{0, 1}, {2, 3}}));
-    all.push_back(Pyramid::separate({6, 7, 9, 16}, {{3}, {2, 0}}));
-    all.push_back(Pyramid(Extents{4, 5}, {}));
+        for (std::size_t m = 1; m <= 13; ++m) all.push_back(transform::Pyramid::interleaved({n, m}));
+    all.push_back(transform::Pyramid::interleaved({5, 1, 17, 8}));
+    all.push_back(transform::Pyramid(Extents{2, 3, 33, 31}, {{{0, 1, 2, 3}, 9}}));
+    all.push_back(transform::Pyramid::separate({6, 7, 9, 16}, {{0, 1}, {2, 3}}));
+    all.push_back(transform::Pyramid::separate({6, 7, 9, 16}, {{3}, {2, 0}}));
+    all.push_back(transform::Pyramid(Extents{4, 5}, {}));
     return all;
 }
 
 TEST(Forest, holds_every_coefficient_once_and_parents_come_first) {
-    for (const Pyramid& pyramid : pyramids()) {
+    for (const transform::Pyramid& pyramid : pyramids()) {
         const Forest forest(pyramid);
         std::vector<bool> seen(pyramid.size()), has_child(pyramid.size());
         for (const Forest::Band& band : forest.bands())
@@ -49,12 +49,12 @@ TEST(Forest, holds_every_coefficient_once_and_parents_come_first) {
 
 // [K] fig. 4.15: the parent of gamma_{j+1,2k} and gamma_{j+1,2k+1} is gamma_{j,k}; in 2D four children each.
 TEST(Forest, of_powers_of_two_are_binary_and_quad_trees) {
-    const Forest line{Pyramid(Extents{16}, {{{0}, 4}})};
+    const Forest line{transform::Pyramid(Extents{16}, {{{0}, 4}})};
     for (const Forest::Band& band : line.bands())
         line.for_each(band, [&](std::size_t index, std::size_t parent) {
             EXPECT_EQ(parent, index == 0 ? Forest::no_parent : index / 2);
         });
-    const Forest square{Pyramid(Extents{8, 8}, {{{0, 1}, 3}})};
+    const Forest square{transform::Pyramid(Extents{8, 8}, {{{0, 1}, 3}})};
     std::vector<int> children(64);
     for (const Forest::Band& band : square.bands())
         square.for_each(band, [&](std::size_t index, std::size_t parent) {
@@ -66,7 +66,7 @@ TEST(Forest, of_powers_of_two_are_binary_and_quad_trees) {
     for (std::size_t i = 1; i < 64; ++i) EXPECT_EQ(children[i], i / 8 < 4 && i % 8 < 4 ? 4 : 0) << i;
 }
 
-TEST(Forest, too_many_dimensions_are_refused) { EXPECT_THROW(Forest(Pyramid::interleaved(Extents(9, 2))), Error); }
+TEST(Forest, too_many_dimensions_are_refused) { EXPECT_THROW(Forest(transform::Pyramid::interleaved(Extents(9, 2))), Error); }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::coding

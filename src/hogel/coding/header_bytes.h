@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hogel {
+namespace hogel::coding {
 
 // Floats at the head of a coder's stream, little-endian.
 inline void put_float(std::vector<std::uint8_t>& bytes, float value) {
@@ -19,4 +19,4 @@ inline float get_float(std::span<const std::uint8_t> bytes) {
     return std::bit_cast<float>(word);
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -14,7 +14,7 @@
 #include "hogel/coding/quantise.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 constexpr int b_limit = 30;
@@ -28,7 +28,7 @@ struct Models {
     std::array<BitModel, b_limit + 1> second;
 };
 
-void check_size(const Pyramid& pyramid, std::size_t size) {
+void check_size(const transform::Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
         throw Error(ErrorCode::usage,
                     fmt::format("jpeg4d: {} values given, expected the {} of the pyramid", size, pyramid.size()));
@@ -87,7 +87,7 @@ bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, T
 
 }  // namespace
 
-std::vector<std::uint8_t> jpeg4d_encode(const Pyramid& pyramid, std::span<const float> values, double scale,
+std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::span<const float> values, double scale,
                                         QuantisationTable table) {
     check_size(pyramid, values.size());
     const float most = largest_magnitude(values), stored_scale = static_cast<float>(scale);
@@ -136,7 +136,7 @@ std::vector<std::uint8_t> jpeg4d_encode(const Pyramid& pyramid, std::span<const 
     return bytes;
 }
 
-void jpeg4d_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
+void jpeg4d_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
     check_size(pyramid, values.size());
     const auto damaged = [](const char* what) {
         throw Error(ErrorCode::bad_input, fmt::format("jpeg4d stream: {}, expected a whole undamaged one", what));
@@ -171,4 +171,4 @@ void jpeg4d_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, 
     if (!decoder.all_read()) damaged("bytes are left over");
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -6,7 +6,7 @@
 
 #include "hogel/transform/pyramid.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 /// What the frequencies of a block are divided by.
 enum class QuantisationTable {
@@ -35,10 +35,10 @@ enum class QuantisationTable {
 ///
 /// Throws Error(usage) when a value is not finite, their number is not the pyramid's, more than four axes are
 /// transformed, or the scale is not positive or so small that a level has more than 30 bits. Cost: O(size).
-std::vector<std::uint8_t> jpeg4d_encode(const Pyramid& pyramid, std::span<const float> values, double scale,
+std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::span<const float> values, double scale,
                                         QuantisationTable table = QuantisationTable::own);
 
 /// Throws Error(bad_input) when the bytes are not a whole stream; every truncated one is found out.
-void jpeg4d_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values);
+void jpeg4d_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values);
 
-}  // namespace hogel
+}  // namespace hogel::coding

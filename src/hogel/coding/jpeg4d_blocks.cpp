@@ -8,7 +8,7 @@
 #include "hogel/error.h"
 #include "hogel/transform/dct.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 // ISO 10918-1 (JPEG), table K.1.
@@ -25,11 +25,11 @@ constexpr std::array<std::array<int, 8>, 8> luminance{{{16, 11, 10, 16, 24, 40, 
 
 std::vector<Frequency> zigzag(std::size_t axes) {
     std::size_t count = 1;
-    for (std::size_t axis = 0; axis < axes; ++axis) count *= dct_block;
+    for (std::size_t axis = 0; axis < axes; ++axis) count *= transform::dct_block;
     std::vector<Frequency> order;
     for (std::size_t i = 0; i < count; ++i) {
         Frequency frequency(axes);
-        for (std::size_t axis = axes, rest = i; axis-- > 0; rest /= dct_block) frequency[axis] = rest % dct_block;
+        for (std::size_t axis = axes, rest = i; axis-- > 0; rest /= transform::dct_block) frequency[axis] = rest % transform::dct_block;
         order.push_back(frequency);
     }
     std::sort(order.begin(), order.end(), [](const Frequency& a, const Frequency& b) {
@@ -43,7 +43,7 @@ std::vector<Frequency> zigzag(std::size_t axes) {
 
 std::size_t place_in_block(const Frequency& frequency) {
     std::size_t place = 0;
-    for (const std::size_t along : frequency) place = place * dct_block + along;
+    for (const std::size_t along : frequency) place = place * transform::dct_block + along;
     return place;
 }
 
@@ -81,15 +81,15 @@ void quantise_block(const Blocks::Kind& kind, const float* block, std::span<cons
     });
 }
 
-Blocks::Blocks(const Pyramid& pyramid) : shape_(pyramid.shape()), strides_(pyramid.strides()) {
-    for (const AxisGroup& group : pyramid.groups()) axes_.insert(axes_.end(), group.axes.begin(), group.axes.end());
+Blocks::Blocks(const transform::Pyramid& pyramid) : shape_(pyramid.shape()), strides_(pyramid.strides()) {
+    for (const transform::AxisGroup& group : pyramid.groups()) axes_.insert(axes_.end(), group.axes.begin(), group.axes.end());
     std::sort(axes_.begin(), axes_.end());
     if (axes_.size() > 4)
         throw Error(ErrorCode::usage, fmt::format("jpeg4d: {} transformed axes, expected at most 4", axes_.size()));
     grid_ = shape_;
     bit_of_axis_.assign(shape_.size(), 0);
     for (std::size_t a = 0; a < axes_.size(); ++a) {
-        grid_[axes_[a]] = (shape_[axes_[a]] + dct_block - 1) / dct_block;
+        grid_[axes_[a]] = (shape_[axes_[a]] + transform::dct_block - 1) / transform::dct_block;
         bit_of_axis_[axes_[a]] = std::size_t{1} << a;
     }
     for (std::size_t blocks : grid_) count_ *= blocks;
@@ -99,7 +99,7 @@ Blocks::Blocks(const Pyramid& pyramid) : shape_(pyramid.shape()), strides_(pyram
         bool exists = true;
         for (const std::size_t axis : axes_) {
             const bool shorter = (bits & bit_of_axis_[axis]) != 0;
-            extents.push_back(shorter ? shape_[axis] % dct_block : dct_block);
+            extents.push_back(shorter ? shape_[axis] % transform::dct_block : transform::dct_block);
             exists = exists && extents.back() > 0 && extents.back() <= shape_[axis];
         }
         kinds_.push_back(exists ? make_kind(extents, order) : Kind{});
@@ -136,7 +136,7 @@ Blocks::Kind Blocks::make_kind(const std::vector<std::size_t>& extents, const st
 Blocks::Block Blocks::operator[](std::size_t number) const {
     Block block{0, 0};
     for (std::size_t axis = shape_.size(); axis-- > 0; number /= grid_[axis]) {
-        const std::size_t side = bit_of_axis_[axis] > 0 ? dct_block : 1, first = number % grid_[axis] * side;
+        const std::size_t side = bit_of_axis_[axis] > 0 ? transform::dct_block : 1, first = number % grid_[axis] * side;
         block.origin += first * strides_[axis];
         if (first + side > shape_[axis]) block.kind += bit_of_axis_[axis];
     }
@@ -147,7 +147,7 @@ std::vector<Frequency> Blocks::frequencies() const {
     std::vector<Frequency> result = zigzag(axes_.size());
     std::erase_if(result, [&](const Frequency& frequency) {
         for (std::size_t a = 0; a < axes_.size(); ++a) {
-            const std::size_t n = std::min(shape_[axes_[a]], dct_block);
+            const std::size_t n = std::min(shape_[axes_[a]], transform::dct_block);
             if (frequency[a] > comparable_frequency(n - 1, n)) return true;
         }
         return false;
@@ -155,4 +155,4 @@ std::vector<Frequency> Blocks::frequencies() const {
     return result;
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

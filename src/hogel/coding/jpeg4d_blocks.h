@@ -12,7 +12,7 @@
 #include "hogel/transform/dct.h"
 #include "hogel/transform/pyramid.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 // An entry of a block: its frequency along each transformed axis.
 using Frequency = std::vector<std::size_t>;
@@ -43,7 +43,7 @@ class Blocks {
         std::size_t kind;
     };
 
-    explicit Blocks(const Pyramid& pyramid);
+    explicit Blocks(const transform::Pyramid& pyramid);
     std::size_t count() const { return count_; }
     Block operator[](std::size_t number) const;
     // Some may be of no block, and are empty.
@@ -63,7 +63,7 @@ class Blocks {
 };
 
 // Frequency k of n points oscillates as 8k/n of eight do.
-constexpr std::size_t comparable_frequency(std::size_t k, std::size_t n) { return k * dct_block / n; }
+constexpr std::size_t comparable_frequency(std::size_t k, std::size_t n) { return k * transform::dct_block / n; }
 
 // Steps of the frequencies of a whole block by place_in_block(), and from which fraction of a step on levels are
 // rounded up.
@@ -91,8 +91,8 @@ void for_each_large(const Blocks::Kind& kind, const float* block, std::span<cons
         const float* in = block + kind.offsets[first];
         const float* bound = &least[first];
         bool any = false;
-        if (kind.run == dct_block) {
-            for (std::size_t i = 0; i < dct_block; ++i) any |= std::abs(in[i]) >= bound[i];
+        if (kind.run == transform::dct_block) {
+            for (std::size_t i = 0; i < transform::dct_block; ++i) any |= std::abs(in[i]) >= bound[i];
             if (!any) continue;
         }
         for (std::size_t i = 0; i < kind.run; ++i)
@@ -121,7 +121,7 @@ class SparseLevels {
     }
 
   private:
-    static constexpr std::size_t most = dct_block * dct_block * dct_block * dct_block;
+    static constexpr std::size_t most = transform::dct_block * transform::dct_block * transform::dct_block * transform::dct_block;
     std::array<std::uint64_t, most / 64> used_{};
     std::array<std::int32_t, most> levels_;
 };
@@ -153,4 +153,4 @@ void for_each_tuple(const SparseLevels& levels, std::size_t count, Visit&& visit
     if (next < count) visit(Tuple{0, 0}, 0);
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -5,7 +5,7 @@
 
 #include "hogel/coding/jpeg4d_table.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 constexpr double round_up = 0.6;
@@ -21,7 +21,7 @@ class Prediction {
     int operator()(const Frequency& frequency) const {
         int sum = 0, count = 0;
         std::size_t step = 1;
-        for (std::size_t axis = frequency.size(); axis-- > 0; step *= dct_block)
+        for (std::size_t axis = frequency.size(); axis-- > 0; step *= transform::dct_block)
             if (frequency[axis] > 0) {
                 sum += exponents_[place_in_block(frequency) - step];
                 ++count;
@@ -177,4 +177,4 @@ bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents&
     return true;
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -7,7 +7,7 @@
 #include "hogel/coding/arithmetic.h"
 #include "hogel/coding/jpeg4d_blocks.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 // A table of a stream's own: for each frequency of a whole block, by place_in_block(), an exponent e; its step is
 // scale · 2^(e/4).
@@ -23,4 +23,4 @@ void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exp
 // False where they are none that can be written, or end too early.
 bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents& exponents);
 
-}  // namespace hogel
+}  // namespace hogel::coding

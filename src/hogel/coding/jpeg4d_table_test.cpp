@@ -8,14 +8,14 @@
 #include "hogel/coding/jpeg4d.h"
 #include "hogel/coding/quantise.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
 // Coefficients of blocks, each frequency normal with a spread of its own.
 template <class Spread>
-std::vector<float> noise(const Pyramid& pyramid, Spread&& spread) {
+std::vector<float> noise(const transform::Pyramid& pyramid, Spread&& spread) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
     const std::vector<std::size_t> strides = pyramid.strides();
@@ -28,7 +28,7 @@ std::vector<float> noise(const Pyramid& pyramid, Spread&& spread) {
     return values;
 }
 
-double squared_error(const Pyramid& pyramid, const std::vector<float>& values, const Bytes& code) {
+double squared_error(const transform::Pyramid& pyramid, const std::vector<float>& values, const Bytes& code) {
     std::vector<float> decoded(values.size());
     jpeg4d_decode(pyramid, code, decoded);
     for (std::size_t i = 0; i < values.size(); ++i) decoded[i] -= values[i];
@@ -36,7 +36,7 @@ double squared_error(const Pyramid& pyramid, const std::vector<float>& values, c
 }
 
 // Bytes for an SQNR, between the codes of the scales around it.
-double bytes_at(const Pyramid& pyramid, const std::vector<float>& values, double sqnr, QuantisationTable table) {
+double bytes_at(const transform::Pyramid& pyramid, const std::vector<float>& values, double sqnr, QuantisationTable table) {
     double before = 0, before_bytes = 0;
     for (double scale = 2; scale > 1e-5; scale /= 1.3) {
         const Bytes code = jpeg4d_encode(pyramid, values, scale, table);
@@ -54,7 +54,7 @@ TEST(OwnTable, comes_back) {
     std::mt19937 random(2);
     for (const std::vector<std::size_t>& shape :
          {std::vector<std::size_t>{8, 9, 1, 17}, {3}, {5, 12}, {2, 7, 8}, {16, 8, 8, 8}}) {
-        const Blocks blocks(Pyramid::interleaved(shape));
+        const Blocks blocks(transform::Pyramid::interleaved(shape));
         Exponents exponents(zigzag(shape.size()).size(), 0), read;
         for (const Frequency& frequency : blocks.frequencies())
             exponents[place_in_block(frequency)] = static_cast<std::uint8_t>(random() % (largest_exponent + 1));
@@ -74,19 +74,19 @@ TEST(OwnTable, comes_back) {
 // Told are exactly the frequencies that some block of the array has, or that lie below one.
 TEST(OwnTable, has_the_frequencies_of_the_blocks) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 9, 1, 17}, {3}, {5, 12}, {2, 7, 8}}) {
-        const Blocks blocks(Pyramid::interleaved(shape));
+        const Blocks blocks(transform::Pyramid::interleaved(shape));
         std::vector<bool> told(zigzag(shape.size()).size());
         for (const Frequency& frequency : blocks.frequencies()) told[place_in_block(frequency)] = true;
         for (const Blocks::Kind& kind : blocks.kinds())
             for (const std::uint16_t whole : kind.whole) EXPECT_TRUE(told[whole]);
     }
-    EXPECT_EQ(Blocks(Pyramid::interleaved({9, 1, 16})).frequencies().size(), 64u);
-    EXPECT_EQ(Blocks(Pyramid::interleaved({4, 2})).frequencies().size(), 7u * 5u);
+    EXPECT_EQ(Blocks(transform::Pyramid::interleaved({9, 1, 16})).frequencies().size(), 64u);
+    EXPECT_EQ(Blocks(transform::Pyramid::interleaved({4, 2})).frequencies().size(), 7u * 5u);
 }
 
 // Levels are the multiple of scale · 2^(e/4) that is nearest, but smaller up to 0.6 steps above one.
 TEST(OwnTable, decodes_to_multiples_of_its_steps) {
-    const Pyramid pyramid = Pyramid::interleaved({16, 24, 11});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({16, 24, 11});
     const std::vector<float> values = noise(pyramid, [](std::size_t sum) { return std::exp2(-0.4 * double(sum)); });
     const double scale = 0.0625;
     const Blocks blocks(pyramid);
@@ -114,7 +114,7 @@ TEST(OwnTable, decodes_to_multiples_of_its_steps) {
 // For squared error a flat table is right where steps are fine: theory's D'(q) = q/6 and R'(q) = -1/(q ln 2) meet at
 // q = scale. Where values lie below half a step, so that zeros are had for nothing, coarser steps are.
 TEST(OwnTable, is_flat_for_fine_steps_and_coarser_for_coarse_ones) {
-    const Pyramid pyramid = Pyramid::interleaved({64, 64, 8});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({64, 64, 8});
     const std::vector<float> values = noise(pyramid, [](std::size_t) { return 1.0; });
     const Blocks blocks(pyramid);
     const auto mean = [&](double scale) {
@@ -130,7 +130,7 @@ TEST(OwnTable, is_flat_for_fine_steps_and_coarser_for_coarse_ones) {
 // Also where there is but one block: the table costs less than it gains.
 TEST(OwnTable, takes_fewer_bytes_than_jpegs) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 8, 8, 8}, {64, 64, 8}, {64, 64}}) {
-        const Pyramid pyramid = Pyramid::interleaved(shape);
+        const transform::Pyramid pyramid = transform::Pyramid::interleaved(shape);
         const std::vector<float> values =
             noise(pyramid, [](std::size_t sum) { return std::exp2(-0.5 * static_cast<double>(sum)); });
         for (const double sqnr : {15.0, 30.0}) {
@@ -141,4 +141,4 @@ TEST(OwnTable, takes_fewer_bytes_than_jpegs) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::coding

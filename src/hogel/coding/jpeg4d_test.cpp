@@ -11,7 +11,7 @@
 #include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 using Extents = std::vector<std::size_t>;
@@ -80,7 +80,7 @@ TEST(Jpeg4d, tuples_count_zeros_and_bits) {
     EXPECT_EQ(tuples_of(levels).first, (std::vector<Tuple>{{31, 1}, {7, 2}}));  // full to the end: no end of block
 }
 
-std::vector<float> picture(const Pyramid& pyramid) {
+std::vector<float> picture(const transform::Pyramid& pyramid) {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     const std::vector<std::size_t> strides = pyramid.strides();
@@ -92,24 +92,24 @@ std::vector<float> picture(const Pyramid& pyramid) {
                      (0.3 + 0.1 * static_cast<double>(axis));
         values[i] = static_cast<float>(std::sin(phase)) + 0.02f * normal(random);
     }
-    transform("dct8").forward(pyramid, values);
+    transform::transform("dct8").forward(pyramid, values);
     return values;
 }
 
-std::vector<Pyramid> pyramids() {
-    return {Pyramid::interleaved({1}),
-            Pyramid::interleaved({37}),
-            Pyramid::interleaved({16, 31}),
-            Pyramid::interleaved({7, 9, 11, 8}),
-            Pyramid(Extents{9, 17, 3}, {{{2, 0}, 1}}),
-            Pyramid(Extents{5, 6}, {})};
+std::vector<transform::Pyramid> pyramids() {
+    return {transform::Pyramid::interleaved({1}),
+            transform::Pyramid::interleaved({37}),
+            transform::Pyramid::interleaved({16, 31}),
+            transform::Pyramid::interleaved({7, 9, 11, 8}),
+            transform::Pyramid(Extents{9, 17, 3}, {{{2, 0}, 1}}),
+            transform::Pyramid(Extents{5, 6}, {})};
 }
 
 // Each entry of each block, plainly: visit(offset, frequency that it is quantised as).
 template <class Visit>
-void for_each_entry(const Pyramid& pyramid, Visit&& visit) {
+void for_each_entry(const transform::Pyramid& pyramid, Visit&& visit) {
     std::vector<std::size_t> axes;
-    for (const AxisGroup& group : pyramid.groups()) axes.insert(axes.end(), group.axes.begin(), group.axes.end());
+    for (const transform::AxisGroup& group : pyramid.groups()) axes.insert(axes.end(), group.axes.begin(), group.axes.end());
     std::sort(axes.begin(), axes.end());
     const std::vector<std::size_t> strides = pyramid.strides();
     for (std::size_t offset = 0; offset < pyramid.size(); ++offset) {
@@ -123,7 +123,7 @@ void for_each_entry(const Pyramid& pyramid, Visit&& visit) {
 }
 
 TEST(Jpeg4d, decodes_to_the_nearest_multiple_of_the_table) {
-    for (const Pyramid& pyramid : pyramids())
+    for (const transform::Pyramid& pyramid : pyramids())
         for (double scale : {1e-6, 1e-3, 0.02, 10.0}) {
             const std::vector<float> values = picture(pyramid);
             std::vector<float> decoded(values.size(), 7.0f);
@@ -137,7 +137,7 @@ TEST(Jpeg4d, decodes_to_the_nearest_multiple_of_the_table) {
 }
 
 TEST(Jpeg4d, every_truncation_is_found_out_and_hostile_bytes_do_no_harm) {
-    const Pyramid pyramid = Pyramid::interleaved({9, 16, 10});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 16, 10});
     for (const QuantisationTable table : {QuantisationTable::jpeg, QuantisationTable::own}) {
         const Bytes good = jpeg4d_encode(pyramid, picture(pyramid), 0.05, table);
         ASSERT_EQ(good[4] >= 0x80, table == QuantisationTable::own);
@@ -161,13 +161,13 @@ TEST(Jpeg4d, every_truncation_is_found_out_and_hostile_bytes_do_no_harm) {
 }
 
 TEST(Jpeg4d, impossible_requests_are_refused) {
-    const Pyramid pyramid = Pyramid::interleaved({4});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({4});
     const std::vector<float> values{1, 2, 3, 4};
     for (double scale : {0.0, -1.0, 1e-300, 1e-12, std::nan(""), HUGE_VAL})
         EXPECT_THROW(jpeg4d_encode(pyramid, values, scale), Error) << scale;
     EXPECT_THROW(jpeg4d_encode(pyramid, std::vector<float>{1, 2, NAN, 4}, 1), Error);
-    EXPECT_THROW(jpeg4d_encode(Pyramid::interleaved(Extents(5, 1)), std::vector<float>{1}, 1), Error);
+    EXPECT_THROW(jpeg4d_encode(transform::Pyramid::interleaved(Extents(5, 1)), std::vector<float>{1}, 1), Error);
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -6,7 +6,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 double energy(std::span<const float> values) {
     double sum = 0;
@@ -51,4 +51,4 @@ double step_for_sqnr(std::span<const float> values, double sqnr) {
     return fine;
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

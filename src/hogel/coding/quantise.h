@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hogel {
+namespace hogel::coding {
 
 /// The quantiser of the zerotree coders: magnitudes in (k·step, (k+1)·step] are level k, so level 0 is twice as wide as
 /// the others. Half-open in this direction so that the largest magnitude T = 2^n · step has an n-bit level, as the
@@ -41,4 +41,4 @@ double step_for_sqnr(std::span<const float> values, double sqnr);
 /// The largest magnitude. Throws Error(usage) when a value is not finite.
 float largest_magnitude(std::span<const float> values);
 
-}  // namespace hogel
+}  // namespace hogel::coding

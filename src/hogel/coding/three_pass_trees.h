@@ -9,7 +9,7 @@
 #include "hogel/coding/forest.h"
 #include "hogel/coding/quantise.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 // The passes of the three-pass coder over the trees, apart from what becomes of the symbols. Numbers of bits take the
 // place of [K]'s p: a level of n bits has p_n = b_max − n, a subtree whose largest has t bits has p_t = b_max − t.
@@ -70,4 +70,4 @@ void read_three_pass(const Forest& forest, const Quantiser& quantiser, int plane
         });
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -11,7 +11,7 @@
 #include "hogel/coding/three_pass_trees.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 constexpr int most_planes = 30;
@@ -162,13 +162,13 @@ class AlphabetDecoding {
 }
 
 template <class Source>
-void read_all(const Pyramid& pyramid, float step, int planes, Source source, std::span<float> values) {
+void read_all(const transform::Pyramid& pyramid, float step, int planes, Source source, std::span<float> values) {
     read_three_pass(Forest(pyramid), Quantiser(step), planes, source, values);
     if (source.decoder().ended()) damaged("it ends too early or is damaged");
     if (!source.decoder().all_read()) damaged("bytes are left over");
 }
 
-void check_size(const Pyramid& pyramid, std::size_t size) {
+void check_size(const transform::Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
         throw Error(ErrorCode::usage, fmt::format("three-pass coder: {} values given, expected the {} of the pyramid",
                                                   size, pyramid.size()));
@@ -202,7 +202,7 @@ class Histogram {
 
 }  // namespace
 
-std::vector<std::uint8_t> three_pass_encode(const Pyramid& pyramid, std::span<const float> values, double step) {
+std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values, double step) {
     check_size(pyramid, values.size());
     const float most = largest_magnitude(values), stored_step = static_cast<float>(step);
     if (!(stored_step > 0) || !std::isfinite(stored_step) || most / stored_step > std::ldexp(1.0f, most_planes))
@@ -222,7 +222,7 @@ std::vector<std::uint8_t> three_pass_encode(const Pyramid& pyramid, std::span<co
     return bytes;
 }
 
-void three_pass_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
+void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
                        ThreePassCode code) {
     check_size(pyramid, values.size());
     if (bytes.size() < header) damaged("it ends within its header");
@@ -257,7 +257,7 @@ double three_pass_step(std::span<const float> values, double bits, double c) {
     return coarse;
 }
 
-std::vector<std::uint8_t> three_pass_encode_to_bits(const Pyramid& pyramid, std::span<const float> values,
+std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values,
                                                     double bits) {
     const double most = largest_magnitude(values);
     // Steps known to fit and to give too much; their logarithms, as those of sizes over steps are nearly straight.
@@ -285,4 +285,4 @@ std::vector<std::uint8_t> three_pass_encode_to_bits(const Pyramid& pyramid, std:
     return best;
 }
 
-}  // namespace hogel
+}  // namespace hogel::coding

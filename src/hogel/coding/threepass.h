@@ -6,7 +6,7 @@
 
 #include "hogel/transform/pyramid.h"
 
-namespace hogel {
+namespace hogel::coding {
 
 /// The three-pass zerotree coder ([K] 4.4.2, fig. 4.17), for the coefficients of a wavelet transform in the layout of
 /// `pyramid`, row-major.
@@ -26,14 +26,14 @@ namespace hogel {
 ///
 /// Throws Error(usage) when a value is not finite, their number is not the pyramid's, or the step is not positive or is
 /// less than 2⁻³⁰ of the largest magnitude. Cost: O(size), two bytes of memory a coefficient.
-std::vector<std::uint8_t> three_pass_encode(const Pyramid& pyramid, std::span<const float> values, double step);
+std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values, double step);
 
 /// How symbols are coded: bit by bit, or as they once were, from alphabets.
 enum class ThreePassCode { bits, alphabets };
 
 /// Throws Error(bad_input) when the bytes are not a whole stream; every truncated one is found out. Bytes that were
 /// changed may give other values, as only a checksum around the stream can tell.
-void three_pass_decode(const Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
+void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
                        ThreePassCode code = ThreePassCode::bits);
 
 /// Makes of values what three_pass_decode() makes of their stream, which is looked at for its step alone: much sooner.
@@ -46,6 +46,6 @@ double three_pass_step(std::span<const float> values, double bits, double c = 4.
 
 /// Encodes in `bits` or up to 2% less where that is possible, by correcting the rule's step with what it gave: a few
 /// times the cost of three_pass_encode. Fewer bits than the shortest stream has throw Error(usage).
-std::vector<std::uint8_t> three_pass_encode_to_bits(const Pyramid& pyramid, std::span<const float> values, double bits);
+std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values, double bits);
 
-}  // namespace hogel
+}  // namespace hogel::coding

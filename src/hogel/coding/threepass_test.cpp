@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
-namespace hogel {
+namespace hogel::coding {
 namespace {
 
 using Extents = std::vector<std::size_t>;
@@ -18,7 +18,7 @@ using Bytes = std::vector<std::uint8_t>;
 // The tree of [K] fig. 4.17, breadth first, with the children of −14 in the order in which fig. 4.16 codes them. The
 // coarse sample above it, which the figure has not, is 0.
 const std::vector<float> figure{0, 64, -42, 27, -14, 26, -30, 8, 2, -10, -35, 3, -10, -24, 7, 5};
-const Forest figure_forest{Pyramid(Extents{16}, {{{0}, 4}})};
+const Forest figure_forest{transform::Pyramid(Extents{16}, {{{0}, 4}})};
 
 TEST(ThreePass, figure_4_17_a_the_largest_in_each_subtree) {
     // p_t as printed, for b_max = 6: T_min = 1.
@@ -51,7 +51,7 @@ TEST(ThreePass, figure_4_17_c_symbol_by_symbol) {
 }
 
 // Something like a light field: smooth, with edges, and its transform.
-std::vector<float> picture(const Pyramid& pyramid) {
+std::vector<float> picture(const transform::Pyramid& pyramid) {
     const std::vector<std::size_t> strides = pyramid.strides();
     std::vector<float> values(pyramid.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -63,7 +63,7 @@ std::vector<float> picture(const Pyramid& pyramid) {
         }
         values[i] = static_cast<float>(std::sin(phase) + (edge > 3 ? 0.5 : 0));
     }
-    transform("cdf97").forward(pyramid, values);
+    transform::transform("cdf97").forward(pyramid, values);
     return values;
 }
 
@@ -76,15 +76,15 @@ double sqnr(std::span<const float> a, std::span<const float> b) {
     return 10 * std::log10(signal / noise);
 }
 
-std::vector<Pyramid> pyramids() {
-    return {Pyramid::interleaved({1}),          Pyramid::interleaved({37}),
-            Pyramid::interleaved({13, 1}),      Pyramid::interleaved({16, 31, 9}),
-            Pyramid::interleaved({7, 6, 9, 8}), Pyramid::separate({7, 6, 9, 8}, {{0, 1}, {2, 3}}),
-            Pyramid(Extents{20, 20}, {})};
+std::vector<transform::Pyramid> pyramids() {
+    return {transform::Pyramid::interleaved({1}),          transform::Pyramid::interleaved({37}),
+            transform::Pyramid::interleaved({13, 1}),      transform::Pyramid::interleaved({16, 31, 9}),
+            transform::Pyramid::interleaved({7, 6, 9, 8}), transform::Pyramid::separate({7, 6, 9, 8}, {{0, 1}, {2, 3}}),
+            transform::Pyramid(Extents{20, 20}, {})};
 }
 
 TEST(ThreePass, decodes_to_the_middles_of_the_levels) {
-    for (const Pyramid& pyramid : pyramids())
+    for (const transform::Pyramid& pyramid : pyramids())
         for (double step : {0.001, 0.1, 1.0, 100.0}) {
             const std::vector<float> values = picture(pyramid);
             const Bytes bytes = three_pass_encode(pyramid, values, step);
@@ -100,7 +100,7 @@ TEST(ThreePass, decodes_to_the_middles_of_the_levels) {
 }
 
 TEST(ThreePass, zeros_take_next_to_nothing) {
-    const Pyramid pyramid = Pyramid::interleaved({64, 64});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({64, 64});
     const std::vector<float> zeros(pyramid.size());
     const Bytes bytes = three_pass_encode(pyramid, zeros, 1);
     EXPECT_LE(bytes.size(), 6u);
@@ -110,7 +110,7 @@ TEST(ThreePass, zeros_take_next_to_nothing) {
 }
 
 TEST(ThreePass, every_truncation_is_found_out) {
-    const Pyramid pyramid = Pyramid::interleaved({9, 8, 7});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 8, 7});
     const Bytes bytes = three_pass_encode(pyramid, picture(pyramid), 0.05);
     std::vector<float> decoded(pyramid.size());
     three_pass_decode(pyramid, bytes, decoded);
@@ -120,7 +120,7 @@ TEST(ThreePass, every_truncation_is_found_out) {
 
 TEST(ThreePass, hostile_bytes_end_in_an_error_or_in_finite_values) {
     std::mt19937 random(3);
-    const Pyramid pyramid = Pyramid::interleaved({9, 8, 7});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 8, 7});
     const Bytes good = three_pass_encode(pyramid, picture(pyramid), 0.05);
     std::vector<float> decoded(pyramid.size());
     for (int trial = 0; trial < 3000; ++trial) {
@@ -138,7 +138,7 @@ TEST(ThreePass, hostile_bytes_end_in_an_error_or_in_finite_values) {
 }
 
 TEST(ThreePass, meets_the_size_asked_for) {
-    const Pyramid pyramid = Pyramid::interleaved({40, 50, 30});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({40, 50, 30});
     const std::vector<float> values = picture(pyramid);
     for (double bits_each : {0.05, 0.3, 1.0, 4.0}) {
         const double bits = bits_each * static_cast<double>(values.size());
@@ -153,7 +153,7 @@ TEST(ThreePass, meets_the_size_asked_for) {
 }
 
 TEST(ThreePass, meets_the_sqnr_asked_for) {
-    const Pyramid pyramid = Pyramid::interleaved({40, 50, 30});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({40, 50, 30});
     const std::vector<float> values = picture(pyramid);
     std::vector<float> decoded(values.size());
     for (double asked : {5.0, 20.0, 40.0, 80.0, 110.0}) {
@@ -164,7 +164,7 @@ TEST(ThreePass, meets_the_sqnr_asked_for) {
 }
 
 TEST(ThreePass, impossible_requests_are_refused) {
-    const Pyramid pyramid = Pyramid::interleaved({4});
+    const transform::Pyramid pyramid = transform::Pyramid::interleaved({4});
     const std::vector<float> values{1, 2, 3, 4};
     for (double step : {0.0, -1.0, 1e-300, 1e-12, std::nan(""), HUGE_VAL})
         EXPECT_THROW(three_pass_encode(pyramid, values, step), Error) << step;
@@ -174,4 +174,4 @@ TEST(ThreePass, impossible_requests_are_refused) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::coding

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 constexpr std::size_t at_once = 8;
@@ -39,4 +39,4 @@ std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
     return ~rest;
 }
 
-}  // namespace hogel
+}  // namespace hogel::core

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-namespace hogel {
+namespace hogel::core {
 
 /// CRC-32 as in PNG and zlib (ISO 3309, polynomial 0xEDB88320).
 std::uint32_t checksum(std::span<const std::uint8_t> bytes);
 
-}  // namespace hogel
+}  // namespace hogel::core

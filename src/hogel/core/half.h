@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hogel {
+namespace hogel::core {
 
 /// The IEEE 754 binary16 nearest to a float, ties to even; infinite from 65520 on. NaN stays NaN.
 inline std::uint16_t half_of(float value) {
@@ -36,4 +36,4 @@ inline float float_of(std::uint16_t half) {
 void to_half(const float* from, std::uint16_t* to, std::size_t n);
 void to_float(const std::uint16_t* from, float* to, std::size_t n);
 
-}  // namespace hogel
+}  // namespace hogel::core

@@ -9,7 +9,7 @@
 #include "hogel/core/half.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::core {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -37,11 +37,11 @@ void ToFloat(const std::uint16_t* from, float* to, std::size_t n) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::core {
 
 HWY_EXPORT(ToHalf);
 HWY_EXPORT(ToFloat);
@@ -49,5 +49,5 @@ HWY_EXPORT(ToFloat);
 void to_half(const float* from, std::uint16_t* to, std::size_t n) { HWY_DYNAMIC_DISPATCH(ToHalf)(from, to, n); }
 void to_float(const std::uint16_t* from, float* to, std::size_t n) { HWY_DYNAMIC_DISPATCH(ToFloat)(from, to, n); }
 
-}  // namespace hogel
+}  // namespace hogel::core
 #endif

@@ -6,7 +6,7 @@
 
 #include "hogel/core/half.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 // IEEE 754: 1 sign bit, 5 bits of exponent with bias 15, 10 of fraction.
@@ -61,4 +61,4 @@ TEST(Half, far_values) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::core

@@ -16,7 +16,7 @@
 #include "hogel/core/checksum.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 constexpr std::string_view first_line = "hogel journal 1";
@@ -150,4 +150,4 @@ void Journal::remove() {
     ::close(std::exchange(file_, -1));
 }
 
-}  // namespace hogel
+}  // namespace hogel::core

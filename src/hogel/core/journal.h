@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hogel {
+namespace hogel::core {
 
 /// The notes of a long piece of work that may be interrupted and gone on with later: what the work is, and which parts
 /// of it are done. A small text file; every line but the first carries a checksum of its own, so a journal that is
@@ -58,4 +58,4 @@ class Journal {
     std::chrono::steady_clock::time_point written_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::core

@@ -8,7 +8,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 class JournalTest : public testing::Test {
@@ -111,4 +111,4 @@ TEST_F(JournalTest, damage_costs_work_and_nothing_else) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::core

@@ -9,7 +9,7 @@
 
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::core {
 
 /// The results that were asked for last, by a key. Several threads may ask at once; who asks first for a result makes
 /// it while others who want the same wait.
@@ -63,4 +63,4 @@ class RecentResults {
     std::list<Entry> entries_;  // the one used last first
 };
 
-}  // namespace hogel
+}  // namespace hogel::core

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace hogel {
+namespace hogel::core {
 
 /// Things that many tasks need, one after the other, such as arrays of a few megabytes: made when none is free, and
 /// kept for whoever comes next, because fresh memory has to be cleared page by page first. For any number of threads.
@@ -48,4 +48,4 @@ class Reused {
     std::vector<std::unique_ptr<T>> free_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::core

@@ -6,7 +6,7 @@
 
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 TEST(Reused, what_is_given_back_is_taken_next) {
@@ -38,4 +38,4 @@ TEST(Reused, nobody_has_what_another_has) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::core

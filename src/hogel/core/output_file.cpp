@@ -11,7 +11,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
@@ -70,4 +70,4 @@ void write_file(const std::filesystem::path& path, std::span<const unsigned char
     file.commit();
 }
 
-}  // namespace hogel
+}  // namespace hogel::core

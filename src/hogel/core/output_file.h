@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-namespace hogel {
+namespace hogel::core {
 
 /// A file that appears under its own name only when it is complete: it is written as a temporary beside the target,
 /// which commit() renames and the destructor removes. A symbolic link is followed, so that its target is replaced.
@@ -32,4 +32,4 @@ class OutputFile {
 /// Writes a whole file that way. Throws Error(cannot_write).
 void write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
 
-}  // namespace hogel
+}  // namespace hogel::core

@@ -13,7 +13,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ TEST_F(OutputFileTest, a_full_disk_leaves_the_old_file) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::core

@@ -13,7 +13,7 @@
 #include "hogel/error.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 using Complex = std::complex<float>;
@@ -66,4 +66,4 @@ LargeArray::LargeArray(const Shape<2>& shape, const Scratch& scratch) : shape_(s
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::core

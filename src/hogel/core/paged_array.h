@@ -2,18 +2,12 @@
 
 #include <complex>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 
 #include "hogel/array.h"
+#include "hogel/resources.h"
 
-namespace hogel {
-
-/// Where arrays that may not fit into memory are kept.
-struct Scratch {
-    std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this lies in a file
-    std::filesystem::path folder;               ///< in which the file is made; empty: nowhere, such an array is refused
-};
+namespace hogel::core {
 
 /// An array of complex values, all zero at first, in memory or in a file without a name that the system pages in and
 /// out and that is gone with the array. Work on it goes by rows, or by blocks of neighbouring columns.
@@ -40,4 +34,4 @@ class LargeArray {
     std::unique_ptr<std::complex<float>, Release> data_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::core

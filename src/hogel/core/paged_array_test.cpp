@@ -4,7 +4,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 TEST(LargeArray, is_zero_and_keeps_values_in_memory_and_in_a_file_that_nobody_sees) {
@@ -37,4 +37,4 @@ TEST(LargeArray, that_has_no_place_is_refused) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::core

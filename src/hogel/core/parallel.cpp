@@ -14,7 +14,7 @@
 #include <vector>
 #endif
 
-namespace hogel {
+namespace hogel::core {
 
 #ifdef __SANITIZE_THREAD__
 
@@ -52,6 +52,10 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
 #endif
 
 void isolate(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }
+
+}  // namespace hogel::core
+
+namespace hogel {
 
 struct ThreadLimit::Limit {
     explicit Limit(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
+#include <optional>
+#include <vector>
 
-namespace hogel {
+#include "hogel/resources.h"
+
+namespace hogel::core {
 
 /// Calls body(i) once for every i in [0, n), on as many threads as the process may use. The order is unspecified, so
 /// bodies write to places of their own. The first exception thrown by a body is rethrown here.
@@ -20,31 +23,8 @@ void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<
 /// holds something that other loops' bodies wait for.
 void isolate(const std::function<void()>& body);
 
-/// Limits the whole process to a number of threads while it lives; 0 means all that the machine has.
-class ThreadLimit {
-  public:
-    explicit ThreadLimit(std::size_t threads);
-    ~ThreadLimit();
-    ThreadLimit(const ThreadLimit&) = delete;
-    ThreadLimit& operator=(const ThreadLimit&) = delete;
-
-  private:
-    struct Limit;
-    std::unique_ptr<Limit> limit_;
-};
-
-/// How many threads parallel loops use at present.
-std::size_t thread_count();
-
 /// How many results of parallel_ordered to keep alive so that no thread waits for the merge.
 inline std::size_t default_in_flight() { return 4 * thread_count(); }
-
-}  // namespace hogel
-
-#include <optional>
-#include <vector>
-
-namespace hogel {
 
 template <class Result>
 void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
@@ -60,4 +40,4 @@ void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::core

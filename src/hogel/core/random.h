@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace hogel {
+namespace hogel::core {
 
 /// Philox4x32-10: 128 random bits as a pure function of a 128-bit counter and a 64-bit key, so that the same
 /// (seed, hogel, direction) gives the same phase in any order, tile and thread.
@@ -20,4 +20,4 @@ inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
     return counter;
 }
 
-}  // namespace hogel
+}  // namespace hogel::core

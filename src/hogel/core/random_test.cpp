@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 // The known answers published with Random123 (kat_vectors, philox4x32 10).
@@ -15,4 +15,4 @@ TEST(Philox, matches_the_published_known_answers) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::core

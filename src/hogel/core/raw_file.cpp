@@ -12,7 +12,7 @@
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 constexpr std::uint64_t most_bytes = std::numeric_limits<std::int64_t>::max();
@@ -108,4 +108,4 @@ void RawFile::close() {
     if (::close(std::exchange(file_, -1)) != 0) fail(errno);
 }
 
-}  // namespace hogel
+}  // namespace hogel::core

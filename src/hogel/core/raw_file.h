@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace hogel {
+namespace hogel::core {
 
 /// A file read and written at offsets, by any number of threads at once.
 class RawFile {
@@ -39,4 +39,4 @@ class RawFile {
     int file_ = -1;
 };
 
-}  // namespace hogel
+}  // namespace hogel::core

@@ -4,7 +4,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::core {
 namespace {
 
 using namespace literals;
@@ -36,4 +36,4 @@ TEST(Units, written_lengths_read_back) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::core

@@ -8,7 +8,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count) {
     if (count == 0) throw Error(ErrorCode::usage, "a scene cannot be cut into no planes");
@@ -37,11 +37,11 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
                 Array<float, 2>({plane.height, plane.width})};
     const double scale = wavelength / std::sqrt(plane.pitch_x * plane.pitch_y);
     const auto number = static_cast<std::uint32_t>(std::lround(1e9 * std::abs(slice.depth())));
-    parallel_for(plane.height, [&](std::size_t row) {
+    core::parallel_for(plane.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < plane.width; ++column) {
             const Vec3 start{plane.x(static_cast<double>(column)), plane.y(static_cast<double>(row)), -slice.near};
-            const RayHit hit = visibility_.caster().closest(start, {0, 0, -1}, slice.far - slice.near);
-            if (hit.triangle == RayHit::miss) continue;
+            const trace::RayHit hit = visibility_.caster().closest(start, {0, 0, -1}, slice.far - slice.near);
+            if (hit.triangle == trace::RayHit::miss) continue;
             const Rgb colour =
                 radiance_at(scene_, hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2, {{0, 0, 1}, plane.pitch_x});
             const float radiance = options.channel == 0 ? colour.r : options.channel == 1 ? colour.g : colour.b;
@@ -56,4 +56,4 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
     return drawn;
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -4,7 +4,7 @@
 
 #include "hogel/direct/scene_points.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 /// A slice of a scene, ζ from `near` to `far`, that is drawn on the plane in its middle.
 struct Slice {
@@ -34,4 +34,4 @@ class SliceDrawing {
     Visibility visibility_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -14,7 +14,7 @@
 #include "hogel/photograph.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::direct {
 namespace {
 
 using namespace literals;
@@ -261,4 +261,4 @@ TEST(SceneMethods, refuse_what_they_cannot_do) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::direct

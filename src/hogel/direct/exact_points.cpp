@@ -3,7 +3,7 @@
 
 #include "hogel/direct/exact_sums.h"
 
-namespace hogel {
+namespace hogel::direct {
 namespace {
 
 // The sum of the points' spherical waves tile by tile; `add` takes a tile's sums and a point.
@@ -73,4 +73,4 @@ Field points_along_edges(const ShadedScene& scene, const FieldGrid& grid, const 
     return sum_exactly(edge_points(scene, grid, options), grid, progress, add_all);
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

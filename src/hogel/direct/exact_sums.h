@@ -6,7 +6,7 @@
 
 #include "hogel/direct/scene_points.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 /// A row of samples of a tile: the first one's place, and how far apart they are.
 struct SampleRow {
@@ -64,4 +64,4 @@ class ExactSums {
     std::array<std::array<double, tile_side>, tile_side> real_{}, imaginary_{};
 };
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -10,7 +10,7 @@
 #include "hogel/direct/exact_sums.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::direct {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -86,11 +86,11 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::direct
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::direct {
 
 HWY_EXPORT(AddWave);
 
@@ -99,5 +99,5 @@ void add_wave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& r
     HWY_DYNAMIC_DISPATCH(AddWave)(point, grid, row, hidden, real, imaginary);
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct
 #endif

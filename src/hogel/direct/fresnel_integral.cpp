@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::direct {
 namespace {
 
 using Complex = std::complex<double>;
@@ -73,4 +73,4 @@ std::complex<double> fresnel_integral(double w) {
     return w < 0 ? -value : value;
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

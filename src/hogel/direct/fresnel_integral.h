@@ -2,7 +2,7 @@
 
 #include <complex>
 
-namespace hogel {
+namespace hogel::direct {
 
 /// ∫₀^w e^{iπt²/2} dt = C(w) + iS(w), to rounding: a power series for small w, a continued fraction for the rest.
 /// Sources: Abramowitz and Stegun 7.3; the fraction is that of erfc.
@@ -12,4 +12,4 @@ std::complex<double> fresnel_integral_plain(double w);
 /// on the asymptotic series.
 std::complex<double> fresnel_integral(double w);
 
-}  // namespace hogel
+}  // namespace hogel::direct

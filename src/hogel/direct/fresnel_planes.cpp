@@ -9,7 +9,7 @@
 #include "hogel/math/fft.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::direct {
 namespace {
 
 using Complex = std::complex<float>;
@@ -67,7 +67,7 @@ class PlaneTransform {
     double depth_;
     bool far_;
     Grid object_;
-    Fft2 fft_;
+    math::Fft2 fft_;
 };
 
 // Half the width of a scene around the hologram's middle, and its reach from there.
@@ -104,7 +104,7 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
     Field field(grid);
     const SliceDrawing drawing(scene);
     for (std::size_t i = 0; i < slices.size(); ++i) {
-        report(progress, static_cast<double>(i) / static_cast<double>(slices.size()));
+        progress.report(static_cast<double>(i) / static_cast<double>(slices.size()));
         // The plane itself has no distance to go.
         const double depth = slices[i].depth();
         if (std::abs(depth) < nearest_depth(grid))
@@ -116,7 +116,7 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
         SliceDrawing::Drawn drawn = drawing.draw(slices[i], transform.object(), grid.wavelength, options);
         if (!drawn.empty) transform.add(drawn.light, field.samples);
     }
-    report(progress, 1);
+    progress.report(1);
     return field;
 }
 
@@ -141,4 +141,4 @@ Field fraunhofer_plane(const ShadedScene& scene, const FieldGrid& grid, const Sc
     return add_planes(scene, grid, slices, true, options, progress);
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -6,7 +6,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/direct/scene_points.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 // Horizontal parallax only, [K] 3.5: the hologram is cut into lines as high as the points' spacing, and each gets the
 // light of the slice of the scene at its own height alone, as if the world were flat. A line is the same along its
@@ -25,8 +25,8 @@ Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const Sc
     }
     const Visibility visibility(scene);
     Field field(grid);
-    report(progress, 0);
-    parallel_for(lines, [&](std::size_t line) {
+    progress.report(0);
+    core::parallel_for(lines, [&](std::size_t line) {
         std::vector<std::complex<float>> values(grid.plane.width);
         for (std::size_t column = 0; column < values.size(); ++column) {
             std::complex<double> sum = 0;
@@ -43,8 +43,8 @@ Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const Sc
         for (std::size_t row = line * rows; row < std::min((line + 1) * rows, grid.plane.height); ++row)
             std::ranges::copy(values, &field.samples(row, 0));
     });
-    report(progress, 1);
+    progress.report(1);
     return field;
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -4,7 +4,7 @@
 
 #include "hogel/geometry.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 /// A line that shines as one, with a phase that runs along it.
 struct LineSource {
@@ -20,4 +20,4 @@ struct LineSource {
 /// "Computer-generated holograms of three-dimensional objects composed of line segments", JOSA A 3, 1986.
 std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavelength);
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -7,7 +7,7 @@
 #include "hogel/direct/line_source.h"
 #include "hogel/direct/scene_points.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavelength) {
     const Vec3 along = line.b - line.a;
@@ -66,4 +66,4 @@ Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneH
     });
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -2,8 +2,9 @@
 
 #include "hogel/direct/depth_planes.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/propagate.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 // Depth planes from the farthest to the nearest: the light of those behind comes to each plane by the angular spectrum,
 // is stopped where there is something, and what shines there is added. Source: Ichioka, Izumi and Suzuki, "Scanning
@@ -18,18 +19,18 @@ Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const Sc
     double depth = 0;
     bool dark = true;
     for (std::size_t i = slices.size(); i-- > 0;) {
-        report(progress, 1 - static_cast<double>(i + 1) / static_cast<double>(slices.size()));
+        progress.report(1 - static_cast<double>(i + 1) / static_cast<double>(slices.size()));
         const SliceDrawing::Drawn drawn = drawing.draw(slices[i], grid.plane, grid.wavelength, options);
         if (drawn.empty) continue;
-        if (!dark) field = propagate(field, depth - slices[i].depth());
+        if (!dark) field = hogel::propagate(field, depth - slices[i].depth());
         depth = slices[i].depth();
         dark = false;
         for (std::size_t j = 0; j < field.samples.size(); ++j)
             field.samples.data()[j] = drawn.solid.data()[j] > 0 ? drawn.light.data()[j] : field.samples.data()[j];
     }
-    if (!dark) field = propagate(field, depth);
-    report(progress, 1);
+    if (!dark) field = hogel::propagate(field, depth);
+    progress.report(1);
     return field;
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -6,8 +6,9 @@
 
 #include "hogel/direct/scene_points.h"
 #include "hogel/optics/tilt.h"
+#include "hogel/propagate.h"
 
-namespace hogel {
+namespace hogel::direct {
 namespace {
 
 // Triangles of one mesh in one plane.
@@ -86,7 +87,7 @@ class PolygonLight {
         const Grid& plane = grid_.plane;
         const double size_x = plane.size_x() + 2 * std::abs(polygon.middle.x - plane.center_x),
                      size_y = plane.size_y() + 2 * std::abs(polygon.middle.y - plane.center_y);
-        Grid window = padded(plane, 2.5 * size_x - plane.size_x(), 2.5 * size_y - plane.size_y());
+        Grid window = optics::padded(plane, 2.5 * size_x - plane.size_x(), 2.5 * size_y - plane.size_y());
         // On the plane of the polygon, over a sample of the field.
         const auto aligned = [](double from, double to, double pitch, std::size_t a, std::size_t b) {
             const double half = (a + b) % 2 == 0 ? 0 : 0.5;
@@ -101,16 +102,16 @@ class PolygonLight {
 
         // The polygon's own frame, x as level as can be.
         const Vec3 x = normalize(Vec3{1, 0, 0} - n.x * n), y = cross(n, x);
-        const Wave surface = paint(polygon, origin, x, y);
+        const optics::Wave surface = paint(polygon, origin, x, y);
         const Grid& own = surface.grid().plane;
-        const Band around{surface.carrier_x - 0.5 / own.pitch_x, surface.carrier_x + 0.5 / own.pitch_x,
+        const optics::Band around{surface.carrier_x - 0.5 / own.pitch_x, surface.carrier_x + 0.5 / own.pitch_x,
                           surface.carrier_y - 0.5 / own.pitch_y, surface.carrier_y + 0.5 / own.pitch_y};
-        const Spectrum own_waves = spectrum_of(surface, padded(own, own.size_x(), own.size_y()), around, anything_);
-        Spectrum waves = tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, Band::of(plane), anything_);
+        const optics::Spectrum own_waves = optics::spectrum_of(surface, optics::padded(own, own.size_x(), own.size_y()), around, anything_);
+        optics::Spectrum waves = optics::tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, optics::Band::of(plane), anything_);
         waves.window.center_x = origin.x;
         waves.window.center_y = origin.y;
-        propagate(waves, {-depth - origin.z, 0, 0, size_x, size_y, 0.5 * size_x, 0.5 * size_y});
-        const Wave light = wave_of(waves, waves.window.width, waves.window.height, anything_);
+        optics::propagate(waves, {-depth - origin.z, 0, 0, size_x, size_y, 0.5 * size_x, 0.5 * size_y});
+        const optics::Wave light = optics::wave_of(waves, waves.window.width, waves.window.height, anything_);
         const auto first = [](double position) { return static_cast<std::size_t>(std::lround(position)); };
         Array<std::complex<float>, 2> values({plane.height, plane.width});
         light.read(
@@ -133,7 +134,7 @@ class PolygonLight {
         return {scene_.positions[vertices[0]], scene_.positions[vertices[1]], scene_.positions[vertices[2]]};
     }
 
-    Wave paint(const Polygon& polygon, Vec3 origin, Vec3 x, Vec3 y) const {
+    optics::Wave paint(const Polygon& polygon, Vec3 origin, Vec3 x, Vec3 y) const {
         const auto local = [&](Vec3 p) { return Vec3{dot(p - origin, x), dot(p - origin, y), 0}; };
         double reach_x = 0, reach_y = 0;
         for (const std::size_t triangle : polygon.triangles)
@@ -147,7 +148,7 @@ class PolygonLight {
         };
         const FieldGrid own{{samples(reach_x, pitch_x), samples(reach_y, pitch_y), pitch_x, pitch_y, 0, 0},
                             grid_.wavelength};
-        Wave surface(own, anything_);
+        optics::Wave surface(own, anything_);
         // Only what travels towards the viewer counts.
         surface.carrier_x = x.z / grid_.wavelength;
         surface.carrier_y = y.z / grid_.wavelength;
@@ -183,10 +184,10 @@ Field tilted_polygons(const ShadedScene& scene, const FieldGrid& grid, const Sce
     const PolygonLight light(scene, grid, options);
     const std::vector<Polygon> polygons = polygons_of(scene);
     for (std::size_t i = 0; i < polygons.size(); ++i) {
-        report(progress, static_cast<double>(i) / static_cast<double>(polygons.size()));
+        progress.report(static_cast<double>(i) / static_cast<double>(polygons.size()));
         light.add(polygons[i], 0, field);
     }
-    report(progress, 1);
+    progress.report(1);
     return field;
 }
 
@@ -199,16 +200,16 @@ Field occluding_polygons(const ShadedScene& scene, const FieldGrid& grid, const 
     const std::vector<Polygon> polygons = polygons_of(scene);
     double depth = 0;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
-        report(progress, static_cast<double>(i) / static_cast<double>(polygons.size()));
+        progress.report(static_cast<double>(i) / static_cast<double>(polygons.size()));
         const double here = -polygons[i].middle.z;
-        if (i > 0 && here != depth) field = propagate(field, depth - here);
+        if (i > 0 && here != depth) field = hogel::propagate(field, depth - here);
         depth = here;
         light.hide(polygons[i], field);
         light.add(polygons[i], depth, field);
     }
-    if (!polygons.empty()) field = propagate(field, depth);
-    report(progress, 1);
+    if (!polygons.empty()) field = hogel::propagate(field, depth);
+    progress.report(1);
     return field;
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

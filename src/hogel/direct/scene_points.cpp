@@ -8,8 +8,9 @@
 #include "hogel/core/parallel.h"
 #include "hogel/core/random.h"
 #include "hogel/direct/scene_points.h"
+#include "hogel/shading/triangles.h"
 
-namespace hogel {
+namespace hogel::direct {
 namespace {
 
 float channel_of(Rgb colour, std::size_t channel) {
@@ -33,7 +34,7 @@ constexpr double crease_cosine = 0.8660254037844387;
 double nearest_depth(const FieldGrid& grid) { return 8 * grid.plane.pitch_x * grid.plane.pitch_y / grid.wavelength; }
 
 double random_turns(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    return philox({a, b, c, static_cast<std::uint32_t>(options.channel)},
+    return core::philox({a, b, c, static_cast<std::uint32_t>(options.channel)},
                   {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)})[0] /
            4294967296.0;
 }
@@ -131,7 +132,7 @@ double modulus(const ScenePoint& point, const Passage& passage) {
     return point.amplitude * std::sqrt(cosine) / std::abs(passage.path);
 }
 
-Visibility::Visibility(const ShadedScene& scene) : caster_(all_triangles(scene)) {
+Visibility::Visibility(const ShadedScene& scene) : caster_(shading::all_triangles(scene)) {
     Vec3 low, high;
     for (const Vec3& p : scene.positions) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -150,8 +151,8 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
     const std::size_t across = (grid.plane.width + side - 1) / side, down = (grid.plane.height + side - 1) / side;
     std::mutex reporting;
     std::size_t done = 0;
-    report(progress, 0);
-    parallel_for(across * down, [&](std::size_t i) {
+    progress.report(0);
+    core::parallel_for(across * down, [&](std::size_t i) {
         Region region{i % across * side, i / across * side, side, side};
         region.width = std::min(side, grid.plane.width - region.x0);
         region.height = std::min(side, grid.plane.height - region.y0);
@@ -159,7 +160,7 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
         add(region, values);
         field.write(region, values);
         const std::lock_guard lock(reporting);
-        report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
+        progress.report(static_cast<double>(++done) / static_cast<double>(across * down));
     });
     return field;
 }
@@ -175,4 +176,4 @@ Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
     });
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

@@ -8,7 +8,7 @@
 #include "hogel/scene_hologram.h"
 #include "hogel/trace/ray_caster.h"
 
-namespace hogel {
+namespace hogel::direct {
 
 /// A point of a scene that shines.
 struct ScenePoint {
@@ -81,10 +81,10 @@ class Visibility {
     void hide(Vec3 point, std::span<const Vec3> ways, std::span<bool> hidden) const {
         caster_.occluded(point, ways, margin_, far_, hidden);
     }
-    const RayCaster& caster() const { return caster_; }
+    const trace::RayCaster& caster() const { return caster_; }
 
   private:
-    RayCaster caster_;
+    trace::RayCaster caster_;
     double margin_ = 0, far_ = 0;
 };
 
@@ -112,4 +112,4 @@ Field occluding_planes(const ShadedScene&, const FieldGrid&, const SceneHologram
 Field tilted_polygons(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field occluding_polygons(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 
-}  // namespace hogel
+}  // namespace hogel::direct

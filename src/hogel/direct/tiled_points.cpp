@@ -7,7 +7,7 @@
 #include "hogel/direct/scene_points.h"
 #include "hogel/hologram/unit_roots.h"
 
-namespace hogel {
+namespace hogel::direct {
 namespace {
 
 constexpr std::size_t side = tile_side;
@@ -20,7 +20,7 @@ enum class Zone { dark, edge, lit };
 struct Chirp {
     std::array<float, side> real{}, imaginary{};
 
-    Chirp(const UnitRoots& roots, double first_order, double second_order, std::size_t n, double pitch) {
+    Chirp(const hologram::UnitRoots& roots, double first_order, double second_order, std::size_t n, double pitch) {
         for (std::size_t i = 0; i < n; ++i) {
             const double t = (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * pitch;
             const std::complex<float> root = roots(t * (first_order + second_order * t));
@@ -34,7 +34,7 @@ struct Chirp {
 // term: a product of a function of the column and one of the row, both from a table of unit roots.
 class Tile {
   public:
-    Tile(const UnitRoots& roots, const FieldGrid& grid, const Region& region)
+    Tile(const hologram::UnitRoots& roots, const FieldGrid& grid, const Region& region)
         : roots_(roots),
           grid_(grid),
           region_(region),
@@ -89,7 +89,7 @@ class Tile {
     void add_exactly(const ScenePoint& point) { exact_.add(point); }
 
   private:
-    const UnitRoots& roots_;
+    const hologram::UnitRoots& roots_;
     const FieldGrid& grid_;
     Region region_;
     ExactSums exact_;
@@ -105,7 +105,7 @@ Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneH
                    const Progress& progress) {
     const Visibility visibility(scene);
     const std::vector<ScenePoint> points = surface_points(scene, grid, options);
-    const UnitRoots roots;
+    const hologram::UnitRoots roots;
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         Tile tile(roots, grid, region);
         for (const ScenePoint& point : points) {
@@ -119,4 +119,4 @@ Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneH
     });
 }
 
-}  // namespace hogel
+}  // namespace hogel::direct

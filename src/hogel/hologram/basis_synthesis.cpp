@@ -14,7 +14,7 @@
 #include "hogel/transform/transform.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using Complex = std::complex<float>;
@@ -32,7 +32,7 @@ class BasisSynthesis final : public HogelSynthesis {
           values_(values),
           pieces_(options.transform == "pieces"),
           tolerance_(options.tolerance),
-          transform_(hogel::transform(pieces_ ? "haar" : options.transform)),
+          transform_(hogel::transform::transform(pieces_ ? "haar" : options.transform)),
           frequencies_(light_field, samples, options.wavelength, pieces_ ? Between::constant : Between::linear),
           fft_(samples, samples),
           phases_(direction_phases(frequencies_, fft_, options)) {
@@ -84,8 +84,8 @@ class BasisSynthesis final : public HogelSynthesis {
 
   private:
     // Some hogels, of which the directions alone are transformed.
-    Pyramid pyramid(std::size_t hogels) const {
-        return Pyramid::separate({hogels, light_field_.directions_v, light_field_.directions_u}, {{1, 2}});
+    transform::Pyramid pyramid(std::size_t hogels) const {
+        return transform::Pyramid::separate({hogels, light_field_.directions_v, light_field_.directions_u}, {{1, 2}});
     }
 
     void make_fringe(std::size_t number, std::size_t look, View<Complex, 2> fringe) const {
@@ -120,9 +120,9 @@ class BasisSynthesis final : public HogelSynthesis {
     Values values_;
     bool pieces_;
     double tolerance_;
-    Transform transform_;
+    transform::Transform transform_;
     FrequencyGrid frequencies_;
-    Fft2 fft_;
+    math::Fft2 fft_;
     DirectionPhases phases_;
     std::deque<FringeTable> fringes_;  // for each look
     std::vector<float> norms_;         // of the fringes; empty where nothing is dropped
@@ -135,4 +135,4 @@ std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light
     return std::make_unique<BasisSynthesis>(light_field, samples, options, values);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -11,7 +11,7 @@
 #include "hogel/transform/transform.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using namespace literals;
@@ -61,7 +61,7 @@ TEST(Basis, gives_what_one_transform_a_hogel_gives_whatever_the_transform_of_the
         StereogramOptions fourier = options_for(Method::fourier, "");
         fourier.phases = phases;
         const auto expected = make_stereogram(light_field, fourier);
-        for (const std::string_view name : transform_names()) {
+        for (const std::string_view name : transform::transform_names()) {
             if (phases == Phases::designed && name != "ai33") continue;
             StereogramOptions options = options_for(Method::basis, std::string(name));
             options.phases = phases;
@@ -89,7 +89,7 @@ TEST(Basis, takes_coefficients_as_they_are) {
     const LightField light_field = smooth_light_field();
     LightField coefficients = light_field;
     for (float& value : coefficients.radiance.elements()) value = std::sqrt(value);
-    transform("cdf42").forward(Pyramid::separate({6, 18, 20}, {{1, 2}}), coefficients.radiance.elements());
+    transform::transform("cdf42").forward(transform::Pyramid::separate({6, 18, 20}, {{1, 2}}), coefficients.radiance.elements());
     const StereogramOptions options = options_for(Method::basis, "cdf42");
     const auto expected = make_stereogram(light_field, options);
     EXPECT_LT(difference(whole(*expected, 1), whole(*make_stereogram_of_coefficients(coefficients, options), 1)), 1e-6);
@@ -107,7 +107,7 @@ TEST(Basis, of_pieces_is_one_cell_of_directions_each) {
     EXPECT_LT(difference(of(uniform, Method::fourier), of(uniform, Method::basis)), 1e-5);
     one.radiance(0, 0, 0, 9, 4) = 1;
     Array<Complex, 2> spectrum = of(one, Method::basis);
-    Fft2(24, 24).forward(spectrum);
+    math::Fft2(24, 24).forward(spectrum);
     // The cell's light lies within its cell of frequencies, half a step of theirs around it.
     const double step = 633_nm / 48_um, u = grid.u(4), v = grid.v(9);
     for (std::ptrdiff_t row = -12; row < 12; ++row)
@@ -143,4 +143,4 @@ TEST(Fringes, sum_alike_plainly_and_fast) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -12,7 +12,7 @@
 #include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
@@ -85,6 +85,6 @@ HWY_INLINE void turn_sixteen(const From& from, std::size_t columns, const To& to
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::hologram
 HWY_AFTER_NAMESPACE();
 #endif

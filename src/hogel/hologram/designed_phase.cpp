@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 constexpr int projections = 200;  // the modulus gets no flatter with more
@@ -14,7 +14,7 @@ std::complex<float> unit(std::complex<float> value) {
 
 }  // namespace
 
-void flatten_fringe(View<const float, 2> moduli, const Fft2& fft, View<std::complex<float>, 2> phases) {
+void flatten_fringe(View<const float, 2> moduli, const math::Fft2& fft, View<std::complex<float>, 2> phases) {
     Array<std::complex<float>, 2> fringe(phases.shape());
     for (int i = 0; i < projections; ++i) {
         for (std::size_t j = 0; j < fringe.size(); ++j) fringe.data()[j] = moduli.data()[j] * phases.data()[j];
@@ -25,4 +25,4 @@ void flatten_fringe(View<const float, 2> moduli, const Fft2& fft, View<std::comp
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -5,7 +5,7 @@
 #include "hogel/array.h"
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// Changes the phases of a spectrum of given moduli until its fringe is nearly as strong everywhere, so that no bit of
 /// a modulator's range is kept for rare peaks: alternating projections between the moduli and a flat fringe, from the
@@ -13,6 +13,6 @@ namespace hogel {
 /// and Saxton 1972.
 /// @param moduli  of the DFT coefficients, shape of the transform
 /// @param phases  unit numbers, in and out
-void flatten_fringe(View<const float, 2> moduli, const Fft2& fft, View<std::complex<float>, 2> phases);
+void flatten_fringe(View<const float, 2> moduli, const math::Fft2& fft, View<std::complex<float>, 2> phases);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

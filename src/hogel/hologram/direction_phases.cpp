@@ -1,7 +1,7 @@
 #include "hogel/hologram/designed_phase.h"
 #include "hogel/hologram/direction_phases.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::size_t t, std::size_t look) {
     return {{static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)},
@@ -9,7 +9,7 @@ PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::s
              static_cast<std::uint32_t>(t)}};
 }
 
-DirectionPhases direction_phases(const FrequencyGrid& frequencies, const Fft2& fft, const StereogramOptions& options) {
+DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft, const StereogramOptions& options) {
     const Shape<2> shape{frequencies.rows(), frequencies.columns()};
     Array<float, 2> moduli(shape);
     const std::vector<float> uniform(frequencies.rays(), 1.0f), ones(moduli.size(), 1.0f);
@@ -24,4 +24,4 @@ DirectionPhases direction_phases(const FrequencyGrid& frequencies, const Fft2& f
     return all;
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -8,7 +8,7 @@
 #include "hogel/hologram/random_phase.h"
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// The counter of the random phases of a hogel.
 PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::size_t t, std::size_t look);
@@ -16,6 +16,6 @@ PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::s
 /// Phases that all hogels share, for each look those of the frequencies of a hogel's Fourier transform, as unit
 /// numbers. Random, or where the options say so designed for a flat fringe.
 using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
-DirectionPhases direction_phases(const FrequencyGrid& frequencies, const Fft2& fft, const StereogramOptions& options);
+DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft, const StereogramOptions& options);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

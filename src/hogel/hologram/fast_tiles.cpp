@@ -4,9 +4,9 @@
 #include "hogel/hologram/hogel_tiles.h"
 #include "hogel/hologram/lobes.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
-bool FastSquares::can(std::size_t side) { return side >= rows_at_once && ColumnFft::can(side, side); }
+bool FastSquares::can(std::size_t side) { return side >= rows_at_once && math::ColumnFft::can(side, side); }
 
 FastSquares::FastSquares(std::size_t side, const DirectionPhases& phases) : side_(side), fft_(side) {
     for (const Array<std::complex<float>, 2>& look : phases) {
@@ -70,4 +70,4 @@ void FastSquares::synthesise(std::span<const float> moduli, const PhaseSeries& s
     fft_.backward_apart(square, to, to_row, side_);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

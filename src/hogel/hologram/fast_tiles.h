@@ -10,7 +10,7 @@
 #include "hogel/hologram/frequency_grid.h"
 #include "hogel/math/column_fft.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// Phases and one FFT for hogels whose sides are powers of two. Sixteen rows of frequencies lie side by side, so that
 /// phases and transforms along rows are those of whole vectors; they are turned as they go to a square that stays in
@@ -34,9 +34,9 @@ class FastSquares {
 
   private:
     std::size_t side_;
-    ColumnFft fft_;
+    math::ColumnFft fft_;
     std::vector<Array<float, 1>> phases_;       // of each look: [row/16][column][part][row mod 16]
-    mutable Reused<Array<float, 1>> sixteens_;  // the same rows of sixteen hogels: [row mod 16][column][hogel]
+    mutable core::Reused<Array<float, 1>> sixteens_;  // the same rows of sixteen hogels: [row mod 16][column][hogel]
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -6,7 +6,7 @@
 #include "hogel/hologram/fast_tiles.h"
 #include "hogel/hologram/hogel_synthesis.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using Complex = std::complex<float>;
@@ -82,7 +82,7 @@ class FourierSynthesis final : public HogelSynthesis {
     StereogramOptions options_;
     FrequencyGrid frequencies_;
     std::size_t lines_;
-    Fft2 fft_;
+    math::Fft2 fft_;
     DirectionPhases directions_;       // empty where every hogel has phases of its own
     std::optional<FastSquares> fast_;  // where a hogel's side is one of its own
 };
@@ -104,4 +104,4 @@ std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGr
         lines, options);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

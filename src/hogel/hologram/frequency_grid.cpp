@@ -6,7 +6,7 @@
 
 #include "hogel/hologram/lobes.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 // Rays and lobes of a band, sixteen hogels of each: 128 KiB.
@@ -287,4 +287,4 @@ void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -9,7 +9,7 @@
 #include "hogel/hologram/hemicube_resampling.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// What a light field is between its samples.
 enum class Between {
@@ -112,4 +112,4 @@ class FrequencyGrid {
 /// Whether a light field's directions are those of the hogels' Fourier transform at this wavelength.
 bool is_frequency_grid(const LightFieldGrid& light_field, double wavelength);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

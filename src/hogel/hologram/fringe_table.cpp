@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hogel {
+namespace hogel::hologram {
 
 void sum_fringes_plain(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum) {
     std::ranges::fill(sum, std::complex<float>(0));
@@ -22,4 +22,4 @@ const std::complex<float>* FringeTable::operator[](std::size_t number) const {
     return fringes_[number].data();
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -8,7 +8,7 @@
 
 #include "hogel/array.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// A weighted sum of fringes: [K] (3.24).
 struct WeightedFringe {
@@ -37,4 +37,4 @@ class FringeTable {
     mutable std::vector<std::once_flag> made_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -8,7 +8,7 @@
 #include "hogel/hologram/fringe_table.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -49,11 +49,11 @@ void SumFringes(std::span<const WeightedFringe> fringes, std::span<std::complex<
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::hologram
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::hologram {
 
 HWY_EXPORT(SumFringes);
 
@@ -61,5 +61,5 @@ void sum_fringes(std::span<const WeightedFringe> fringes, std::span<std::complex
     HWY_DYNAMIC_DISPATCH(SumFringes)(fringes, sum);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram
 #endif

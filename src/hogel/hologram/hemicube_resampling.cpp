@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 // More points would follow the side faces' rays closer to the hologram's plane, where they crowd in frequency.
@@ -107,4 +107,4 @@ void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

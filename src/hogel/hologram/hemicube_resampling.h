@@ -7,7 +7,7 @@
 
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// The lobes of a hogel's frequencies that take their light from the rays of several faces of a hemicube. A lobe is the
 /// mean over points of its cell in frequency, two or more for each ray that it covers; each point is looked up, with
@@ -34,4 +34,4 @@ ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t 
 void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size_t count, View<const float, 2> values,
                        bool of_roots, float* out);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

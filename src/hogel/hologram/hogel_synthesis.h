@@ -7,7 +7,7 @@
 
 #include "hogel/hologram.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// Which hogel, and which of the sets of random phases.
 struct HogelPlace {
@@ -62,9 +62,4 @@ std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                            const StereogramOptions& options);
 
-/// Stereograms whose windows overlap. One by one is the plain way, which is always taken where windows are large; the
-/// other makes windows of many hogels at once.
-std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const StereogramOptions& options, bool one_by_one = false);
-
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace hogel {
+namespace hogel::hologram {
 
 void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
                         float* out) {
@@ -28,4 +28,4 @@ void shared_waves(std::span<const float> phases, const float* moduli, float* out
         }
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -6,7 +6,7 @@
 
 #include "hogel/hologram/random_phase.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// Sixteen rows of a hogel's square side by side: of each column the real parts of the rows, then the imaginary ones.
 inline constexpr std::size_t rows_at_once = 16;
@@ -33,4 +33,4 @@ void turn_rows(const float* from, std::size_t columns, float* to, std::size_t to
 /// for h < hogels.
 void turn_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -1,6 +1,6 @@
 // The vector twins of what square_rows.h declares, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/square_rows_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/hologram/hogel_tiles_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -10,7 +10,7 @@
 #include "hogel/hologram/philox_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -106,11 +106,11 @@ void TurnHogels(const float* from, std::size_t columns, std::size_t hogels, floa
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::hologram
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::hologram {
 
 HWY_EXPORT(RandomWaves);
 HWY_EXPORT(TurnRows);
@@ -129,5 +129,5 @@ void turn_hogels(const float* from, std::size_t columns, std::size_t hogels, flo
     HWY_DYNAMIC_DISPATCH(TurnHogels)(from, columns, hogels, to, to_hogel);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram
 #endif

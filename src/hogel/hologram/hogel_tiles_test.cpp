@@ -7,7 +7,7 @@
 #include "hogel/hologram/designed_phase.h"
 #include "hogel/hologram/fast_tiles.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using Complex = std::complex<float>;
@@ -73,7 +73,7 @@ TEST(FastSquares, make_what_amplitudes_phases_and_one_fft_make) {
         std::ranges::copy(noise(rays.size(), 4).elements(), rays.data());
         frequencies.amplitudes(rays, moduli);
         const PhaseSeries series{{3, 4}, {5, 6, 7}};
-        const Fft2 fft(side, side);
+        const math::Fft2 fft(side, side);
         DirectionPhases shared;
         for (const bool random : {true, false}) {
             Array<Complex, 2> phases({side, side});
@@ -100,4 +100,4 @@ TEST(FastSquares, make_what_amplitudes_phases_and_one_fft_make) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

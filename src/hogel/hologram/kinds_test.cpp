@@ -12,7 +12,7 @@
 #include "hogel/ray_photograph.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using namespace literals;
@@ -400,4 +400,4 @@ TEST(StereogramOfAnyKind, refuses_what_cannot_be_with_what_would_do) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

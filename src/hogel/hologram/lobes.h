@@ -5,7 +5,7 @@
 
 #include "hogel/hologram/frequency_grid.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// How many hogels lie side by side in the arrays of average_lobes().
 inline constexpr std::size_t hogels_at_once = 16;
@@ -24,4 +24,4 @@ void transpose_plain(const float* from, std::size_t from_row, std::size_t rows, 
 void transpose(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
                std::size_t to_row);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -12,7 +12,7 @@
 #include "hogel/hologram/lobes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -100,11 +100,11 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::hologram
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::hologram {
 
 HWY_EXPORT(AverageLobes);
 HWY_EXPORT(Transpose);
@@ -119,5 +119,5 @@ void transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
     HWY_DYNAMIC_DISPATCH(Transpose)(from, from_row, rows, columns, to, to_row);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram
 #endif

@@ -13,7 +13,7 @@
 #include "hogel/ray_photograph.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using namespace literals;
@@ -367,4 +367,4 @@ TEST(Stereogram, what_a_method_cannot_do_is_refused_with_what_would_do) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hogel {
+namespace hogel::hologram {
 
 double neighbouring_parallax(const LightFieldSource& light_field, double pitch) {
     if (!light_field.has_depth()) return 0;
@@ -22,4 +22,4 @@ double neighbouring_parallax(const LightFieldSource& light_field, double pitch) 
     return farthest * std::max(grid.step_u(), grid.step_v()) / pitch;
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -2,7 +2,7 @@
 
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// More than about this many samples of parallax between neighbouring directions is more than overlapping windows bear:
 /// the windows that show one point no longer touch, and its focus gets side lobes.
@@ -12,4 +12,4 @@ inline constexpr double most_parallax = 4;
 /// largest depth that some hogels spread over the light field meet. Nought without depth.
 double neighbouring_parallax(const LightFieldSource& light_field, double pitch);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

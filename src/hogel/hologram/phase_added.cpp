@@ -7,7 +7,7 @@
 #include "hogel/hologram/plane_wave_sum.h"
 #include "hogel/hologram/surface_cells.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using Complex = std::complex<float>;
@@ -123,7 +123,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
     std::size_t samples_;
     double pitch_;
     SurfaceCells cells_;
-    Fft2 fft_;
+    math::Fft2 fft_;
     std::optional<PlaneWaveSum> waves_;  // where every ray has its own frequency
     std::vector<float> shares_;          // of each direction, (ΔU ΔV) cos³θ
 };
@@ -135,4 +135,4 @@ std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid&
     return std::make_unique<PhaseAddedSynthesis>(light_field, samples, options);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -13,7 +13,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
@@ -39,6 +39,6 @@ HWY_INLINE void philox_lanes(D d, V& c0, V& c1, V& c2, V& c3, const std::array<s
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::hologram
 HWY_AFTER_NAMESPACE();
 #endif

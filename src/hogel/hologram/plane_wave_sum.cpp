@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 constexpr double shape = 2.3 * 6;            // of the Kaiser–Bessel kernel, for a grid twice as fine
@@ -69,4 +69,4 @@ void PlaneWaveSum::transform(View<std::complex<float>, 2> spectrum, View<std::co
             samples(q, p) = spectrum((q + before) % size_, (p + before) % size_) * (correction_[q] * correction_[p]);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -6,7 +6,7 @@
 #include "hogel/array.h"
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// Sums of plane waves of any frequencies over a square of n×n samples, at the cost of an FFT of twice the side: each
 /// wave is spread over 6×6 frequencies of a finer grid by a Kaiser–Bessel kernel, whose transform is divided out at the
@@ -35,9 +35,9 @@ class PlaneWaveSum {
     Spread spread(double frequency) const;
 
     std::size_t samples_, size_;
-    Fft2 fft_;
+    math::Fft2 fft_;
     std::vector<float> kernel_;      // from its middle outwards
     std::vector<float> correction_;  // one over the kernel's transform, for each sample of a side
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram

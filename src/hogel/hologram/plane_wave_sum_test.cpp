@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 class PlaneWaves : public testing::TestWithParam<std::size_t> {};
@@ -35,4 +35,4 @@ TEST_P(PlaneWaves, add_up_as_a_direct_sum_does) {
 INSTANTIATE_TEST_SUITE_P(Sides, PlaneWaves, testing::Values(1, 2, 5, 16, 33));
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -1,7 +1,7 @@
 #include "hogel/core/random.h"
 #include "hogel/hologram/point_cycles.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 constexpr std::int64_t margin = 32;  // hogels around the region's
@@ -9,7 +9,7 @@ constexpr std::int64_t margin = 32;  // hogels around the region's
 }  // namespace
 
 double TurnSeries::operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction) const {
-    return philox({column, row, direction, series}, key)[0] / 4294967296.0;
+    return core::philox({column, row, direction, series}, key)[0] / 4294967296.0;
 }
 
 PointTurns::PointTurns(const TurnSeries& series, const HogelRange& hogels)
@@ -23,4 +23,4 @@ PointTurns::PointTurns(const TurnSeries& series, const HogelRange& hogels)
                 draw(column0_ + static_cast<std::int64_t>(column), row0_ + static_cast<std::int64_t>(row));
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

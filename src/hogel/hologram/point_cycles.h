@@ -6,7 +6,7 @@
 #include "hogel/array.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// Random phases in turns, of a look and a colour.
 struct TurnSeries {
@@ -37,4 +37,4 @@ class PointTurns {
     Array<double, 2> turns_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram

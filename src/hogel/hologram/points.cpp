@@ -6,7 +6,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid) {
     validate(grid, ErrorCode::usage, "point hologram");
@@ -16,7 +16,7 @@ Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid)
                         "point hologram: a point lies on the hologram plane, where its wave is singular");
     Field field(grid);
     const double k = 2 * std::numbers::pi / grid.wavelength;
-    parallel_for(grid.plane.height, [&](std::size_t row) {
+    core::parallel_for(grid.plane.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < grid.plane.width; ++column) {
             const Vec3 here{grid.plane.x(static_cast<double>(column)), grid.plane.y(static_cast<double>(row)), 0};
             std::complex<double> sum = 0;
@@ -33,4 +33,4 @@ Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid)
     return field;
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

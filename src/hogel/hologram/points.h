@@ -5,7 +5,7 @@
 #include "hogel/field.h"
 #include "hogel/geometry.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 struct PointSource {
     Vec3 position;         ///< z = −ζ: behind the hologram z < 0, in front of it z > 0
@@ -17,4 +17,4 @@ struct PointSource {
 /// converging wave. Source: [K] (3.5). Throws Error(usage) for a point on the plane's own z = 0.
 Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -10,7 +10,7 @@
 #include "hogel/photograph.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using namespace literals;
@@ -121,4 +121,4 @@ TEST(PointHologram, is_the_spherical_wave_of_its_point_and_refuses_the_plane_its
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

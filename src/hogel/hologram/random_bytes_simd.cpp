@@ -9,7 +9,7 @@
 #include "hogel/hologram/random_bytes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -38,11 +38,11 @@ void RandomBytes(const PhaseSeries& series, std::uint32_t first_draw, std::span<
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::hologram
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::hologram {
 
 HWY_EXPORT(RandomBytes);
 
@@ -50,5 +50,5 @@ void random_bytes(const PhaseSeries& series, std::uint32_t first_draw, std::span
     HWY_DYNAMIC_DISPATCH(RandomBytes)(series, first_draw, bytes);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram
 #endif

@@ -6,7 +6,7 @@
 #include "hogel/core/random.h"
 #include "hogel/hologram/random_bytes.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 const std::array<std::complex<float>, 256>& roots_of_unity() {
@@ -23,7 +23,7 @@ const std::array<std::complex<float>, 256>& roots_of_unity() {
 
 void random_bytes_plain(const PhaseSeries& series, std::uint32_t first_draw, std::span<std::uint8_t> bytes) {
     for (std::size_t i = 0; i < bytes.size(); i += 16) {
-        const auto words = philox({first_draw + static_cast<std::uint32_t>(i / 16), series.position[0],
+        const auto words = core::philox({first_draw + static_cast<std::uint32_t>(i / 16), series.position[0],
                                    series.position[1], series.position[2]},
                                   series.key);
         for (std::size_t j = 0; j < std::min<std::size_t>(16, bytes.size() - i); ++j)
@@ -59,4 +59,4 @@ void spread_random_phases(const PhaseSeries& series, std::span<const float> modu
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// Which random phases: a key, and what the counter of the generator says beside the number of the draw.
 struct PhaseSeries {
@@ -27,4 +27,4 @@ struct PhaseRoots {
 };
 const PhaseRoots& phase_roots();
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -10,7 +10,7 @@
 #include "hogel/hologram/random_bytes.h"
 #include "hogel/hologram/unit_roots.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using Complex = std::complex<float>;
@@ -22,7 +22,7 @@ TEST(RandomPhase, keeps_moduli_and_takes_phases_from_the_bytes_of_the_draws) {
     const PhaseSeries series{{77, 3}, {5, 11, 13}};
     spread_random_phases(series, moduli, values);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto draw = philox({static_cast<std::uint32_t>(i / 16), 5, 11, 13}, {77, 3});
+        const auto draw = core::philox({static_cast<std::uint32_t>(i / 16), 5, 11, 13}, {77, 3});
         const double byte = draw[i % 16 / 4] >> (8 * (i % 4)) & 0xff;
         const auto expected = std::polar(double(i), 2 * std::numbers::pi * byte / 256);
         EXPECT_LT(std::abs(std::complex<double>(values[i]) - expected), 1e-6 * double(i) + 1e-12) << i;
@@ -76,4 +76,4 @@ TEST(RandomPhase, is_uniform_and_independent) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -11,9 +11,13 @@
 
 #include "hogel/core/object_pool.h"
 #include "hogel/hologram/hogel_synthesis.h"
+#include "hogel/hologram/windows/overlap_add.h"
 #include "hogel/units.h"
 
 namespace hogel {
+
+using namespace hologram;
+
 namespace {
 
 using Complex = std::complex<float>;
@@ -205,7 +209,7 @@ class Stereogram final : public FieldSource {
     std::size_t columns_, rows_;  // samples of a hogel
     std::size_t rays_ = 0;        // of a hogel, of all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
-    mutable Reused<Room> rooms_;
+    mutable core::Reused<Room> rooms_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;
 };
@@ -323,7 +327,7 @@ std::unique_ptr<FieldSource> make_stereogram(std::span<const LightFieldSource* c
     if (needs_depth(options) && !faces.front()->has_depth())
         throw Error(ErrorCode::usage,
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
-    if (options.method == Method::overlap_add) return make_overlap_add(*faces.front(), grid, options);
+    if (options.method == Method::overlap_add) return windows::make_overlap_add(*faces.front(), grid, options);
     return std::make_unique<Stereogram>(faces, grid, options, Values::radiance);
 }
 

@@ -13,7 +13,7 @@
 #include "hogel/photograph.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram {
 namespace {
 
 using namespace literals;
@@ -262,4 +262,4 @@ TEST(Transpose, twins_agree_whatever_the_size) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -4,7 +4,7 @@
 
 #include "hogel/geometry.h"
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// A point of a surface that shines as one: all rays that meet its neighbourhood share its place and its phase.
 struct SurfacePoint {
@@ -34,4 +34,4 @@ class SurfaceCells {
     std::size_t channel_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::hologram {
 
 /// e^{2πi t} from a table of 4096 steps, where many phases are needed and 67 dB are enough.
 class UnitRoots {
@@ -28,4 +28,4 @@ class UnitRoots {
     alignas(64) std::array<std::complex<float>, steps> roots_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram

@@ -7,7 +7,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::image {
 namespace {
 
 std::string refusal(void (*change)(Camera&)) {
@@ -57,4 +57,4 @@ TEST(Camera, focus_ratio_leads_to_the_plane_in_focus) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::image

@@ -8,7 +8,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::image {
 namespace {
 
 Image constant(std::size_t width, std::size_t height, std::size_t channels, float display) {
@@ -131,4 +131,4 @@ TEST(Compare, refuses_pictures_of_different_size) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::image

@@ -15,6 +15,9 @@
 #include "hogel/image/picture_bytes.h"
 
 namespace hogel {
+
+using namespace image;
+
 namespace {
 
 // A picture that claims more than this many bytes a byte of its file (and some for the smallest) is damaged: deflate

@@ -11,7 +11,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::image {
 namespace {
 
 namespace fs = std::filesystem;
@@ -245,4 +245,4 @@ TEST(AutomaticExposure, brings_the_brightest_half_percent_to_white) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::image

@@ -16,6 +16,9 @@
 #include "hogel/image/picture_bytes.h"
 
 namespace hogel {
+
+using namespace image;
+
 namespace {
 
 unsigned char quantise(float linear, double exposure) {
@@ -65,7 +68,7 @@ void encode(const Image& image, double exposure, const std::string& format, cons
             written = out->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
         } else {
             Array<unsigned char, 3> display(image.pixels.shape());
-            parallel_for(image.height(), [&](std::size_t y) {
+            core::parallel_for(image.height(), [&](std::size_t y) {
                 std::ranges::transform(image.pixels[y].elements(), display[y].elements().begin(),
                                        [&](float value) { return quantise(value, exposure); });
             });
@@ -103,13 +106,13 @@ std::string format_of(const std::filesystem::path& path) {
 void write_image(const std::filesystem::path& path, const Image& image, double exposure, const Metadata& metadata) {
     const std::string format = format_of(path);
     check_writable(image, exposure, path.string());
-    OutputFile file(path);
+    core::OutputFile file(path);
     if (format == "tiff") {
         // OpenImageIO cannot write TIFF to memory: the directory, which is written last, gets lost.
         encode(image, exposure, format, metadata, path.string(), nullptr, file.temporary().string());
         file.commit();
     } else {
-        write_file(path, encode_to_memory(image, exposure, format, metadata, path.string()));
+        core::write_file(path, encode_to_memory(image, exposure, format, metadata, path.string()));
     }
 }
 

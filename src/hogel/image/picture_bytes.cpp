@@ -6,7 +6,7 @@
 
 #include "hogel/image/picture_bytes.h"
 
-namespace hogel {
+namespace hogel::image {
 namespace {
 
 using namespace std::string_view_literals;
@@ -107,4 +107,4 @@ std::string structure_error(const std::string& format, std::span<const unsigned 
     return "";
 }
 
-}  // namespace hogel
+}  // namespace hogel::image

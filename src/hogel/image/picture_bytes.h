@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace hogel {
+namespace hogel::image {
 
 /// What a library has to say, on one line.
 std::string one_line(std::string text);
@@ -17,4 +17,4 @@ const char* picture_format(std::span<const unsigned char> bytes);
 /// for whatever length a chunk or an attribute claims, before they look whether the file is that long.
 std::string structure_error(const std::string& format, std::span<const unsigned char> bytes);
 
-}  // namespace hogel
+}  // namespace hogel::image

@@ -13,6 +13,9 @@
 #include "hogel/image/picture_bytes.h"
 
 namespace hogel {
+
+using namespace image;
+
 namespace {
 
 std::string format_of(const std::filesystem::path& path) {
@@ -70,8 +73,8 @@ void write_levels(const std::filesystem::path& path, View<const std::uint8_t, 3>
     const std::size_t channels = levels.extent(2);
     if (levels.size() == 0 || (channels != 1 && channels != 3))
         fail(path, fmt::format("{}x{} pixels in {} channels", levels.extent(1), levels.extent(0), channels));
-    if (format == "bmp") return write_file(path, encode_bmp(levels));
-    OutputFile file(path);
+    if (format == "bmp") return core::write_file(path, encode_bmp(levels));
+    core::OutputFile file(path);
     OIIO::ImageSpec spec(static_cast<int>(levels.extent(1)), static_cast<int>(levels.extent(0)),
                          static_cast<int>(channels), OIIO::TypeDesc::UINT8);
     if (channels == 1) spec.channelnames = {"Y"};

@@ -8,7 +8,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::image {
 namespace {
 
 class Levels : public testing::TestWithParam<std::tuple<const char*, std::size_t>> {};
@@ -44,4 +44,4 @@ TEST(LevelsFile, is_refused_by_name_and_place) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::image

@@ -23,7 +23,7 @@
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
-namespace hogel {
+namespace hogel::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,7 +83,7 @@ void write_tiles(const LightField& from, LightFieldSink& sink, std::size_t ns, s
         for (std::size_t s = 0; s < g.hogels_s; s += ns)
             ranges.push_back({s, t, std::min(ns, g.hogels_s - s), std::min(nt, g.hogels_t - t)});
     std::ranges::shuffle(ranges, std::mt19937(3));
-    parallel_for(ranges.size(), [&](std::size_t i) {
+    core::parallel_for(ranges.size(), [&](std::size_t i) {
         LightFieldTile tile(g, ranges[i], from.has_depth());
         from.read(tile);
         sink.write(tile);
@@ -488,11 +488,11 @@ TEST_F(Files, a_hologram_damaged_in_any_byte_of_its_header_is_refused_or_unchang
     Field field = random_field(grid);
     // What halves keep as it is.
     for (auto& sample : field.samples.elements()) {
-        const auto kept = [](float part) { return float_of(half_of(1e-6f * part)); };
+        const auto kept = [](float part) { return core::float_of(core::half_of(1e-6f * part)); };
         sample = {kept(sample.real()), kept(sample.imag())};
     }
     std::vector<std::uint16_t> halves(2 * field.samples.size());
-    to_half(reinterpret_cast<const float*>(field.samples.data()), halves.data(), halves.size());
+    core::to_half(reinterpret_cast<const float*>(field.samples.data()), halves.data(), halves.size());
     const auto read = [&] {
         const HologramFile file = open_hologram(path_);
         EXPECT_EQ(file.fields.at(0)->grid(), grid);
@@ -511,7 +511,7 @@ TEST_F(Files, many_threads_open_read_and_write_at_once) {
     const LightFieldGrid grid = grid_of(7, 5, 3, 2, 3);
     const LightField field = random_light_field(grid, true);
     std::atomic<int> good{0};
-    parallel_for(40, [&](std::size_t i) {
+    core::parallel_for(40, [&](std::size_t i) {
         const fs::path path = directory_ / (std::to_string(i) + ".h5");
         copy(field, *create_light_field(path, grid, {SampleType::half, true, {}}));
         LightField back(grid, true);
@@ -525,4 +525,4 @@ TEST_F(Files, many_threads_open_read_and_write_at_once) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::io

@@ -12,7 +12,7 @@
 #include "hogel/error.h"
 #include "hogel/files.h"
 
-namespace hogel {
+namespace hogel::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -358,4 +358,4 @@ with open(sys.argv[1], "r+b") as f:
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::io

@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/files.h"
 
-namespace hogel {
+namespace hogel::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_F(Resume, what_is_lost_is_begun_again) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::io

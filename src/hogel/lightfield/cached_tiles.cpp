@@ -53,7 +53,7 @@ class KeptTiles final : public LightFieldSource {
     std::unique_ptr<LightFieldSource> source_;
     bool with_depth_;
     HogelRange size_;
-    mutable RecentResults<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
+    mutable core::RecentResults<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
 };
 
 }  // namespace

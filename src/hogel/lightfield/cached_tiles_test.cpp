@@ -8,7 +8,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::lightfield {
 namespace {
 
 const LightFieldGrid grid{20, 9, 1e-3, 3, 2, 0.2, 0.2, 3};
@@ -17,7 +17,7 @@ const LightFieldGrid grid{20, 9, 1e-3, 3, 2, 0.2, 0.2, 3};
 class Numbered final : public LightFieldSource {
   public:
     explicit Numbered(std::atomic<std::size_t>& asked) : asked_(asked) {}
-    const LightFieldGrid& grid() const override { return hogel::grid; }
+    const LightFieldGrid& grid() const override { return hogel::lightfield::grid; }
     bool has_depth() const override { return true; }
     HogelRange preferred_tile() const override { return {0, 0, 20, 2}; }
     void read(LightFieldTile& tile) const override {
@@ -48,7 +48,7 @@ void expect_all_in_tiles(const LightFieldSource& source, std::size_t ns, std::si
     const Numbered truth(asked);
     const std::size_t across = (20 + ns - 1) / ns, down = (9 + nt - 1) / nt;
     std::atomic<std::size_t> wrong = 0;
-    parallel_for(across * down, [&](std::size_t i) {
+    core::parallel_for(across * down, [&](std::size_t i) {
         const std::size_t s0 = i % across * ns, t0 = i / across * nt;
         const HogelRange range{s0, t0, std::min(ns, 20 - s0), std::min(nt, 9 - t0)};
         LightFieldTile tile(grid, range, with_depth), expected(grid, range, with_depth);
@@ -94,4 +94,4 @@ TEST(KeepTiles, forgets_what_failed) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::lightfield

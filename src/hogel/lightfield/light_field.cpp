@@ -190,7 +190,7 @@ void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t fir
 void LightField::read(LightFieldTile& tile) const {
     validate(tile, grid_);
     const HogelRange& r = tile.range;
-    parallel_for(r.nt, [&](std::size_t j) {
+    core::parallel_for(r.nt, [&](std::size_t j) {
         for (std::size_t c = 0; c < grid_.channels; ++c)
             copy_row(&radiance(c, r.t0 + j, r.s0, 0, 0), &tile.radiance(c, j, 0, 0, 0), r.ns, grid_.directions());
         if (has_depth() && tile.depth.size() > 0)
@@ -230,8 +230,8 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
     const std::size_t down = (grid.hogels_t + size.nt - 1) / size.nt;
     std::mutex reporting;
     std::size_t done = 0;
-    report(progress, 0);
-    parallel_for(across * down, [&](std::size_t i) {
+    progress.report(0);
+    core::parallel_for(across * down, [&](std::size_t i) {
         HogelRange range{(i % across) * size.ns, (i / across) * size.nt, size.ns, size.nt};
         range.ns = std::min(range.ns, grid.hogels_s - range.s0);
         range.nt = std::min(range.nt, grid.hogels_t - range.t0);
@@ -241,7 +241,7 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
             sink.write(tile);
         }
         const std::lock_guard lock(reporting);
-        report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
+        progress.report(static_cast<double>(++done) / static_cast<double>(across * down));
     });
     sink.finish();
 }

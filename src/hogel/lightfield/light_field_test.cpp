@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::lightfield {
 namespace {
 
 using namespace literals;
@@ -315,4 +315,4 @@ TEST(Hemicube, refuses_what_cannot_be_halved_or_reaches_beyond_the_plane) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::lightfield

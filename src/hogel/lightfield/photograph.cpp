@@ -81,8 +81,8 @@ class Exposure {
         for (std::size_t first = 0; first < points_.size(); first += together) {
             const std::size_t count = std::min(together, points_.size() - first);
             std::ranges::fill(seen.elements(), 0.0f);
-            parallel_for(count, [&](std::size_t i) { look(face, tile, points_[first + i], seen[i]); });
-            parallel_for(camera_.picture.height, [&](std::size_t row) {
+            core::parallel_for(count, [&](std::size_t i) { look(face, tile, points_[first + i], seen[i]); });
+            core::parallel_for(camera_.picture.height, [&](std::size_t row) {
                 for (std::size_t i = 0; i < count; ++i) expose(row, points_[first + i], tile.range, cells, seen[i]);
             });
         }
@@ -233,7 +233,7 @@ std::vector<Image> photograph(std::span<const LightFieldSource* const> faces, st
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : blocks(grids[face])) list.push_back({face, block});
     // Reading may mean rendering, so some blocks are read at a time; they are exposed in order.
-    parallel_ordered<LightFieldTile>(
+    core::parallel_ordered<LightFieldTile>(
         list.size(), thread_count(),
         [&](std::size_t i) {
             LightFieldTile tile(grids[list[i].face], list[i].block.hogels, false);
@@ -242,7 +242,7 @@ std::vector<Image> photograph(std::span<const LightFieldSource* const> faces, st
         },
         [&](std::size_t i, LightFieldTile& tile) {
             for (Exposure& exposure : exposures) exposure.add(list[i].face, tile, list[i].block.cells);
-            report(progress, static_cast<double>(i + 1) / static_cast<double>(list.size()));
+            progress.report(static_cast<double>(i + 1) / static_cast<double>(list.size()));
         });
     std::vector<Image> images;
     for (Exposure& exposure : exposures) images.push_back(exposure.finish());

@@ -9,7 +9,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::lightfield {
 namespace {
 
 using namespace literals;
@@ -163,4 +163,4 @@ TEST(GeometricPhotograph, refuses_faces_that_do_not_belong_together) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::lightfield

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hogel {
+namespace hogel::math {
 
 /// Transforms of columns whose length is a power of two, a vector of neighbouring columns at a time: nothing is ever
 /// shuffled but the two parts of a number, where they do not lie apart already. Decimation in frequency by fours, with
@@ -49,4 +49,4 @@ class ColumnFft {
     Plan plan_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::math

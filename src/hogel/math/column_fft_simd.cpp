@@ -14,7 +14,7 @@
 #include "hogel/math/column_fft.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::math {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -180,7 +180,7 @@ void TransformSquare(const ColumnFft::Plan& plan, const float* from, float* to, 
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::math
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -188,7 +188,7 @@ HWY_AFTER_NAMESPACE();
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::math {
 namespace {
 
 ColumnFft::Factor factor_of(double turns) {
@@ -244,5 +244,5 @@ void ColumnFft::backward_apart(const float* from, std::complex<float>* to, std::
     HWY_DYNAMIC_DISPATCH(TransformSquare)(plan_, from, reinterpret_cast<float*>(to), 2 * to_row, 2 * columns);
 }
 
-}  // namespace hogel
+}  // namespace hogel::math
 #endif

@@ -13,7 +13,7 @@
 #include "hogel/error.h"
 #include "hogel/math/column_fft.h"
 
-namespace hogel {
+namespace hogel::math {
 namespace {
 
 // FFTW's planner keeps global tables; only execution is thread-safe.
@@ -95,7 +95,7 @@ void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool f
     const std::size_t height = values.extent(0), width = values.extent(1);
     if (fft.size() != width)
         throw Error(ErrorCode::internal, fmt::format("FFT of rows of {} with a plan for {}", width, fft.size()));
-    parallel_for((height + lines_together - 1) / lines_together, [&](std::size_t block) {
+    core::parallel_for((height + lines_together - 1) / lines_together, [&](std::size_t block) {
         Array<std::complex<float>, 1> line({width});
         for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, height); ++y) {
             std::copy_n(&values(y, 0), width, line.data());
@@ -111,7 +111,7 @@ void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, boo
         throw Error(ErrorCode::internal, fmt::format("FFT of columns of {} with a plan for {}", height, fft.size()));
     // Room between the lines, so that they do not all begin in the same places of the caches.
     const std::size_t stride = (height + 15) / 8 * 8;
-    parallel_for((width + lines_together - 1) / lines_together, [&](std::size_t block) {
+    core::parallel_for((width + lines_together - 1) / lines_together, [&](std::size_t block) {
         const std::size_t x0 = block * lines_together, columns = std::min(lines_together, width - x0);
         Array<std::complex<float>, 2> lines({columns, stride});
         for (std::size_t y = 0; y < height; ++y)
@@ -187,4 +187,4 @@ std::size_t good_fft_size(std::size_t n) {
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::math

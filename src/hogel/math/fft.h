@@ -6,7 +6,7 @@
 
 #include "hogel/array.h"
 
-namespace hogel {
+namespace hogel::math {
 
 /// Discrete Fourier transforms of one size, planned once and used from any number of threads. Neither direction is
 /// normalised: forward sums with e^{-2πi jm/n}, backward with e^{+2πi jm/n}. A plan depends on the size alone, never on
@@ -62,4 +62,4 @@ void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, boo
 /// The smallest n' >= n that has no prime factor above 7: sizes that transform fast.
 std::size_t good_fft_size(std::size_t n);
 
-}  // namespace hogel
+}  // namespace hogel::math

@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/math/column_fft.h"
 
-namespace hogel {
+namespace hogel::math {
 namespace {
 
 using Complex = std::complex<float>;
@@ -179,4 +179,4 @@ TEST(GoodFftSize, is_the_next_seven_smooth_number) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::math

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 
-namespace hogel {
+namespace hogel::math {
 namespace {
 
 TEST(Vec3, cross_of_x_and_y_is_z) { EXPECT_EQ(cross({1, 0, 0}, {0, 1, 0}), (Vec3{0, 0, 1})); }
@@ -17,4 +17,4 @@ TEST(Grid, the_top_left_sample_has_the_smallest_x_and_the_largest_y) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::math

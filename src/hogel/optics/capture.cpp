@@ -9,7 +9,7 @@
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 // An eye as the cameras need it: its widest pupil and the focus farthest off in one camera, which bounds the memory;
@@ -73,14 +73,14 @@ std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Ca
     std::vector<std::optional<CapturedEye>> captured(eyes.size());
     std::size_t done = 0;
     for (const std::vector<std::size_t>& pass : plan.passes) {
-        std::vector<NarrowBand> bands;
+        std::vector<narrow_band::NarrowBand> bands;
         for (std::size_t i : pass) {
             bands.emplace_back(hologram.grid(), widest[i].eye, widest[i].pupil);
             captured[i] = CapturedEye(hologram.grid(), bands.back(), widest[i].pupil, eyes[i].blur);
         }
         for (std::size_t first = 0; first < looks; first += looks_at_once) {
             const std::size_t count = std::min(looks_at_once, looks - first);
-            auto drawn = draw_narrow_bands(hologram, bands, first, count, [&](double fraction) {
+            auto drawn = narrow_band::draw_narrow_bands(hologram, bands, first, count, [&](double fraction) {
                 return !progress ||
                        progress((static_cast<double>(done) + 0.95 * fraction * static_cast<double>(count)) / parts);
             });
@@ -90,7 +90,7 @@ std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Ca
                     band = {};
                 }
             done += count;
-            report(progress, static_cast<double>(done) / parts);
+            progress.report(static_cast<double>(done) / parts);
         }
     }
     std::vector<CapturedEye> result;
@@ -98,4 +98,4 @@ std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Ca
     return result;
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -3,7 +3,7 @@
 #include "hogel/optics/film/film.h"
 #include "hogel/photograph.h"
 
-namespace hogel {
+namespace hogel::optics {
 
 /// The light that enters the widest pupil of one eye, kept: all that photographs of any focus and any smaller pupil
 /// need, so that each takes a transform of the film a look, and the hologram is read no more. It takes a sixteenth of
@@ -18,7 +18,7 @@ class CapturedEye {
   private:
     friend std::vector<CapturedEye> capture(const FieldSource&, std::span<const Camera>, const Progress&,
                                             const PhotographOptions&);
-    CapturedEye(const FieldGrid& hologram, const NarrowBand& band, double pupil, double blur)
+    CapturedEye(const FieldGrid& hologram, const narrow_band::NarrowBand& band, double pupil, double blur)
         : plane_(hologram.plane),
           eye_(band.geometry.eye()),
           pupil_(pupil),
@@ -28,7 +28,7 @@ class CapturedEye {
     Grid plane_;
     Vec3 eye_;
     double pupil_, blur_;
-    Film film_;
+    film::Film film_;
     std::vector<Array<std::complex<float>, 2>> looks_;  // waves over the pupil
 };
 
@@ -38,4 +38,4 @@ class CapturedEye {
 std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Camera> cameras,
                                  const Progress& progress = {}, const PhotographOptions& options = {});
 
-}  // namespace hogel
+}  // namespace hogel::optics

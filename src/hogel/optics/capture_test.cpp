@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 using namespace literals;
@@ -85,4 +85,4 @@ TEST(Capture, what_was_not_captured_is_refused) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics

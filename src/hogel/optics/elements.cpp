@@ -9,14 +9,14 @@
 #include "hogel/optics/phase_walk.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 // Multiplies every sample by factor(x, y).
 template <class Factor>
 void multiply_everywhere(Wave& wave, const Factor& factor) {
     const Grid& plane = wave.grid().plane;
-    parallel_for(plane.height, [&](std::size_t row) {
+    core::parallel_for(plane.height, [&](std::size_t row) {
         const double y = plane.y(static_cast<double>(row));
         std::complex<float>* samples = &wave.samples.view()(row, 0);
         for (std::size_t column = 0; column < plane.width; ++column) {
@@ -88,4 +88,4 @@ void thin_lens(Wave& wave, double center_x, double center_y, double diameter, do
     });
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -2,7 +2,7 @@
 
 #include "hogel/optics/spectrum.h"
 
-namespace hogel {
+namespace hogel::optics {
 
 /// A circular opening: the wave becomes zero outside; its edge falls over one sample. Returns the area, m², through
 /// which the energy of a uniform wave passes: the samples' own, each times its square.
@@ -16,4 +16,4 @@ void rectangular_aperture(Wave& wave, const Rectangle& opening);
 /// edge the phase is too steep for the wave's samples, with the diameter that would do.
 void thin_lens(Wave& wave, double center_x, double center_y, double diameter, double focal_length);
 
-}  // namespace hogel
+}  // namespace hogel::optics

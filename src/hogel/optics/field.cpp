@@ -89,11 +89,11 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
     const std::size_t width = in_place ? plane.width : side,
                       height = in_place ? aligned_rows(source.alignment(), plane.width) : side;
     const std::size_t across = (plane.width + width - 1) / width, down = (plane.height + height - 1) / height;
-    Reused<Array<std::complex<float>, 1>> rooms;
+    core::Reused<Array<std::complex<float>, 1>> rooms;
     std::mutex reporting;
     std::size_t done = 0;
-    report(progress, 0);
-    parallel_for(across * down, [&](std::size_t i) {
+    progress.report(0);
+    core::parallel_for(across * down, [&](std::size_t i) {
         Region region{(i % across) * width, (i / across) * height, width, height};
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);
@@ -107,7 +107,7 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
             sink.write(region, values);
         }
         const std::lock_guard lock(reporting);
-        report(progress, static_cast<double>(++done) / static_cast<double>(across * down));
+        progress.report(static_cast<double>(++done) / static_cast<double>(across * down));
     });
     sink.finish();
 }

@@ -8,7 +8,7 @@
 #include "hogel/error.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 using namespace literals;
@@ -149,4 +149,4 @@ TEST(FieldGrid, validate_names_what_is_wrong) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace hogel {
+namespace hogel::optics {
 
 /// Lines of an array that one thread takes together, so that columns are read a whole cache line at a time.
 constexpr std::size_t lines_together = 16;
@@ -35,4 +35,4 @@ void put_frequencies(const T* in, std::size_t count, T* transform, std::size_t n
     std::copy_n(in + until_end, count - until_end, transform);
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

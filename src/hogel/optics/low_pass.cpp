@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::optics {
 
 double LowPass::at(double distance) {
     // Kaiser's design: attenuation a = 7.95 + 14.36 · (2·4.5) · Δf = 72.6 dB for the transition Δf = 1/2, and from it
@@ -17,4 +17,4 @@ double LowPass::at(double distance) {
     return window * (distance == 0 ? 1 : std::sin(phase) / phase);
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace hogel {
+namespace hogel::optics {
 
 /// A Kaiser-windowed sinc: the kernel with which the narrow-band camera lowers sampling rates and moves samples.
 /// Arguments count output samples. It passes |f| <= 1/4 cycle a sample unchanged and stops |f| >= 3/4, so that a signal
@@ -14,4 +14,4 @@ struct LowPass {
     static double at(double distance);
 };
 
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 // Frequency response by a fine sum over the kernel.
@@ -26,4 +26,4 @@ TEST(LowPass, passes_half_the_band_and_stops_what_would_fold_onto_it) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::optics {
 
 /// e^{2πi turns}, for any number of turns.
 inline std::complex<double> unit_phasor(double turns) {
@@ -39,4 +39,4 @@ void walk_phase(std::size_t count, const Turns& turns, const Emit& emit) {
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

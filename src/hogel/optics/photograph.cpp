@@ -11,6 +11,9 @@
 #include "hogel/units.h"
 
 namespace hogel {
+
+using namespace optics;
+
 namespace {
 
 // A part of a field, as a field.
@@ -35,8 +38,8 @@ class Window final : public FieldSource {
 void photograph_window(const FieldSource& window, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes,
                        const Rectangle& shown, std::size_t looks_at_once, std::vector<Image>& images,
                        const Progress& progress) {
-    std::vector<NarrowBand> bands;
-    std::vector<Film> films;
+    std::vector<narrow_band::NarrowBand> bands;
+    std::vector<film::Film> films;
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
     for (std::size_t e = 0; e < eyes.size(); ++e) {
         bands.emplace_back(window.grid(), cameras[eyes[e].members.front()].eye, eyes[e].pupil);
@@ -49,10 +52,9 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
     for (std::size_t first = 0; first < looks; first += looks_at_once) {
         const std::size_t count = std::min(looks_at_once, looks - first);
         const auto tell = [&](double done) {
-            report(progress,
-                   (static_cast<double>(first) + done * static_cast<double>(count)) / static_cast<double>(looks));
+            progress.report((static_cast<double>(first) + done * static_cast<double>(count)) / static_cast<double>(looks));
         };
-        auto drawn = draw_narrow_bands(window, bands, first, count, [&](double fraction) {
+        auto drawn = narrow_band::draw_narrow_bands(window, bands, first, count, [&](double fraction) {
             tell(0.9 * fraction);
             return true;
         });

@@ -45,7 +45,7 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         hologram.read({0, 0, plane.width, plane.height}, look, field);
         // Rayleigh and Sommerfeld: every sample of the hologram sends a wave z/(iλr²) e^{ikr} to the pupil.
-        parallel_for(pupil.size(), [&](std::size_t i) {
+        core::parallel_for(pupil.size(), [&](std::size_t i) {
             Complex sum = 0;
             for (std::size_t row = 0; row < plane.height; ++row)
                 for (std::size_t column = 0; column < plane.width; ++column) {
@@ -57,7 +57,7 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
         });
         // A perfect lens: waves from the point p of the plane in focus arrive at p's place on the film in step.
         const double points_a_pixel = static_cast<double>(subpixels * subpixels);
-        parallel_for(camera.picture.height, [&](std::size_t row) {
+        core::parallel_for(camera.picture.height, [&](std::size_t row) {
             for (std::size_t column = 0; column < camera.picture.width; ++column)
                 for (std::size_t b = 0; b < subpixels; ++b)
                     for (std::size_t a = 0; a < subpixels; ++a) {

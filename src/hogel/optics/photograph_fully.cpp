@@ -19,6 +19,9 @@
 #include "hogel/units.h"
 
 namespace hogel {
+
+using namespace optics;
+
 namespace {
 
 // The pupil is taken this much wider where directions are chosen, so that its sharp edge diffracts as it should.
@@ -44,7 +47,7 @@ Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pu
 // is interpolated.
 std::size_t film_samples(std::size_t columns, double size, double pupil, double distance, double wavelength) {
     const double intensity = 3 * edge_room * pupil / (wavelength * distance) * size;
-    return good_fft_size(
+    return math::good_fft_size(
         static_cast<std::size_t>(std::ceil(std::max(edge_room * static_cast<double>(columns), intensity))) + 16);
 }
 
@@ -173,7 +176,7 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
     const std::size_t sub_x = points(picture.pitch_x, plane.pitch_x), sub_y = points(picture.pitch_y, plane.pitch_y);
     const View<const std::complex<float>, 2> samples = focused.wave.samples.view();
     const auto intensity = [&](std::size_t row, std::size_t column) { return std::norm(samples(row, column)); };
-    parallel_for(picture.height, [&](std::size_t row) {
+    core::parallel_for(picture.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < picture.width; ++column) {
             double sum = 0;
             for (std::size_t b = 0; b < sub_y; ++b)
@@ -186,7 +189,7 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
                     // Between dark samples the cubic may fall below zero.
                     const double value =
-                        std::max(0.0f, cubic_at(samples.extent(0), samples.extent(1),
+                        std::max(0.0f, film::cubic_at(samples.extent(0), samples.extent(1),
                                                 plane.row(plane.center_y + dot(aside, focused.axes.y)),
                                                 plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
                     const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
@@ -215,14 +218,14 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
     for (std::size_t j = 0; j < plane.height; ++j)
         up[j] = turned(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
     Array<std::complex<float>, 2> result({picture.height, picture.width});
-    parallel_for(picture.height, [&](std::size_t row) {
+    core::parallel_for(picture.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < picture.width; ++column) {
             const double x = picture.x(static_cast<double>(column)), y = picture.y(static_cast<double>(row));
             if (!shown.holds(x, y)) continue;
             const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
             const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
             const std::complex<float> slow =
-                cubic_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
+                film::cubic_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
                          plane.column(plane.center_x + right),
                          [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
             const double cycles =
@@ -262,7 +265,7 @@ void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progre
         const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], tell);
         for (std::size_t i : eyes[e].members)
             visit(i, wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options));
-        report(progress, part(1));
+        progress.report(part(1));
     }
 }
 

@@ -12,7 +12,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 // A window reaches this many resolution cells beyond what it shows. A point's image falls off slowly: beyond m cells
@@ -61,12 +61,12 @@ Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std:
     Need bytes;
     double largest = 0;
     for (const SharedEye& eye : eyes) {
-        const NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
-        const FilmSize film(band, hologram, eye.pupil, eye.blur);
+        const narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
+        const film::FilmSize film(band, hologram, eye.pupil, eye.blur);
         bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
         // Tiles on their way into the band.
-        const double tile = NarrowBand::tile_width / static_cast<double>(band.factor) + 2 * NarrowBand::margin;
-        bytes.a_look += 8.0 * static_cast<double>(default_in_flight()) * tile * tile;
+        const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) + 2 * narrow_band::NarrowBand::margin;
+        bytes.a_look += 8.0 * static_cast<double>(core::default_in_flight()) * tile * tile;
         bytes.fixed += 4.0 * static_cast<double>(film.sines.samples()) * static_cast<double>(eye.members.size());
         largest = std::max(largest, film.pupil_bytes() + film.work_bytes());
     }
@@ -145,7 +145,7 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
                                 PhotographPlan::Windows windows) {
     for (const Camera& camera : cameras) {
         validate(camera);
-        NarrowBand(hologram, camera.eye, camera.pupil);  // says so where the pupil is too wide for the pitch
+        narrow_band::NarrowBand(hologram, camera.eye, camera.pupil);  // says so where the pupil is too wide for the pitch
     }
     if (cameras.empty()) return {};
     const std::span<const std::size_t> counts =
@@ -168,4 +168,4 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
                                      : "no pupil is small enough"));
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -5,7 +5,7 @@
 #include "hogel/camera.h"
 #include "hogel/optics/film/film.h"
 
-namespace hogel {
+namespace hogel::optics {
 
 /// How photographs of a hologram fit into memory. Cameras are taken some at a time, sorted by eye; the hologram may be
 /// photographed window by window, each with a margin around what it shows, because light that enters the pupil from one
@@ -40,4 +40,4 @@ struct SharedEye {
 };
 std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members);
 
-}  // namespace hogel
+}  // namespace hogel::optics

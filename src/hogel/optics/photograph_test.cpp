@@ -11,7 +11,7 @@
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 using namespace literals;
@@ -329,4 +329,4 @@ TEST(Photograph, a_pupil_too_wide_for_the_pitch_is_refused_with_one_that_would_d
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hogel/propagate.h"
 #include "hogel/core/parallel.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 using Complex = std::complex<float>;
@@ -114,7 +115,7 @@ void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
 }  // namespace
 
 void propagate(Spectrum& spectrum, const Way& way) {
-    parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
+    core::parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
         for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
             propagate_row(spectrum.samples.view()[r].elements(),
                           RowOfDirections(spectrum, way, static_cast<double>(r)));
@@ -122,6 +123,12 @@ void propagate(Spectrum& spectrum, const Way& way) {
     spectrum.window.center_x += way.shift_x;
     spectrum.window.center_y += way.shift_y;
 }
+
+}  // namespace hogel::optics
+
+namespace hogel {
+
+using namespace optics;
 
 void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
                const Progress& progress) {
@@ -132,18 +139,18 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, std:
         spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), scratch,
                     [&](double done) { return !progress || progress(0.4 * done); });
     propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
-    report(progress, 0.6);
+    progress.report(0.6);
     const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
-    report(progress, 0.9);
+    progress.report(0.9);
     const std::size_t left = (waves.window.width - plane.width) / 2, above = (waves.window.height - plane.height) / 2;
-    parallel_for(blocks_of(plane.height), [&](std::size_t block) {
+    core::parallel_for(blocks_of(plane.height), [&](std::size_t block) {
         const std::size_t y0 = block * lines_together, rows = std::min(lines_together, plane.height - y0);
         Array<Complex, 2> lines({rows, plane.width});
         wave.read({left, above + y0, plane.width, rows}, 0, lines);
         sink.write({0, y0, plane.width, rows}, lines);
     });
     sink.finish();
-    report(progress, 1);
+    progress.report(1);
 }
 
 Field propagate(const FieldSource& source, double distance, std::size_t look) {

@@ -6,7 +6,7 @@
 
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 struct Range {
@@ -42,7 +42,7 @@ double defocus_blur(const Camera& camera) {
     return camera.pupil / R * most;
 }
 
-SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
+SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, double blur) {
     // The directions of the whole plane, found along its edge.
     const ViewGeometry& geometry = band.geometry;
     Range x, y;
@@ -65,9 +65,9 @@ SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
     constexpr double room = 64;
     const auto choose = [&](const Range& range, std::size_t& size, double& first) {
         const double wanted = (range.high - range.low + blur) / grid.step + room;
-        size = good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
+        size = math::good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
         // Rows that are a large power of two apart fall on each other in the caches: ten times slower.
-        while (size % 128 == 0) size = good_fft_size(size + 1);
+        while (size % 128 == 0) size = math::good_fft_size(size + 1);
         first = 0.5 * (range.low + range.high) - 0.5 * static_cast<double>(size - 1) * grid.step;
     };
     choose(x, grid.size_x, grid.first_x);
@@ -75,4 +75,4 @@ SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur) {
     return grid;
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

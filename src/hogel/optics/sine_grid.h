@@ -5,7 +5,7 @@
 #include "hogel/camera.h"
 #include "hogel/optics/narrow_band/narrow_band.h"
 
-namespace hogel {
+namespace hogel::optics {
 
 /// Directions from the centre of a lens at uniform steps of their sines (n_x, n_y): the film's own sampling, in which
 /// the pupil is the Fourier transform's own plane whatever the obliquity.
@@ -19,10 +19,10 @@ struct SineGrid {
 
 /// Covers what the eye sees of a plane, no coarser than its band, with room for what is out of focus.
 /// @param blur  how far light out of focus spreads in the sines, see defocus_blur()
-SineGrid sine_grid(const NarrowBand& band, const Grid& plane, double blur);
+SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, double blur);
 
 /// The width in direction sines of the disc that a point of the hologram plane becomes on a film in focus elsewhere, at
 /// the most in the picture.
 double defocus_blur(const Camera& camera);
 
-}  // namespace hogel
+}  // namespace hogel::optics

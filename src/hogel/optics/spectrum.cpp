@@ -14,7 +14,7 @@
 #include "hogel/optics/spectrum_steps.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 using Complex = std::complex<float>;
@@ -54,7 +54,7 @@ Band Band::of(const Grid& plane) {
 
 Wave::Wave(const FieldGrid& grid, const Scratch& scratch) : grid_(grid) {
     validate(grid, ErrorCode::usage, "wave");
-    samples = LargeArray({grid.plane.height, grid.plane.width}, scratch);
+    samples = core::LargeArray({grid.plane.height, grid.plane.width}, scratch);
 }
 
 void Wave::read(const Region& region, std::size_t look, View<Complex, 2> out) const {
@@ -68,9 +68,9 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
     Grid window = plane;
     const auto grown = [](std::size_t samples, double size, double pitch) {
         const auto wanted = static_cast<std::size_t>(std::ceil(size / pitch));
-        std::size_t n = good_fft_size(std::max(wanted, samples));
+        std::size_t n = math::good_fft_size(std::max(wanted, samples));
         // The samples stand in the middle, so what is added must be even.
-        while ((n - samples) % 2 != 0) n = good_fft_size(n + 1);
+        while ((n - samples) % 2 != 0) n = math::good_fft_size(n + 1);
         return n;
     };
     window.width = grown(plane.width, size_x, plane.pitch_x);
@@ -87,7 +87,7 @@ Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band,
     const auto [first_row, last_row] = steps(-band.high_y, -band.low_y, window.size_y(), window.height, -carrier_y);
     result.first_column = first_column;
     result.first_row = first_row;
-    result.samples = LargeArray(
+    result.samples = core::LargeArray(
         {static_cast<std::size_t>(last_row - first_row + 1), static_cast<std::size_t>(last_column - first_column + 1)},
         scratch);
     return result;
@@ -109,8 +109,8 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const std::size_t columns = result.width(), rows = result.height();
 
     // Along the rows, of which only the band's columns are kept.
-    LargeArray half({plane.height, columns}, scratch);
-    const Fft1 along(window.width), down(window.height);
+    core::LargeArray half({plane.height, columns}, scratch);
+    const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
     const std::size_t together = source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1);
@@ -119,10 +119,10 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     std::size_t done = 0;
     const auto tell = [&] {
         const std::lock_guard lock(reporting);
-        report(progress, static_cast<double>(++done) / static_cast<double>(all_blocks));
+        progress.report(static_cast<double>(++done) / static_cast<double>(all_blocks));
     };
     const std::size_t left = (window.width - plane.width) / 2, above = (window.height - plane.height) / 2;
-    parallel_for(row_blocks, [&](std::size_t block) {
+    core::parallel_for(row_blocks, [&](std::size_t block) {
         const std::size_t y0 = block * together, height = std::min(together, plane.height - y0);
         Array<Complex, 2> lines({height, plane.width});
         source.read({0, y0, plane.width, height}, look, lines);
@@ -133,14 +133,14 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             along.forward(line.data());
             Complex* kept = &half.view()(y0 + y, 0);
             take_frequencies(line.data(), window.width, first_column, columns, kept);
-            multiply(kept, centre_x.data(), std::span(kept, columns));
+            narrow_band::multiply(kept, centre_x.data(), std::span(kept, columns));
         }
         tell();
     });
 
     // Down the columns, of which only the band's rows are kept.
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
-    parallel_for(blocks_of(columns), [&](std::size_t block) {
+    core::parallel_for(blocks_of(columns), [&](std::size_t block) {
         const std::size_t x0 = block * lines_together, width = std::min(lines_together, columns - x0);
         Array<Complex, 2> lines({width, stride_of(window.height)});
         for (std::size_t y = 0; y < plane.height; ++y)
@@ -179,12 +179,12 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
               scratch);
     wave.carrier_x = spectrum.frequency_x(static_cast<double>(columns / 2));
     wave.carrier_y = spectrum.frequency_y(static_cast<double>(rows / 2));
-    const Fft1 along(width), down(height);
+    const math::Fft1 along(width), down(height);
     const std::vector<Complex> centre_x =
         centring(spectrum.first_column, columns, width, 1, 1 / (window.size_x() * window.size_y()));
     const std::vector<Complex> centre_y = centring(spectrum.first_row, rows, height, 1, 1);
     // Up the columns first, into the left part of the result, where the rows then are filled in place.
-    parallel_for(blocks_of(columns), [&](std::size_t block) {
+    core::parallel_for(blocks_of(columns), [&](std::size_t block) {
         const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns - x0);
         Array<Complex, 2> lines({count, stride_of(height)});
         for (std::size_t r = 0; r < rows; ++r) {
@@ -196,7 +196,7 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
         for (std::size_t y = 0; y < height; ++y)
             for (std::size_t i = 0; i < count; ++i) wave.samples.view()(y, x0 + i) = lines(i, y);
     });
-    parallel_for(blocks_of(height), [&](std::size_t block) {
+    core::parallel_for(blocks_of(height), [&](std::size_t block) {
         Array<Complex, 1> line({width});
         for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, height); ++y) {
             std::ranges::fill(line.elements(), Complex(0));
@@ -225,4 +225,4 @@ Band band_between(const Rectangle& from, const Rectangle& to, double distance, d
     return {x.first / wavelength, x.second / wavelength, y.first / wavelength, y.second / wavelength};
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

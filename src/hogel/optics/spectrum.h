@@ -3,7 +3,7 @@
 #include "hogel/core/paged_array.h"
 #include "hogel/field.h"
 
-namespace hogel {
+namespace hogel::optics {
 
 /// A range of spatial frequencies, cycles per metre; a plane wave in direction n has the frequency (n_x, n_y)/λ.
 struct Band {
@@ -21,7 +21,7 @@ struct Spectrum {
     Grid window;            ///< what was transformed: its count times its pitch is the window's size, its centre is c
     double wavelength = 0;  ///< metres
     std::ptrdiff_t first_column = 0, first_row = 0;  ///< frequencies of the first sample, in steps; rows run down
-    LargeArray samples;                              ///< [row][column] of S, row 0 the highest f_y
+    core::LargeArray samples;                              ///< [row][column] of S, row 0 the highest f_y
 
     double frequency_x(double column) const { return (static_cast<double>(first_column) + column) / window.size_x(); }
     double frequency_y(double row) const { return -(static_cast<double>(first_row) + row) / window.size_y(); }
@@ -37,7 +37,7 @@ class Wave final : public FieldSource {
     const FieldGrid& grid() const override { return grid_; }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;
 
-    LargeArray samples;                   ///< [y][x]
+    core::LargeArray samples;                   ///< [y][x]
     double carrier_x = 0, carrier_y = 0;  ///< cycles per metre
 
   private:
@@ -75,16 +75,7 @@ struct Way {
 /// steps.
 void propagate(Spectrum& spectrum, const Way& way);
 
-/// A field on a parallel plane, on the same grid. It is given room around it and keeps all directions that could bring
-/// light from one end of the grid to the other; those that go farther fade out, and do not come in again.
-/// Throws Error(usage) for a distance that is not finite.
-Field propagate(const FieldSource& field, double distance, std::size_t look = 0);
-
-/// The same from a source to a sink, with what does not fit into memory in a file.
-void propagate(const FieldSource& field, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
-               const Progress& progress = {});
-
 /// The frequencies that light from one rectangle to another on a plane at this distance can have: [K] 6.1.3.
 Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength);
 
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -1,5 +1,7 @@
 #include "hogel/optics/spectrum.h"
 
+#include "hogel/propagate.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +15,7 @@
 #include "hogel/optics/tilt.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 using namespace literals;
@@ -87,7 +89,7 @@ TEST(Spectrum, a_gaussian_beam_widens_and_curves) {
     const Grid plane{512, 480, 1_um, 1_um, 0, 0};
     const Field waist = sampled(plane, [](double x, double y) { return gaussian_beam(20_um, x, y, 0); });
     for (double z : {3_mm, -5_mm}) {
-        const Field there = propagate(waist, z);
+        const Field there = hogel::propagate(waist, z);
         EXPECT_LT(worst(there, [&](double x, double y) { return gaussian_beam(20_um, x, y, z); }), 1e-3) << z;
     }
 }
@@ -104,7 +106,7 @@ TEST(Spectrum, a_spherical_wave_stays_one) {
     };
     const Field before = sampled(plane, [&](double x, double y) { return wave(x, y, 100_um); });
     for (double z : {200_um, -60_um, 350_um}) {
-        const Field there = propagate(before, z);
+        const Field there = hogel::propagate(before, z);
         EXPECT_LT(worst(there, [&](double x, double y) { return wave(x, y, 100_um + z); }), 1e-3) << z;
     }
 }
@@ -147,7 +149,7 @@ TEST(Elements, a_round_lens_makes_airys_pattern) {
     Wave wave({plane, wavelength}, {});
     for (auto& value : wave.samples.view().elements()) value = 1;
     thin_lens(wave, 0, 0, 2 * radius, focal);
-    const Field focus = propagate(wave, focal);
+    const Field focus = hogel::propagate(wave, focal);
     const auto airy = [&](double x, double y) {
         const double v = 2 * pi * radius * std::hypot(x, y) / (wavelength * focal);
         return v < 1e-9 ? 1.0 : 2 * std::cyl_bessel_j(1.0, v) / v;
@@ -181,7 +183,7 @@ TEST(Elements, a_rectangular_opening_makes_fresnels_pattern) {
     const Rectangle opening{Grid{200, 160, 1_um, 1_um, 0, 0}};
     rectangular_aperture(wave, opening);
     const double z = 30_mm, scale = std::sqrt(2 / (wavelength * z));
-    const Field there = propagate(wave, z);
+    const Field there = hogel::propagate(wave, z);
     const auto along = [&](double at, double half) {
         return (fresnel_integral(scale * (half - at)) + fresnel_integral(scale * (half + at))) *
                std::polar(std::sqrt(0.5), -pi / 4);
@@ -326,7 +328,7 @@ TEST(BandBetween, holds_every_direction_tightly) {
 TEST(Spectrum, what_cannot_be_is_refused) {
     const Grid plane{64, 64, 1_um, 1_um, 0, 0};
     const Field field(FieldGrid{plane, wavelength});
-    EXPECT_THROW(propagate(field, std::nan("")), Error);
+    EXPECT_THROW(hogel::propagate(field, std::nan("")), Error);
     EXPECT_THROW(spectrum_of(field, 0, {62, 64, 1_um, 1_um, 0, 0}, Band::of(plane)), Error);
     EXPECT_THROW(spectrum_of(field, 0, plane, {6e5, 7e5, -1e5, 1e5}), Error);
     EXPECT_THROW(spectrum_of(field, 0, plane, Band::of(plane), {100, {}}), Error);
@@ -334,4 +336,4 @@ TEST(Spectrum, what_cannot_be_is_refused) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -7,7 +7,7 @@
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/spectrum_steps.h"
 
-namespace hogel {
+namespace hogel::optics {
 namespace {
 
 using Complex = std::complex<float>;
@@ -71,7 +71,7 @@ Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& wi
     result.window.center_x = spectrum.window.center_x;
     result.window.center_y = spectrum.window.center_y;
     const double frequency = 1 / spectrum.wavelength;
-    parallel_for(result.height(), [&](std::size_t row) {
+    core::parallel_for(result.height(), [&](std::size_t row) {
         const double fy = result.frequency_y(static_cast<double>(row));
         for (std::size_t column = 0; column < result.width(); ++column) {
             const double fx = result.frequency_x(static_cast<double>(column));
@@ -92,4 +92,4 @@ Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& wi
     return result;
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics

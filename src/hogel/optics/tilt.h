@@ -3,7 +3,7 @@
 #include "hogel/geometry.h"
 #include "hogel/optics/spectrum.h"
 
-namespace hogel {
+namespace hogel::optics {
 
 /// How a plane stands: its axes, unit vectors at right angles, in the frame of another plane.
 struct Orientation {
@@ -22,4 +22,4 @@ struct Orientation {
 Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& window, const Band& band,
               const Scratch& scratch = {});
 
-}  // namespace hogel
+}  // namespace hogel::optics

@@ -6,7 +6,7 @@
 #include "hogel/field.h"
 #include "hogel/geometry.h"
 
-namespace hogel {
+namespace hogel::optics {
 
 /// A hologram as the centre of a lens sees it. A point (x, y, 0) lies in direction n = (x − c)/r from the lens centre
 /// c, so n_x and n_y are direction sines; light from there to a point δ of the pupil has, once demodulated by e^{ikr},
@@ -31,4 +31,4 @@ class ViewGeometry {
     double wavelength_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::optics

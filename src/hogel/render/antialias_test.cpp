@@ -12,7 +12,7 @@
 #include "hogel/error.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::render {
 namespace {
 
 using namespace literals;
@@ -189,4 +189,4 @@ TEST(SamplesPerRay, divide_the_cells_of_every_face) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render

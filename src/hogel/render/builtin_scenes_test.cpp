@@ -12,7 +12,7 @@
 #include "hogel/shading.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::render {
 namespace {
 
 using namespace literals;
@@ -21,9 +21,9 @@ constexpr double size = 20_mm;
 
 // The church with given radiance as church-radiance has it, but lit with a few rays and cut less finely, which takes
 // a moment.
-Scene make_scene(std::string_view name) {
-    if (name != church_radiance_scene.name) return make_builtin_scene(name, size);
-    Scene church = make_builtin_scene("church", size);
+Scene quick_scene(std::string_view name) {
+    if (name != "church-radiance") return make_scene(name, size);
+    Scene church = make_scene("church", size);
     for (Light& light : church.lights) light.casts_shadows = false;
     return bake(church, {.rays = 2, .bounces = 1, .tessellation = 2});
 }
@@ -31,7 +31,7 @@ Scene make_scene(std::string_view name) {
 // The scene as it is made, or pushed back behind the hologram for a renderer that needs that.
 LightField render(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid, bool behind = false) {
     LightField light_field(grid, true);
-    Scene scene = make_scene(name);
+    Scene scene = quick_scene(name);
     const double back = behind ? bounds(scene).high.z + 1_mm : 0;
     for (Mesh& mesh : scene.meshes)
         for (Vec3& position : mesh.positions) position.z -= back;
@@ -52,9 +52,9 @@ struct Case {
 std::vector<Case> analytic_cases() {
     std::vector<Case> list;
     for (const RendererInfo& renderer : renderers())
-        for (const BuiltinScene& scene : builtin_scenes())
-            if (has_analytic_radiance(scene.name) &&
-                (renderer.straddles || bounds(make_builtin_scene(scene.name, size)).high.z < 0))
+        for (const SceneInfo& scene : scenes().rows())
+            if (scene::has_analytic_radiance(scene.name) &&
+                (renderer.straddles || bounds(make_scene(scene.name, size)).high.z < 0))
                 list.push_back({std::string(renderer.name), std::string(scene.name)});
     return list;
 }
@@ -77,7 +77,7 @@ TEST_P(ClosedForm, is_what_the_renderer_sees) {
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
             for (std::size_t v = 0; v < grid.directions_v; ++v)
                 for (std::size_t u = 0; u < grid.directions_u; ++u) {
-                    const AnalyticSample expected = analytic_radiance(scene, size, grid.s(double(s)), grid.t(double(t)),
+                    const scene::AnalyticSample expected = scene::analytic_radiance(scene, size, grid.s(double(s)), grid.t(double(t)),
                                                                       grid.u(double(u)), grid.v(double(v)));
                     if (expected.clearance < size / 1000) continue;
                     ++compared;
@@ -154,4 +154,4 @@ TEST_P(TwoWitnesses, agree_away_from_silhouettes) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hogel {
+namespace hogel::render {
 
 std::vector<float> light_spacing(const ShadedScene& scene, const LightFieldGrid& front, double share) {
     const double step = std::max(front.step_u(), front.step_v());
@@ -18,4 +18,4 @@ std::vector<float> light_spacing(const ShadedScene& scene, const LightFieldGrid&
     return spacing;
 }
 
-}  // namespace hogel
+}  // namespace hogel::render

@@ -5,7 +5,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render {
 
 /// How far apart on each triangle points of its light may lie for rays of this light field (see LightCache): `share`
 /// times the smallest width that a sample has anywhere on it, which is a hogel's pitch or, if that is more, the
@@ -13,4 +13,4 @@ namespace hogel {
 /// hemicube too, where rays of a hogel are nowhere closer than on the front.
 std::vector<float> light_spacing(const ShadedScene& scene, const LightFieldGrid& front, double share);
 
-}  // namespace hogel
+}  // namespace hogel::render

@@ -13,7 +13,7 @@
 #include "hogel/shading/light_cache.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::render {
 namespace {
 
 using namespace literals;
@@ -78,7 +78,7 @@ std::shared_ptr<ShadedScene> shaded(ShadingModel model, double share, std::share
     const auto lighting = std::make_shared<Counted>(scene->lighting);
     scene->lighting = lighting;
     if (counted) *counted = lighting;
-    if (share > 0) cache_light(*scene, light_spacing(*scene, grid, share));
+    if (share > 0) shading::cache_light(*scene, light_spacing(*scene, grid, share));
     return scene;
 }
 
@@ -147,4 +147,4 @@ TEST(LightSpacing, gives_the_same_bytes_for_any_number_of_threads_any_tiling_and
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render

@@ -16,7 +16,7 @@
 #include "hogel/shading/light_cache.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::render {
 namespace {
 
 using namespace literals;
@@ -40,8 +40,8 @@ Scene still_life(double back) {
     sheet.triangles = {{0, 2, 1}};
     sheet.material.base_color = {0.9f, 0.3f, 0.2f};
     scene.meshes = {wall, sheet};
-    MeshBuilder builder;
-    add_ball(builder, {1.2e-3, -0.7e-3, -0.9e-3}, 1.7e-3, 14, 9, {0.3f, 0.7f, 0.4f});
+    scene::MeshBuilder builder;
+    scene::add_ball(builder, {1.2e-3, -0.7e-3, -0.9e-3}, 1.7e-3, 14, 9, {0.3f, 0.7f, 0.4f});
     scene.meshes.push_back(builder.mesh);
     Material& ball = scene.meshes.back().material;
     ball.reflectance = 0.3f;
@@ -140,7 +140,7 @@ TEST_P(Combinations, show_what_rays_see) {
         const Scene scene = still_life(straddles ? 0 : 1e-3);
         ShadedScene lit = shade(scene, {.model = one.model, .shadow_map = 64});
         lit.fronts_only = one.fronts_only;
-        if (one.spacing > 0) cache_light(lit, light_spacing(lit, finer(one.front, one.samples), one.spacing));
+        if (one.spacing > 0) shading::cache_light(lit, light_spacing(lit, finer(one.front, one.samples), one.spacing));
         const auto shaded = std::make_shared<const ShadedScene>(std::move(lit));
         const std::vector<LightFieldGrid> faces = one.hemicube ? hemicube(one.front) : std::vector{one.front};
         hemicubes += faces.size() > 1 ? 1 : 0;
@@ -171,4 +171,4 @@ TEST_P(Combinations, show_what_rays_see) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render

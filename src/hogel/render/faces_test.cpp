@@ -11,7 +11,7 @@
 #include "hogel/renderer.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::render {
 namespace {
 
 using namespace literals;
@@ -137,4 +137,4 @@ TEST_P(Faces, sides_are_the_same_bytes_in_any_tiling) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render

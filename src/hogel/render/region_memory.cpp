@@ -4,11 +4,14 @@
 #include "hogel/render/region_memory.h"
 
 namespace hogel {
+
+using namespace render;
+
 namespace {
 
 template <std::size_t rank>
 double bytes(const Shape<rank>& shape) {
-    double product = sizeof(NearestTriangle);
+    double product = sizeof(baselines::NearestTriangle);
     for (const std::size_t extent : shape) product *= static_cast<double>(extent);
     return product;
 }

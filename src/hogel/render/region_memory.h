@@ -3,7 +3,7 @@
 #include "hogel/array.h"
 #include "hogel/render/row_axes.h"
 
-namespace hogel {
+namespace hogel::render {
 
 /// The shapes of the depth buffers that renderers keep for a region of hogels: one NearestTriangle a sample.
 
@@ -25,4 +25,4 @@ inline Shape<3> simplex3d_buffer(const LightFieldGrid& grid, const HogelRange& r
 /// [t][s]: one direction.
 inline Shape<2> oblique_buffer(const HogelRange& region) { return {region.nt, region.ns}; }
 
-}  // namespace hogel
+}  // namespace hogel::render

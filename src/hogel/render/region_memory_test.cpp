@@ -5,7 +5,7 @@
 #include <string>
 
 
-namespace hogel {
+namespace hogel::render {
 namespace {
 
 LightFieldGrid grid_of(Face face) {
@@ -35,4 +35,4 @@ TEST(RegionMemory, of_regions_that_no_machine_can_hold_is_told) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render

@@ -16,6 +16,9 @@
 #include "hogel/render/simplex/simploid.h"
 
 namespace hogel {
+
+using namespace render;
+
 namespace {
 
 constexpr std::array infos{
@@ -36,15 +39,15 @@ std::span<const RendererInfo> renderers() { return infos; }
 std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                                 const LightFieldGrid& grid) {
     validate(grid, ErrorCode::usage, "light field to render");
-    if (name == "raytrace") return make_raytrace_renderer(std::move(scene), grid);
+    if (name == "raytrace") return baselines::make_raytrace_renderer(std::move(scene), grid);
     require_tangents(grid, ErrorCode::usage, fmt::format("the renderer '{}' (but not raytrace)", name));
-    if (name == "zbuffer") return make_zbuffer_renderer(std::move(scene), grid);
-    if (name == "simplex") return make_simplex_renderer(std::move(scene), grid);
-    if (name == "simplex-strip") return make_simplex_strip_renderer(std::move(scene), grid);
-    if (name == "simplex3d") return make_simplex3d_renderer(std::move(scene), grid);
-    if (name == "oblique") return make_oblique_renderer(std::move(scene), grid);
-    if (name == "mvr") return make_mvr_renderer(std::move(scene), grid);
-    if (name == "epi") return make_epi_renderer(std::move(scene), grid);
+    if (name == "zbuffer") return baselines::make_zbuffer_renderer(std::move(scene), grid);
+    if (name == "simplex") return simplex::make_simplex_renderer(std::move(scene), grid);
+    if (name == "simplex-strip") return simplex::make_simplex_strip_renderer(std::move(scene), grid);
+    if (name == "simplex3d") return simplex::make_simplex3d_renderer(std::move(scene), grid);
+    if (name == "oblique") return baselines::make_oblique_renderer(std::move(scene), grid);
+    if (name == "mvr") return baselines::make_mvr_renderer(std::move(scene), grid);
+    if (name == "epi") return epi::make_epi_renderer(std::move(scene), grid);
     std::vector<std::string_view> known;
     for (const RendererInfo& info : infos) known.push_back(info.name);
     throw Error(ErrorCode::usage, fmt::format("unknown renderer '{}'; known: {}", name, fmt::join(known, ", ")));

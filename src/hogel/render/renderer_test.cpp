@@ -14,7 +14,7 @@
 #include "hogel/render/test_names.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::render {
 namespace {
 
 using namespace literals;
@@ -373,16 +373,16 @@ TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangle
             for (Vec3& p : scene.positions)
                 p = {0.5e-3 * step(random), 0.5e-3 * step(random), 1e-3 * (behind ? -deeper(random) : step(random))};
         scene.fronts_only = round % 8 >= 4;
-        const double least = straddles(GetParam()) ? -1 : near_plane(scene, GetParam());
+        const double least = straddles(GetParam()) ? -1 : simplex::near_plane(scene, GetParam());
         LightField expected(odd, true);
         LightFieldTile tile(odd, {0, 0, odd.hogels_s, odd.hogels_t}, true);
         for (std::size_t t = 0; t < odd.hogels_t; ++t)
             for (std::size_t s = 0; s < odd.hogels_s; ++s)
                 for (std::size_t v = 0; v < odd.directions_v; ++v)
                     for (std::size_t u = 0; u < odd.directions_u; ++u) {
-                        NearestTriangle seen;
-                        for (std::uint32_t i : triangles_with_area(scene))
-                            see(seen, i, ObliqueTriangle(scene, i, odd.u(double(u)), odd.v(double(v))),
+                        baselines::NearestTriangle seen;
+                        for (std::uint32_t i : baselines::triangles_with_area(scene))
+                            baselines::see(seen, i, baselines::ObliqueTriangle(scene, i, odd.u(double(u)), odd.v(double(v))),
                                 odd.s(double(s)), odd.t(double(t)), least);
                         store(tile, scene, odd, seen, t, s, v, u);
                     }
@@ -524,4 +524,4 @@ TEST(Renderers, an_unknown_name_is_a_usage_error_that_lists_the_known_ones) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render

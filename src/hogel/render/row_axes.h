@@ -4,7 +4,7 @@
 
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::render {
 
 /// For renderers that go through a light field by epipolar planes: all rays of one place of hogels and one direction
 /// along a slow axis lie in a plane, in which hogels and directions follow each other along a fast axis. On the front,
@@ -66,4 +66,4 @@ class RowAxes {
     bool turned_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::render

@@ -4,7 +4,7 @@
 
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::render {
 
 /// A tile about as large as default_tile, but as long as may be along s, or along t: for renderers that treat each row
 /// of hogels by itself, at a cost that grows with rows more than with what they hold.
@@ -15,4 +15,4 @@ inline HogelRange row_tile(const LightFieldGrid& grid, bool along_t = false) {
     return along_t ? HogelRange{0, 0, rows, length} : HogelRange{0, 0, length, rows};
 }
 
-}  // namespace hogel
+}  // namespace hogel::render

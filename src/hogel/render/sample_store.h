@@ -7,7 +7,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render {
 
 /// What a ray sees first: a triangle, the weights of its vertices, the depth.
 struct VisiblePoint {
@@ -50,4 +50,4 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
     if (tile.depth.size() > 0) tile.depth(t, s, v, u) = static_cast<float>(point.depth);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render

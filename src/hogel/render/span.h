@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace hogel {
+namespace hogel::render {
 
 /// Samples this close to an edge, in samples, count as inside while they are looked for: far more than rounding can
 /// amount to on the way, and far too little to find a sample twice often. Whether a ray meets the triangle is decided
@@ -25,4 +25,4 @@ inline Span samples_between(double low, double high, std::size_t n) {
     return first < end ? Span{first, end} : Span{};
 }
 
-}  // namespace hogel
+}  // namespace hogel::render

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-namespace hogel {
+namespace hogel::render {
 
 /// Names of tests have no hyphens.
 inline std::string test_name(std::string name) {
@@ -11,4 +11,4 @@ inline std::string test_name(std::string name) {
     return name;
 }
 
-}  // namespace hogel
+}  // namespace hogel::render

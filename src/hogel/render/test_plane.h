@@ -4,19 +4,19 @@
 
 #include "hogel/render/epi/kernels.h"
 
-namespace hogel {
+namespace hogel::render {
 
 /// An epipolar plane for tests, with its words, in which nothing is seen yet.
 struct TestPlane {
     std::vector<std::uint64_t> words;
-    PlaneCells cells;
-    EpipolarPlane plane;
+    epi::PlaneCells cells;
+    epi::EpipolarPlane plane;
 
     TestPlane(std::size_t columns, std::size_t directions, std::int32_t first_column)
-        : words(columns * directions + EpipolarPlane::spare, EpipolarPlane::nothing),
+        : words(columns * directions + epi::EpipolarPlane::spare, epi::EpipolarPlane::nothing),
           plane{words.data(), &cells, columns, directions, first_column, 0.5f - 0.5f * float(directions)} {
         cells.clear(columns, directions);
     }
 };
 
-}  // namespace hogel
+}  // namespace hogel::render

@@ -8,7 +8,7 @@
 #include "hogel/render/epi/kernels.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render {
 
 /// Triangles for tests, all around the middle of the hologram and on both sides of it, no corner farther than `reach`
 /// from a triangle's middle along an axis; every third one has corners of the same height. Radiances tell triangle and
@@ -31,8 +31,8 @@ inline ShadedScene scattered_triangles(std::size_t count, double reach) {
 /// A test of the vector kernels as they are built for one instruction set that this processor has (kernel_targets).
 class KernelTargetTest : public ::testing::TestWithParam<std::int64_t> {
   protected:
-    void SetUp() override { use_kernel_target(GetParam()); }
-    void TearDown() override { use_kernel_target(0); }
+    void SetUp() override { epi::use_kernel_target(GetParam()); }
+    void TearDown() override { epi::use_kernel_target(0); }
 };
 
-}  // namespace hogel
+}  // namespace hogel::render

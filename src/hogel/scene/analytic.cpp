@@ -12,7 +12,7 @@
 #include "hogel/scene/analytic_scenes.h"
 #include "hogel/scene/mesh_builder.h"
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -215,4 +215,4 @@ AnalyticSample analytic_radiance(std::string_view name, double hologram_size, do
     return seen;
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene

@@ -4,7 +4,7 @@
 
 #include "hogel/geometry.h"
 
-namespace hogel {
+namespace hogel::scene {
 
 /// What a ray of the light field sees, by formula.
 struct AnalyticSample {
@@ -26,4 +26,4 @@ bool has_analytic_radiance(std::string_view name);
 ///   point       a disc of radius 0.005 D and radiance 1 at (0.1 D, 0.05 D), ζ = 0.15 D
 AnalyticSample analytic_radiance(std::string_view name, double hologram_size, double s, double t, double U, double V);
 
-}  // namespace hogel
+}  // namespace hogel::scene

@@ -7,7 +7,7 @@
 
 #include "hogel/scene.h"
 
-namespace hogel {
+namespace hogel::scene {
 
 /// Grows a mesh of coloured vertices. Normals are left to add_missing_normals, which joins what shares positions.
 class MeshBuilder {
@@ -95,4 +95,4 @@ inline void turn(Scene& scene, double about_y, double about_x) {
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene

@@ -14,7 +14,7 @@ class Checksums {
     // No T here has bytes between its numbers.
     template <class T>
     void add(std::span<const T> values) {
-        sums_.push_back(checksum({reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()}));
+        sums_.push_back(core::checksum({reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()}));
         sums_.push_back(static_cast<std::uint32_t>(values.size()));
     }
     void add(std::initializer_list<double> numbers) { add(std::span(numbers.begin(), numbers.size())); }
@@ -27,13 +27,13 @@ class Checksums {
         const auto [known, is_new] = pictures_.try_emplace(picture.get());
         if (is_new) {
             const std::span<const float> pixels = picture->pixels.elements();
-            known->second = checksum({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
+            known->second = core::checksum({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
         }
         sums_.push_back(known->second);
         for (const std::size_t extent : picture->pixels.shape()) sums_.push_back(static_cast<std::uint32_t>(extent));
     }
     std::uint32_t sum() const {
-        return checksum({reinterpret_cast<const std::uint8_t*>(sums_.data()), sums_.size() * sizeof(sums_[0])});
+        return core::checksum({reinterpret_cast<const std::uint8_t*>(sums_.data()), sums_.size() * sizeof(sums_[0])});
     }
 
   private:

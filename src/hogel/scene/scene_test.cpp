@@ -11,7 +11,7 @@
 #include "hogel/error.h"
 #include "hogel/scenes.h"
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 /// The box -1..1, two triangles a side, eight shared vertices.
@@ -225,4 +225,4 @@ TEST(DefaultLights, come_from_the_front_and_are_directional) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::scene

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -138,4 +138,4 @@ void drop_slivers(Mesh& mesh) {
     });
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene

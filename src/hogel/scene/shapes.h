@@ -6,7 +6,7 @@
 
 #include "hogel/scene/mesh_builder.h"
 
-namespace hogel {
+namespace hogel::scene {
 
 /// A ball whose poles lie along `axis`, in rings at the given latitudes (from -π/2 to π/2, both included); each ring
 /// has one colour. Two rings close to each other make a sharp line between two colours.
@@ -48,4 +48,4 @@ struct Across {
 };
 Across across(Vec3 along);
 
-}  // namespace hogel
+}  // namespace hogel::scene

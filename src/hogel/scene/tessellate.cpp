@@ -7,7 +7,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 using Index = std::uint32_t;
@@ -106,4 +106,4 @@ Scene tessellate(const Scene& scene, std::size_t n) {
     return fine;
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene

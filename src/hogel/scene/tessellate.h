@@ -2,11 +2,11 @@
 
 #include "hogel/scene.h"
 
-namespace hogel {
+namespace hogel::scene {
 
 /// Cuts every triangle into n² equal ones; what vertices carry is interpolated, normals are made unit length again.
 /// Triangles that share two vertices share the new ones between them. Throws Error(usage) for n = 0 and where a mesh
 /// would get more than 2^32 vertices.
 Scene tessellate(const Scene& scene, std::size_t n);
 
-}  // namespace hogel
+}  // namespace hogel::scene

@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/scene/shapes.h"
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 Scene ball() {
@@ -66,4 +66,4 @@ TEST(Tessellate, shares_vertices_along_edges) {
 TEST(Tessellate, refuses_no_parts) { EXPECT_THROW(tessellate(ball(), 0), Error); }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::scene

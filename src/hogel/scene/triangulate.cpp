@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 struct Point {
@@ -67,4 +67,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3> poly
     return triangles;
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene

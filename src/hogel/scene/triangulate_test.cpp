@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 /// Every triangle turns like the polygon and their areas add up to its area: together, a tiling.
@@ -58,4 +58,4 @@ TEST(Triangulate, degenerate_polygons_end) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::scene

@@ -152,7 +152,7 @@ void write_radiance(const std::filesystem::path& path, const Scene& scene) {
     std::map<const Image*, std::size_t> pictures;
     for (const Mesh& mesh : scene.meshes)
         if (!mesh.triangles.empty()) add_mesh(gltf, mesh, pictures);
-    write_file(path, gltf.bytes());
+    core::write_file(path, gltf.bytes());
 }
 
 }  // namespace hogel

@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/scene/shapes.h"
 
-namespace hogel {
+namespace hogel::scene {
 namespace {
 
 struct Folder {
@@ -116,4 +116,4 @@ TEST(WriteRadiance, refuses_scenes_without_radiance_and_other_names) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::scene

@@ -11,8 +11,12 @@
 #include "hogel/scene/tessellate.h"
 #include "hogel/shading.h"
 #include "hogel/shading/lighting.h"
+#include "hogel/shading/triangles.h"
 
 namespace hogel {
+
+using namespace shading;
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -47,7 +51,7 @@ struct Surfaces {
     }
 
     ShadedScene shaded;  // `radiance` is what the vertices show so far
-    RayCaster caster;
+    trace::RayCaster caster;
     double offset;
     std::vector<Vec3> eyes, normals;
     std::vector<Rgb> colors, emissions;
@@ -68,10 +72,10 @@ void for_vertices(std::size_t n, const Progress& progress, double from, double t
     const std::size_t tasks = (n + vertices_per_task - 1) / vertices_per_task;
     std::mutex mutex;
     std::size_t done = 0;
-    parallel_for(tasks, [&](std::size_t task) {
+    core::parallel_for(tasks, [&](std::size_t task) {
         for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) body(i);
         const std::lock_guard lock(mutex);
-        report(progress, from + (to - from) * static_cast<double>(++done) / static_cast<double>(tasks));
+        progress.report(from + (to - from) * static_cast<double>(++done) / static_cast<double>(tasks));
     });
 }
 
@@ -90,9 +94,9 @@ std::vector<Rgb> direct_light(const Scene& scene, const Surfaces& surfaces, cons
 Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std::size_t rays, std::uint64_t seed) {
     const Vec3 normal = surfaces.normals[vertex];
     if (normal == Vec3{}) return scene.ambient;
-    const Across frame = across(normal);
+    const scene::Across frame = scene::across(normal);
     const Vec3 eye = surfaces.eyes[vertex] + surfaces.offset * normal;
-    const auto random = philox({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(rays), 0, 0},
+    const auto random = core::philox({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(rays), 0, 0},
                                {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
     const double shift_a = random[0] / 4294967296.0, shift_b = random[1] / 4294967296.0;
     // The multiples of the inverse powers of the plastic number fill the square evenly; each vertex shifts them.
@@ -104,8 +108,8 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
         const double sine2 = a - std::floor(a), sine = std::sqrt(sine2), angle = 2 * pi * (b - std::floor(b));
         const Vec3 direction = sine * std::cos(angle) * frame.first + sine * std::sin(angle) * frame.second +
                                std::sqrt(1 - sine2) * normal;
-        const RayHit hit = surfaces.caster.closest(eye, direction, std::numeric_limits<double>::infinity());
-        if (hit.triangle == RayHit::miss) {
+        const trace::RayHit hit = surfaces.caster.closest(eye, direction, std::numeric_limits<double>::infinity());
+        if (hit.triangle == trace::RayHit::miss) {
             sum += scene.ambient;
             continue;
         }
@@ -159,7 +163,7 @@ Scene bake(const Scene& scene, const BakeOptions& options, const Progress& progr
     // Cutting interpolates the radiance, which here is the light that arrives indirectly.
     Scene baked = scene;
     give(baked, coarse, indirect);
-    baked = tessellate(baked, options.tessellation);
+    baked = scene::tessellate(baked, options.tessellation);
     Scene bare = baked;
     for (std::size_t i = 0; i < bare.meshes.size(); ++i)
         if (scene.meshes[i].radiance.empty()) bare.meshes[i].radiance.clear();
@@ -174,16 +178,6 @@ Scene bake(const Scene& scene, const BakeOptions& options, const Progress& progr
         base += mesh.positions.size();
     }
     return baked;
-}
-
-Scene make_church_radiance(double hologram_size, const Progress& progress) {
-    BakeOptions options;
-    options.rays = 96;
-    options.bounces = 4;
-    options.tessellation = 6;
-    Scene scene = bake(make_builtin_scene("church", hologram_size), options, progress);
-    scene.name = "church-radiance";
-    return scene;
 }
 
 }  // namespace hogel

@@ -11,17 +11,17 @@
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
 /// The inside of a ball of radius 1.
 Scene hollow_ball(float albedo, std::size_t columns = 40, std::size_t rows = 20) {
-    MeshBuilder builder;
-    add_ball(builder, {0, 0, 0}, 1, columns, rows, {1, 1, 1});
+    scene::MeshBuilder builder;
+    scene::add_ball(builder, {0, 0, 0}, 1, columns, rows, {1, 1, 1});
     for (auto& [a, b, c] : builder.mesh.triangles) std::swap(b, c);
-    drop_slivers(builder.mesh);
+    scene::drop_slivers(builder.mesh);
     for (const Vec3& p : builder.mesh.positions) builder.mesh.normals.push_back(-normalize(p));
     builder.mesh.material.base_color = {albedo, albedo, albedo};
     Scene scene;
@@ -30,8 +30,8 @@ Scene hollow_ball(float albedo, std::size_t columns = 40, std::size_t rows = 20)
 }
 
 Scene box(float albedo, float emission) {
-    MeshBuilder builder;
-    add_box(builder, {-1, -1, -1}, {1, 1, 1}, 0.5, [](Vec3) { return Rgb{1, 1, 1}; });
+    scene::MeshBuilder builder;
+    scene::add_box(builder, {-1, -1, -1}, {1, 1, 1}, 0.5, [](Vec3) { return Rgb{1, 1, 1}; });
     for (auto& [a, b, c] : builder.mesh.triangles) std::swap(b, c);
     builder.mesh.material.base_color = {albedo, albedo, albedo};
     builder.mesh.material.emission = {emission, emission, emission};
@@ -89,7 +89,7 @@ TEST(Bake, without_bounces_it_is_the_light_at_the_vertices) {
 
 // Red light from a red wall, and none behind a wall that is in the way.
 TEST(Bake, colours_bleed) {
-    MeshBuilder red, white;
+    scene::MeshBuilder red, white;
     red.patch(
         8, 8, false,
         [](std::size_t i, std::size_t k) {
@@ -162,4 +162,4 @@ TEST(Bake, refuses_what_makes_no_sense) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -7,7 +7,7 @@
 #include "hogel/shading/reflection.h"
 #include "hogel/shading/shadow_maps.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 /// Every light, through its shadow map, reflected by what the surface is made of at that very point.
@@ -128,4 +128,4 @@ std::unique_ptr<SampleLighting> make_direct_lighting(const Scene& scene, std::ve
     return std::make_unique<DirectLighting>(scene, std::move(maps));
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

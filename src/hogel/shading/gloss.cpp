@@ -5,7 +5,7 @@
 
 #include "hogel/shading/gloss.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 LampTable::LampTable(std::span<const Light> lights) {
     const std::size_t size = (lights.size() + block - 1) / block * block;
@@ -88,4 +88,4 @@ LightInLobe gloss_plain(const LampTable& lamps, const float* lit, const GlossyPo
     return sums.total();
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

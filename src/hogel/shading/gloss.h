@@ -8,7 +8,7 @@
 #include "hogel/scene.h"
 #include "hogel/shading/reflection.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 /// The lamps of a scene, number by number, filled up with dark ones to whole blocks.
 class LampTable {
@@ -58,4 +58,4 @@ struct GlossySums {
     LightInLobe total() const;
 };
 
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -10,7 +10,7 @@
 #include "hogel/shading/gloss.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::shading {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -68,11 +68,11 @@ LightInLobe Gloss(const LampTable& lamps, const float* lit, const GlossyPoint& p
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::shading
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::shading {
 
 HWY_EXPORT(Gloss);
 
@@ -87,5 +87,5 @@ void use_gloss_target(std::int64_t target) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading
 #endif

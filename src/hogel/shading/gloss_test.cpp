@@ -6,7 +6,7 @@
 #include "hogel/shading/gloss.h"
 #include "hogel/shading/illumination.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 class EveryTargetOfGloss : public ::testing::TestWithParam<std::int64_t> {
@@ -62,4 +62,4 @@ TEST_P(EveryTargetOfGloss, is_the_sum_of_the_lobes_of_all_lamps_and_the_same_bit
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

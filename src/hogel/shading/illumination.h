@@ -4,7 +4,7 @@
 
 #include "hogel/scene.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 /// What a light sends to a point.
 struct Illumination {
@@ -21,4 +21,4 @@ inline Illumination illuminate(const Light& light, Vec3 point) {
     return {way / distance, distance, 1 / (distance * distance)};
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <new>
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 // What the word after the first three numbers of a point says, besides LightGrid::made.
@@ -160,4 +160,4 @@ void cache_light(ShadedScene& scene, std::span<const float> spacing, double most
     if (scene.lighting) scene.light_cache = std::make_shared<LightCache>(scene, spacing, most_bytes);
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

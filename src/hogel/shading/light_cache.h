@@ -11,7 +11,7 @@
 
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 /// Where the light of a triangle is kept: at points in rows along its shortest side, from the corner opposite on, the
 /// rows narrower the nearer to that corner; so it suits slivers and lies within the triangle. A row or a column of
@@ -131,4 +131,4 @@ class LightCache {
 /// Gives a scene whose light is worked out for each sample a cache of it; other scenes stay as they are.
 void cache_light(ShadedScene& scene, std::span<const float> spacing, double most_bytes = 1e9);
 
-}  // namespace hogel
+}  // namespace hogel::shading

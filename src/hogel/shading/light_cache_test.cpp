@@ -9,7 +9,7 @@
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 using Weights = std::array<float, 3>;
@@ -103,7 +103,7 @@ TEST(LightCache, gives_the_same_bits_whoever_asked_before) {
         return radiance_at(scene, index, w[0], w[1], w[2]);
     };
     for (std::size_t i = 0; i < count; ++i) alone[i] = look(once, i);
-    parallel_for(count, [&](std::size_t i) { together[count - 1 - i] = look(again, count - 1 - i); });
+    core::parallel_for(count, [&](std::size_t i) { together[count - 1 - i] = look(again, count - 1 - i); });
     EXPECT_EQ(alone, together);
 }
 
@@ -192,4 +192,4 @@ TEST(LightCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadow
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

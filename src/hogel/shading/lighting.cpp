@@ -1,14 +1,14 @@
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 double ray_offset(const Scene& scene) {
     const Bounds box = bounds(scene);
     return 1e-4 * length(box.high - box.low);
 }
 
-Rgb irradiance(const Scene& scene, const RayCaster& caster, double offset, Vec3 point, Vec3 normal) {
+Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal) {
     Rgb sum{0, 0, 0};
     for (const Light& light : scene.lights) {
         const Illumination from = illuminate(light, point);
@@ -20,4 +20,4 @@ Rgb irradiance(const Scene& scene, const RayCaster& caster, double offset, Vec3 
     return sum;
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

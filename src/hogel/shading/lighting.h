@@ -5,7 +5,7 @@
 #include "hogel/shading.h"
 #include "hogel/shading/shadow_map.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 /// ShadingModel::direct and ShadingModel::shadowed for a scene whose geometry is that of the shaded scene's meshes in
 /// order. `maps` has one map a light.
@@ -17,7 +17,7 @@ std::unique_ptr<SampleLighting> make_shadowed_lighting(const Scene& scene, std::
 double ray_offset(const Scene& scene);
 
 /// The irradiance from all lights that a point of a surface sees.
-Rgb irradiance(const Scene& scene, const RayCaster& caster, double offset, Vec3 point, Vec3 normal);
+Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal);
 
 /// The colour of a vertex before the texture.
 inline Rgb vertex_color(const Mesh& mesh, std::size_t vertex) {
@@ -44,4 +44,4 @@ struct SurfacePoint {
     }
 };
 
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -192,4 +192,4 @@ Rgb Reflection::in_uniform_light() const {
     return left * diffuse_ + scale * lobe_ + Rgb{offset, offset, offset};
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

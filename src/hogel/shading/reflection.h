@@ -2,7 +2,7 @@
 
 #include "hogel/scene.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 /// What of the light on a point may be reflected diffusely, whoever looks: Σ E n·l/π less what the lobe takes on its
 /// way in, which is in part a multiple of the lobe's reflectance: arriving − reflectance · for_lobe.
@@ -66,4 +66,4 @@ class Reflection {
 /// Surfaces smoother than this are treated as this rough: a lamp is a point, and its image would be one too.
 inline constexpr double least_roughness = 0.15;
 
-}  // namespace hogel
+}  // namespace hogel::shading

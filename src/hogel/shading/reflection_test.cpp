@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -102,4 +102,4 @@ TEST(Reflection, from_behind_the_lobe_is_not_seen) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -10,7 +10,7 @@
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -170,4 +170,4 @@ TEST(SampleLighting, unknown_models_are_usage_errors_that_list_the_known_ones) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

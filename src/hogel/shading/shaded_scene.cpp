@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "hogel/shading/light_cache.h"
-#include "hogel/trace/ray_caster.h"
 
 namespace hogel {
+
+using namespace shading;
+
 namespace {
 
 /// How many texels lie along a metre of the triangle, by the ratio of its areas.
@@ -43,20 +45,7 @@ Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<f
     return scene.lighting->radiance(scene, index, weights, light, texture, sight);
 }
 
-RayCaster ray_caster(const ShadedScene& scene, Sides sides) {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    triangles.reserve(scene.triangles.size());
-    for (const ShadedScene::Triangle& triangle : scene.triangles) triangles.push_back(triangle.vertices);
-    return {scene.positions, triangles, sides};
-}
-
 }  // namespace
-
-RayCaster all_triangles(const ShadedScene& scene) { return ray_caster(scene, Sides::both); }
-
-RayCaster seen_triangles(const ShadedScene& scene) {
-    return ray_caster(scene, scene.fronts_only ? Sides::fronts : Sides::both);
-}
 
 Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const Sight& sight) {
     const ShadedScene::Triangle& triangle = scene.triangles[index];

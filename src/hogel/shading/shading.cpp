@@ -13,8 +13,12 @@
 #include "hogel/error.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/trace/ray_caster.h"
+#include "hogel/shading/triangles.h"
 
 namespace hogel {
+
+using namespace shading;
+
 namespace {
 
 constexpr std::array models{
@@ -64,14 +68,14 @@ ShadedScene geometry(const Scene& scene, bool filter_textures) {
 }
 
 void light_vertices(const Scene& scene, ShadedScene& shaded) {
-    const RayCaster caster = has_shadows(scene) ? all_triangles(shaded) : RayCaster(shaded.positions, {});
+    const trace::RayCaster caster = has_shadows(scene) ? all_triangles(shaded) : trace::RayCaster(shaded.positions, {});
     const double offset = ray_offset(scene);
     constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
     std::size_t base = 0;
     for (const Mesh& mesh : scene.meshes) {
         const std::size_t n = mesh.positions.size();
         const std::size_t tasks = mesh.radiance.empty() ? (n + vertices_per_task - 1) / vertices_per_task : 0;
-        parallel_for(tasks, [&](std::size_t task) {
+        core::parallel_for(tasks, [&](std::size_t task) {
             const std::size_t first = task * vertices_per_task;
             for (std::size_t i = first; i < std::min(n, first + vertices_per_task); ++i) {
                 Rgb light = scene.ambient;

@@ -10,7 +10,7 @@
 #include "hogel/error.h"
 #include "hogel/shading/test_scenes.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -171,4 +171,4 @@ TEST(Shading, refuses_lights_without_normals_and_scenes_without_triangles) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -8,7 +8,7 @@
 
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 constexpr std::size_t cube_faces = 6;
@@ -63,11 +63,11 @@ double ShadowMap::bytes(const Light& light, std::size_t n) {
     return (light.kind == Light::Kind::point ? cube_faces : 4) * texels * sizeof(float);
 }
 
-void ShadowMap::fill(const RayCaster& caster, std::size_t row) {
+void ShadowMap::fill(const trace::RayCaster& caster, std::size_t row) {
     const std::size_t face = row / side_;
     const double y = static_cast<double>(row % side_) + 0.5, n = static_cast<double>(side_);
     std::vector<Vec3> origins(side_), directions(side_);
-    std::vector<RayHit> hits(side_);
+    std::vector<trace::RayHit> hits(side_);
     for (std::size_t i = 0; i < side_; ++i) {
         const double x = static_cast<double>(i) + 0.5;
         origins[i] = point_light_ ? origin_ : origin_ + x * width_ * right_ + y * width_ * up_;
@@ -76,7 +76,7 @@ void ShadowMap::fill(const RayCaster& caster, std::size_t row) {
     caster.closest(origins, directions, far_, hits);
     float* out = depth_.data() + row * side_;
     for (std::size_t i = 0; i < side_; ++i)
-        if (hits[i].triangle != RayHit::miss) out[i] = static_cast<float>(hits[i].distance);
+        if (hits[i].triangle != trace::RayHit::miss) out[i] = static_cast<float>(hits[i].distance);
 }
 
 ShadowMap::Place ShadowMap::place(Vec3 point) const {
@@ -126,7 +126,7 @@ float ShadowMap::lit(Vec3 point, Vec3 normal) const {
     return low + y * (high - low);
 }
 
-std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const RayCaster& caster, std::size_t n,
+std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const trace::RayCaster& caster, std::size_t n,
                                         const Progress& progress) {
     const Bounds box = bounds(scene);
     std::vector<ShadowMap> maps;
@@ -139,13 +139,13 @@ std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const RayCaster& cas
     const std::size_t tasks = (work.size() + rows_per_task - 1) / rows_per_task;
     std::mutex mutex;
     std::size_t done = 0;
-    parallel_for(tasks, [&](std::size_t task) {
+    core::parallel_for(tasks, [&](std::size_t task) {
         for (std::size_t i = task * rows_per_task; i < std::min(work.size(), (task + 1) * rows_per_task); ++i)
             maps[work[i].first].fill(caster, work[i].second);
         const std::lock_guard lock(mutex);
-        report(progress, static_cast<double>(++done) / static_cast<double>(tasks));
+        progress.report(static_cast<double>(++done) / static_cast<double>(tasks));
     });
     return maps;
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

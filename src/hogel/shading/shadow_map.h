@@ -8,7 +8,7 @@
 #include "hogel/scene.h"
 #include "hogel/trace/ray_caster.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 /// How far the light of a lamp reaches, sampled over the directions (point light: the six faces of a cube around it, n
 /// × n texels each) or over a plane across its direction (directional light: 2n × 2n texels around the scene).
@@ -26,7 +26,7 @@ class ShadowMap {
 
     /// The map is filled row by row, each once, in any order and by several threads.
     std::size_t rows() const { return faces_ * side_; }
-    void fill(const RayCaster& caster, std::size_t row);
+    void fill(const trace::RayCaster& caster, std::size_t row);
 
     /// How much of the light arrives at a point of a surface: 0 to 1. `normal` is perpendicular to the surface, of any
     /// length and sign.
@@ -61,7 +61,7 @@ class ShadowMap {
 };
 
 /// A map for each light that casts shadows, empty for the others, in the order of scene.lights.
-std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const RayCaster& caster, std::size_t n,
+std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const trace::RayCaster& caster, std::size_t n,
                                         const Progress& progress = {});
 
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -9,12 +9,12 @@
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/test_scenes.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 struct Blockers {
     explicit Blockers(const Scene& scene) : positions(), triangles(), caster(collect(scene)) {}
-    RayCaster collect(const Scene& scene) {
+    trace::RayCaster collect(const Scene& scene) {
         for (const Mesh& mesh : scene.meshes) {
             const auto base = static_cast<std::uint32_t>(positions.size());
             positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
@@ -24,7 +24,7 @@ struct Blockers {
     }
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    RayCaster caster;
+    trace::RayCaster caster;
 };
 
 void add_square(Scene& scene, Vec3 center, Vec3 right, Vec3 up) { scene.meshes.push_back(square(center, right, up)); }
@@ -91,7 +91,7 @@ TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
 // of a shadow's edge or of a crease.
 TEST(ShadowMap, neither_leaks_nor_speckles_on_the_built_in_scenes) {
     for (const char* name : {"pumpkin", "billiards", "tower"}) {
-        const Scene scene = make_builtin_scene(name, 1);
+        const Scene scene = make_scene(name, 1);
         const Blockers blockers(scene);
         std::mt19937 engine(5);
         std::uniform_real_distribution<double> part(0, 1);
@@ -161,4 +161,4 @@ TEST(ShadowMap, a_light_on_a_surface_or_inside_a_body_is_no_trouble) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -3,7 +3,7 @@
 
 #include "hogel/shading/shadow_maps.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 // A map of one texel a face.
@@ -30,4 +30,4 @@ void ShadowMaps::lit_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec
     for (std::size_t i = 0; i < lamps.size(); ++i) shares[i] = maps_[lamps[i]].lit(point, normal);
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

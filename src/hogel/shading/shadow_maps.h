@@ -7,7 +7,7 @@
 #include "hogel/array.h"
 #include "hogel/shading/shadow_map.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 /// The shadow maps of all lamps of a scene, for looking into many of them at once.
 class ShadowMaps {
@@ -35,4 +35,4 @@ class ShadowMaps {
     bool any_other_ = false;
 };
 
-}  // namespace hogel
+}  // namespace hogel::shading

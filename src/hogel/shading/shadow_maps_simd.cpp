@@ -10,7 +10,7 @@
 #include "hogel/shading/shadow_maps.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::shading {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -109,11 +109,11 @@ void Lit(const ShadowMaps::Table& table, std::span<const std::uint32_t> lamps, V
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::shading
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::shading {
 
 HWY_EXPORT(Lit);
 
@@ -124,5 +124,5 @@ void ShadowMaps::lit(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 norm
         if (other_[lamps[i]]) shares[i] = maps_[lamps[i]].lit(point, normal);
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading
 #endif

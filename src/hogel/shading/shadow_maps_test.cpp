@@ -6,7 +6,7 @@
 #include "hogel/shading/shadow_maps.h"
 #include "hogel/shading/test_scenes.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 class EveryTargetOfShadowMaps : public ::testing::TestWithParam<std::int64_t> {
@@ -39,7 +39,7 @@ TEST_P(EveryTargetOfShadowMaps, vectors_of_lamps_give_the_same_bits_as_one_after
         positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
         for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({base + a, base + b, base + c});
     }
-    const ShadowMaps maps(make_shadow_maps(scene, RayCaster(positions, triangles), 32));
+    const ShadowMaps maps(make_shadow_maps(scene, trace::RayCaster(positions, triangles), 32));
 
     std::size_t dark = 0, between = 0, bright = 0;
     for (int round = 0; round < 3000; ++round) {
@@ -63,4 +63,4 @@ TEST_P(EveryTargetOfShadowMaps, vectors_of_lamps_give_the_same_bits_as_one_after
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

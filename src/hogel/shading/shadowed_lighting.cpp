@@ -7,7 +7,7 @@
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/shadow_maps.h"
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 constexpr std::size_t vertices_per_task = 4096;
@@ -27,7 +27,7 @@ class ShadowedLighting final : public SampleLighting {
                 unshadowed_.push_back(color * scene.ambient + mesh.material.emission);
             }
             irradiance_.resize((base + n) * lights);
-            parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
+            core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
                 for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i)
                     for (std::size_t k = 0; k < lights; ++k) {
                         const Illumination from = illuminate(scene.lights[k], mesh.positions[i]);
@@ -87,4 +87,4 @@ std::unique_ptr<SampleLighting> make_shadowed_lighting(const Scene& scene, std::
     return std::make_unique<ShadowedLighting>(scene, std::move(maps));
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

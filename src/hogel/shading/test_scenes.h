@@ -2,7 +2,7 @@
 
 #include "hogel/scene.h"
 
-namespace hogel {
+namespace hogel::shading {
 
 // A square of two triangles, its sides twice `right` and `up`, that faces their cross product.
 inline Mesh square(Vec3 center, Vec3 right, Vec3 up, Rgb color = {1, 1, 1}) {
@@ -22,4 +22,4 @@ inline Light lamp(Vec3 position, float intensity) {
     return light;
 }
 
-}  // namespace hogel
+}  // namespace hogel::shading

@@ -1,4 +1,4 @@
-#include "hogel/shading/texture.h"
+#include "hogel/shading.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
-#include "hogel/shading/texture.h"
+#include "hogel/shading.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::shading {
 namespace {
 
 std::shared_ptr<Image> picture(std::size_t width, std::size_t height, auto&& value) {
@@ -46,4 +46,4 @@ TEST(Texture, up_close_is_the_same_filtered_or_not) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::shading

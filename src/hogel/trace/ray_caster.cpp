@@ -9,7 +9,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::trace {
 namespace {
 
 constexpr std::size_t packet = 16;
@@ -284,4 +284,4 @@ void RayCaster::occluded(Vec3 origin, std::span<const Vec3> directions, double n
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::trace

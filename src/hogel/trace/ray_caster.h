@@ -8,7 +8,7 @@
 
 #include "hogel/geometry.h"
 
-namespace hogel {
+namespace hogel::trace {
 
 /// Where a ray meets a triangle first.
 struct RayHit {
@@ -47,4 +47,4 @@ class RayCaster {
     std::unique_ptr<Device> device_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::trace

@@ -9,7 +9,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::trace {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -213,4 +213,4 @@ TEST(RayCaster, refuses_an_index_without_a_vertex) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::trace

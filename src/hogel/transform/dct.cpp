@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 using Matrix = std::array<float, dct_block * dct_block>;  // of n x n elements, rows one after the other
@@ -52,4 +52,4 @@ double dct_element(std::size_t n, std::size_t k, std::size_t j) {
 void DctLine::forward(float* rows) const { multiply_blocks(matrices().forward, length_, rows); }
 void DctLine::inverse(float* rows) const { multiply_blocks(matrices().inverse, length_, rows); }
 
-}  // namespace hogel
+}  // namespace hogel::transform

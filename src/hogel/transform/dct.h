@@ -4,7 +4,7 @@
 
 #include "hogel/transform/line.h"
 
-namespace hogel {
+namespace hogel::transform {
 
 constexpr std::size_t dct_block = 8;
 
@@ -26,4 +26,4 @@ class DctLine {
 /// Element of the orthonormal DCT-II of n points: c_k = Σ_j dct_element(n, k, j) f_j.
 double dct_element(std::size_t n, std::size_t k, std::size_t j);
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hogel {
+namespace hogel::transform {
 
 WaveletLine::WaveletLine(const Wavelet& wavelet, std::size_t length)
     : length_(length), coarse_count_((length + 1) / 2), before_(length), after_(length) {
@@ -99,4 +99,4 @@ void WaveletLine::inverse(float* rows) const {
     scale(before_);
 }
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -6,7 +6,7 @@
 
 #include "hogel/transform/wavelet.h"
 
-namespace hogel {
+namespace hogel::transform {
 
 /// How many lines are transformed side by side.
 constexpr std::size_t lane_count = 16;
@@ -64,4 +64,4 @@ void inverse_line_plain(const Wavelet& wavelet, std::span<double> line);
 /// The weights by which samples 0..count−1 of a polynomial sequence of degree < count give its value at `at`.
 std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t at);
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 struct Halves {
@@ -59,4 +59,4 @@ void inverse_line_plain(const Wavelet& wavelet, std::span<double> line) {
     for (std::size_t k = 0; k < line.size(); ++k) line[k] = (k % 2 == 0 ? halves.coarse : halves.detail)[k / 2];
 }
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -7,7 +7,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 int chosen_levels(const std::vector<std::size_t>& shape, const std::vector<std::size_t>& axes) {
@@ -72,4 +72,4 @@ std::vector<std::size_t> Pyramid::strides() const {
 
 std::size_t Pyramid::coarse_extent(std::size_t axis, int level) const { return ((shape_[axis] - 1) >> level) + 1; }
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hogel {
+namespace hogel::transform {
 
 /// Axes of an array that are halved together, level after level.
 struct AxisGroup {
@@ -41,4 +41,4 @@ class Pyramid {
     std::vector<AxisGroup> groups_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -10,7 +10,7 @@
 #include "hogel/transform/dct.h"
 #include "hogel/transform/line.h"
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 enum class Direction { forward, inverse };
@@ -79,7 +79,7 @@ void transform_lines(const Plan& plan, Direction direction, const Lines& lines, 
     // Enough work for a thread to pick up at a time.
     const std::size_t tiles = (lines.count() + lane_count - 1) / lane_count;
     const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 16) / (plan.length() * lane_count));
-    parallel_for((tiles + batch - 1) / batch, [&](std::size_t task) {
+    core::parallel_for((tiles + batch - 1) / batch, [&](std::size_t task) {
         std::vector<float> tile(plan.length() * lane_count);
         std::array<std::size_t, lane_count> starts;
         for (std::size_t t = task * batch; t < std::min(tiles, (task + 1) * batch); ++t) {
@@ -150,4 +150,4 @@ Transform transform(std::string_view name) {
                                               fmt::join(transform_names(), ", ")));
 }
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -7,7 +7,7 @@
 #include "hogel/transform/pyramid.h"
 #include "hogel/transform/wavelet.h"
 
-namespace hogel {
+namespace hogel::transform {
 
 /// A transform by name: a wavelet, or the windowed 8-point DCT. Made by transform(); cheap to copy.
 class Transform {
@@ -37,4 +37,4 @@ Transform transform(std::string_view name);
 /// All names that transform() knows, in that order.
 std::vector<std::string_view> transform_names();
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -10,7 +10,7 @@
 #include "hogel/transform/dct.h"
 #include "hogel/transform/line.h"
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 using Extents = std::vector<std::size_t>;
@@ -219,4 +219,4 @@ TEST(Pyramid, impossible_ones_are_refused) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 // Each line: what changes, offset of the first tap, taps, and how many samples continue the source beyond an end.
@@ -64,4 +64,4 @@ std::span<const Wavelet> wavelets() {
     return all;
 }
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hogel {
+namespace hogel::transform {
 
 /// Which half of the samples a lifting step changes: the odd ones, which become details, or the even ones, which become
 /// the coarse signal. It reads the other half.
@@ -39,4 +39,4 @@ struct Wavelet {
 /// All wavelets: haar d4 d6 ai13 ai31 ai33 i22 i24 i42 i44 cdf31 cdf33 cdf42 cdf44 cdf97.
 std::span<const Wavelet> wavelets();
 
-}  // namespace hogel
+}  // namespace hogel::transform

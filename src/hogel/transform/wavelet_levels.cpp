@@ -3,7 +3,7 @@
 
 #include "hogel/transform/line.h"
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 // Farther than this from both ends basis functions do not reach them, or too little to change their norms.
@@ -62,4 +62,4 @@ std::vector<WaveletLine> wavelet_levels(const Wavelet& wavelet, std::size_t leng
     return result;
 }
 
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -8,7 +8,7 @@
 
 #include "hogel/transform/line.h"
 
-namespace hogel {
+namespace hogel::transform {
 namespace {
 
 const Wavelet& named(std::string_view name) {
@@ -217,4 +217,4 @@ TEST(WaveletLine, agrees_with_the_plain_line) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::transform

@@ -14,7 +14,10 @@
 #include "hogel/core/parallel.h"
 #include "hogel/transform/transform.h"
 
-namespace hogel {
+namespace hogel::codec::baselines {
+
+using namespace format;
+
 namespace {
 
 constexpr std::size_t samples_of_tile = std::size_t{1} << 24;
@@ -28,7 +31,7 @@ enum class Content {
 class ClassicCoder : public TileCoder {
   public:
     explicit ClassicCoder(std::string_view name, const DirectionCross& counted, Content content = Content::radiance)
-        : transform_(transform(name)), counted_(counted), content_(content) {}
+        : transform_(transform::transform(name)), counted_(counted), content_(content) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         HogelRange tile{0, 0, 1, 1};
@@ -45,13 +48,13 @@ class ClassicCoder : public TileCoder {
         if (content_ == Content::amplitude)
             for (float& value : work.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
         separate_colours(work.radiance);
-        const Pyramid pyramid = pyramid_of(tile);
+        const transform::Pyramid pyramid = pyramid_of(tile);
         const std::size_t channels = tile.radiance.extent(0);
         std::vector<double> energies(channels);
         std::vector<std::vector<std::uint8_t>> codes(channels);
         for (std::size_t c = 0; c < channels; ++c) transform_.forward(pyramid, work.radiance[c].elements());
-        for (std::size_t c = 0; c < channels; ++c) energies[c] = energy(work.radiance[c].elements());
-        parallel_for(channels,
+        for (std::size_t c = 0; c < channels; ++c) energies[c] = coding::energy(work.radiance[c].elements());
+        core::parallel_for(channels,
                      [&](std::size_t c) { codes[c] = encode_channel(pyramid, work.radiance[c].elements(), step); });
         shorten(codes, most_bytes);
         ByteWriter writer;
@@ -66,7 +69,7 @@ class ClassicCoder : public TileCoder {
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        const Pyramid pyramid = pyramid_of(tile);
+        const transform::Pyramid pyramid = pyramid_of(tile);
         decode(bytes, pyramid, tile);
         square_amplitudes(tile);
     }
@@ -76,31 +79,31 @@ class ClassicCoder : public TileCoder {
     void decode_coefficients(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
         if (!directional()) return TileCoder::decode_coefficients(bytes, tile);
         // The hogels' own group alone; the directions stay as they are.
-        const Pyramid whole = pyramid_of(tile);
-        decode(bytes, Pyramid(whole.shape(), {whole.groups().front()}), tile);
+        const transform::Pyramid whole = pyramid_of(tile);
+        decode(bytes, transform::Pyramid(whole.shape(), {whole.groups().front()}), tile);
     }
 
   protected:
-    virtual std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+    virtual std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
                                                      double step) const = 0;
-    virtual void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+    virtual void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                                 std::span<float> values) const = 0;
     // Puts what decode_channel() makes of the code of these values in their place.
-    virtual void round_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+    virtual void round_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                                std::span<float> values) const {
         decode_channel(pyramid, code, values);
     }
 
   private:
-    Pyramid pyramid_of(const LightFieldTile& tile) const {
+    transform::Pyramid pyramid_of(const LightFieldTile& tile) const {
         const Shape<5>& shape = tile.radiance.shape();
         const std::vector<std::size_t> axes(shape.begin() + 1, shape.end());
-        return content_ == Content::amplitude ? Pyramid::separate(axes, {{0, 1}, {2, 3}}) : Pyramid::interleaved(axes);
+        return content_ == Content::amplitude ? transform::Pyramid::separate(axes, {{0, 1}, {2, 3}}) : transform::Pyramid::interleaved(axes);
     }
     // Transforms back along the groups of `back`.
-    void decode(std::span<const std::uint8_t> bytes, const Pyramid& back, LightFieldTile& tile) const {
+    void decode(std::span<const std::uint8_t> bytes, const transform::Pyramid& back, LightFieldTile& tile) const {
         ByteReader reader(bytes, "tile");
-        const Pyramid pyramid = pyramid_of(tile);
+        const transform::Pyramid pyramid = pyramid_of(tile);
         std::vector<std::span<const std::uint8_t>> codes;
         for (std::size_t c = 0; c < tile.radiance.extent(0); ++c)
             codes.push_back(reader.take(reader.take<std::uint32_t>()));
@@ -109,8 +112,8 @@ class ClassicCoder : public TileCoder {
     }
     // What becomes of coefficients, which make(channel, values) leaves.
     template <class Make>
-    void restore(const Pyramid& back, LightFieldTile& tile, Make&& make) const {
-        parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
+    void restore(const transform::Pyramid& back, LightFieldTile& tile, Make&& make) const {
+        core::parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
             const std::span<float> values = tile.radiance[c].elements();
             make(c, values);
             transform_.inverse(back, values);
@@ -136,35 +139,35 @@ class ClassicCoder : public TileCoder {
         }
     }
 
-    Transform transform_;
+    transform::Transform transform_;
     DirectionCross counted_;
     Content content_;
 };
 
 // Steps below what a coder can tell apart do not make anything finer.
 double usable_step(std::span<const float> values, double step) {
-    return std::max(step, static_cast<double>(largest_magnitude(values)) * 0x1p-29);
+    return std::max(step, static_cast<double>(coding::largest_magnitude(values)) * 0x1p-29);
 }
 
 class ThreePassCoder final : public ClassicCoder {
   public:
     ThreePassCoder(std::string_view name, const DirectionCross& counted, Content content, std::uint32_t version)
-        : ClassicCoder(name, counted, content), code_(version < 3 ? ThreePassCode::alphabets : ThreePassCode::bits) {}
+        : ClassicCoder(name, counted, content), code_(version < 3 ? coding::ThreePassCode::alphabets : coding::ThreePassCode::bits) {}
 
   private:
-    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+    std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
                                              double step) const override {
-        return three_pass_encode(pyramid, values, usable_step(values, step));
+        return coding::three_pass_encode(pyramid, values, usable_step(values, step));
     }
-    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+    void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
-        three_pass_decode(pyramid, code, values, code_);
+        coding::three_pass_decode(pyramid, code, values, code_);
     }
-    void round_channel(const Pyramid&, std::span<const std::uint8_t> code, std::span<float> values) const override {
-        three_pass_round(code, values);
+    void round_channel(const transform::Pyramid&, std::span<const std::uint8_t> code, std::span<float> values) const override {
+        coding::three_pass_round(code, values);
     }
 
-    ThreePassCode code_;
+    coding::ThreePassCode code_;
 };
 
 class EzwCoder final : public ClassicCoder {
@@ -176,45 +179,45 @@ class EzwCoder final : public ClassicCoder {
     }
 
   private:
-    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+    std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
                                              double step) const override {
-        const double signal = energy(values), error = static_cast<double>(values.size()) * step * step / 12;
+        const double signal = coding::energy(values), error = static_cast<double>(values.size()) * step * step / 12;
         if (signal <= error) return {};
-        EzwLimit limit;
+        coding::EzwLimit limit;
         limit.sqnr = 10 * std::log10(signal / error);
-        return ezw_encode(pyramid, values, limit);
+        return coding::ezw_encode(pyramid, values, limit);
     }
-    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+    void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
-        ezw_decode(pyramid, code, values);
+        coding::ezw_decode(pyramid, code, values);
     }
 };
 
 class Jpeg4dCoder final : public ClassicCoder {
   public:
-    Jpeg4dCoder(std::string_view name, const DirectionCross& counted, QuantisationTable table)
+    Jpeg4dCoder(std::string_view name, const DirectionCross& counted, coding::QuantisationTable table)
         : ClassicCoder(name, counted), table_(table) {}
 
   private:
-    std::vector<std::uint8_t> encode_channel(const Pyramid& pyramid, std::span<const float> values,
+    std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
                                              double step) const override {
         // The entry of JPEG's table for constant blocks is 16 in two dimensions, 256 in four.
-        const double scale = table_ == QuantisationTable::jpeg ? step / 256 : step;
-        return jpeg4d_encode(pyramid, values, usable_step(values, scale), table_);
+        const double scale = table_ == coding::QuantisationTable::jpeg ? step / 256 : step;
+        return coding::jpeg4d_encode(pyramid, values, usable_step(values, scale), table_);
     }
-    void decode_channel(const Pyramid& pyramid, std::span<const std::uint8_t> code,
+    void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
-        jpeg4d_decode(pyramid, code, values);
+        coding::jpeg4d_decode(pyramid, code, values);
     }
 
-    QuantisationTable table_;
+    coding::QuantisationTable table_;
 };
 
 }  // namespace
 
 std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const DirectionCross& counted,
                                               std::uint32_t version) {
-    const bool blocks = !transform(method.transform).is_wavelet();
+    const bool blocks = !transform::transform(method.transform).is_wavelet();
     if (blocks != (method.coder == "jpeg4d"))
         throw Error(ErrorCode::usage,
                     fmt::format("coder {} does not go with transform {}; expected {}", method.coder, method.transform,
@@ -227,4 +230,4 @@ std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const 
     return std::make_unique<ThreePassCoder>(method.transform, counted, content, version);
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::baselines

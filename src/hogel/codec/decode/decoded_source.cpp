@@ -1,14 +1,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
-#include "hogel/codec/encode/depth.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/core/lru_cache.h"
 #include "hogel/error.h"
 
 namespace hogel {
+
+using namespace codec;
+using namespace codec::format;
+
 namespace {
+
+// Reads the depth of a tile from such a light field: what is decoded as `beyond` or more is at infinity.
+void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile) {
+    LightFieldTile values(coded.grid(), tile.range, false);
+    coded.read(values);
+    std::ranges::transform(values.radiance.elements(), tile.depth.elements().begin(),
+                           [&](float value) { return value < beyond ? value : std::numeric_limits<float>::infinity(); });
+}
 
 // A stream, and the tiles of it that were decoded last.
 class DecodedStream {
@@ -148,7 +160,7 @@ class DecodedStream {
     std::vector<std::unique_ptr<TileCoder>> coders_;  // of each part
     bool coefficients_;
     std::size_t layers_;
-    mutable RecentResults<Index, Decoder> recent_;
+    mutable core::RecentResults<Index, Decoder> recent_;
 };
 
 // One face of a stream.

@@ -9,7 +9,10 @@
 #include "hogel/codec/format/pictures.h"
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::codec::decode {
+
+using namespace format;
+
 namespace {
 
 constexpr std::size_t header_bytes = 9;
@@ -75,12 +78,12 @@ void HogelDecoder::read(LightFieldTile& part) {
         for (std::size_t s = part.range.s0; s < part.range.s0 + part.range.ns; ++s)
             wanted.push_back(place_[(t - range_.t0) * range_.ns + s - range_.s0]);
     // A thread that waits inside must not begin something else that waits for this tile.
-    isolate([&] {
+    core::isolate([&] {
         if (!std::ranges::all_of(wanted, [&](std::size_t k) { return complete_[k].load(); })) {
             const std::lock_guard lock(mutex_);
             decode(wanted);
         }
-        parallel_for(wanted.size(), [&](std::size_t n) {
+        core::parallel_for(wanted.size(), [&](std::size_t n) {
             const std::size_t s = n % part.range.ns, t = n / part.range.ns;
             for_each_row(pictures_[wanted[n]], setup_, [&](std::size_t c, std::size_t v, std::span<const float> row) {
                 std::ranges::copy(row, &part.radiance(c, t, s, v, 0));
@@ -130,7 +133,7 @@ void HogelDecoder::tell_in_waves(const std::vector<std::size_t>& wanted) {
         std::vector<std::size_t> now;
         for (std::size_t k = waves[wave]; k < waves[wave + 1]; ++k)
             if (needed[k] && !told_[k]) now.push_back(k);
-        parallel_for(now.size(), [&](std::size_t n) { tell(now[n]); });
+        core::parallel_for(now.size(), [&](std::size_t n) { tell(now[n]); });
     }
 }
 
@@ -196,7 +199,7 @@ void HogelDecoder::decode(const std::vector<std::size_t>& wanted) {
         }
     for (std::size_t wave = 0; wave < waves; ++wave) {
         const std::vector<std::size_t> now = wanted_of_wave(wave);
-        parallel_for(now.size(), [&](std::size_t n) { make(now[n]); });
+        core::parallel_for(now.size(), [&](std::size_t n) { make(now[n]); });
     }
 }
 
@@ -225,4 +228,4 @@ bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range) {
            samples_in_blocks(grid) <= most_hogel_tile_samples / range.hogels();
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::decode

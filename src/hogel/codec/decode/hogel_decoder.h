@@ -6,7 +6,7 @@
 #include "hogel/codec/format/reconstruct.h"
 #include "hogel/codec/tile_coder.h"
 
-namespace hogel {
+namespace hogel::codec::decode {
 
 // A tile of the coder "hogel", decoded as far as it is asked for: a hogel takes those that it is predicted from, and of
 // these the blocks that it shows. What has been decoded stays.
@@ -23,8 +23,8 @@ class HogelDecoder final : public TileDecoder {
     std::size_t blocks_made() const;
 
   private:
-    std::span<BlockState> blocks_of(std::size_t hogel);
-    const std::vector<Block>* beside(std::size_t hogel) const;
+    std::span<format::BlockState> blocks_of(std::size_t hogel);
+    const std::vector<format::Block>* beside(std::size_t hogel) const;
     void take_levels(std::size_t levels);
     void decode(const std::vector<std::size_t>& wanted);
     void tell_in_waves(const std::vector<std::size_t>& wanted);
@@ -36,16 +36,16 @@ class HogelDecoder final : public TileDecoder {
 
     std::vector<std::uint8_t> bytes_;
     HogelRange range_;
-    TileSetup setup_;
+    format::TileSetup setup_;
     std::vector<std::size_t> place_;                    // in the order, of hogels row by row
-    std::vector<BlockModels> models_;                   // of each level, as they begin
+    std::vector<format::BlockModels> models_;                   // of each level, as they begin
     std::vector<std::span<const std::uint8_t>> codes_;  // of the hogels of these levels
 
     std::mutex mutex_;  // of all that follows but pictures that are complete
-    std::vector<CodedHogel> coded_;
+    std::vector<format::CodedHogel> coded_;
     std::vector<std::uint8_t> told_, wanted_;  // bools
-    std::vector<BlockState> blocks_;           // of all hogels
-    std::vector<Picture> pictures_;
+    std::vector<format::BlockState> blocks_;           // of all hogels
+    std::vector<format::Picture> pictures_;
     std::vector<std::atomic<bool>> complete_;
 };
 
@@ -60,8 +60,8 @@ constexpr std::size_t most_hogel_tile_samples = std::size_t{1} << 28;
 constexpr std::size_t tellers_a_side = 1;
 
 // What comes first in a tile, in a version of the format.
-constexpr HogelOrder::Begin begin_of_order(std::uint32_t version) {
-    return version < 5 ? HogelOrder::Begin::corners : HogelOrder::Begin::middle;
+constexpr format::HogelOrder::Begin begin_of_order(std::uint32_t version) {
+    return version < 5 ? format::HogelOrder::Begin::corners : format::HogelOrder::Begin::middle;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::decode

@@ -11,7 +11,10 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::decode {
+
+using namespace format;
+
 namespace {
 
 struct Example {
@@ -71,7 +74,7 @@ TEST(HogelDecoder, parts_have_what_lies_above_on_the_right) {
         for (std::size_t v = 0; v < 40; ++v)
             for (std::size_t u = 0; u < 64; ++u) {
                 const auto line = static_cast<std::uint32_t>(u + v + 12 * s);
-                field.radiance(0, 0, s, v, u) = static_cast<float>(philox({line, 0, 0, 0}, {1, 2})[0]) * 0x1p-32f;
+                field.radiance(0, 0, s, v, u) = static_cast<float>(core::philox({line, 0, 0, 0}, {1, 2})[0]) * 0x1p-32f;
             }
     const Example example(std::move(field), 0.05);
     for (std::size_t s = 0; s < 5; ++s) {
@@ -108,7 +111,7 @@ TEST(HogelDecoder, several_threads_read_the_same_tile) {
     for (const std::size_t threads : {1, 4}) {
         const ThreadLimit limit(threads);
         HogelDecoder decoder = example.open();
-        parallel_for(200, [&](std::size_t i) {
+        core::parallel_for(200, [&](std::size_t i) {
             HogelRange range{i % 9, i / 9 % 8, 1, 1};
             range.ns = 1 + i % (9 - range.s0);
             LightFieldTile part(example.field.grid(), range, false);
@@ -189,13 +192,13 @@ TEST(ModelStates, are_what_was_counted) {
     ModelStates back(latest_version);
     back.code(reader, ModelStates(latest_version));
     std::vector<std::uint32_t> expected, found;
-    models.for_each([&](BitModel& model) { expected.push_back(model.zero()); });
+    models.for_each([&](coding::BitModel& model) { expected.push_back(model.zero()); });
     BlockModels of_back = back.models();
-    of_back.for_each([&](BitModel& model) { found.push_back(model.zero()); });
+    of_back.for_each([&](coding::BitModel& model) { found.push_back(model.zero()); });
     EXPECT_EQ(expected, found);
     EXPECT_TRUE(reader.all_read());
     EXPECT_FALSE(reader.ended());
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::decode

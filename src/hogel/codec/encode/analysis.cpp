@@ -9,7 +9,10 @@
 #include "hogel/codec/encode/partition_search.h"
 #include "hogel/codec/format/pictures.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
+
 namespace {
 
 // Bits that things cost, as they are taken into account: about what they come to.
@@ -300,4 +303,4 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
     return coded;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -3,7 +3,7 @@
 #include "hogel/codec/format/reconstruct.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 
 // What the encoder decides.
 
@@ -16,12 +16,12 @@ struct Estimate {
     float shared = 0;  // how much of the hogel its neighbours show as it does, to within the finest step: 0 to 1
 };
 // @param tile   stays as it is
-Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel);
+Estimate estimate_disparities(const format::TileSetup& setup, LightFieldTile& tile, const format::HogelOrder::Hogel& hogel);
 
 // Decides on all blocks of a hogel and makes its picture, of which there is the memory, as a decoder will have it.
 // `estimated` may be empty. Candidates are returned too.
-CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& source,
-                   const std::vector<const Block*>& moved, const std::vector<Block>* beside,
-                   const std::vector<std::int16_t>& estimated, std::vector<Picture>& pictures);
+format::CodedHogel analyse(const format::TileSetup& setup, std::size_t hogel, const format::Picture& source,
+                   const std::vector<const format::Block*>& moved, const std::vector<format::Block>* beside,
+                   const std::vector<std::int16_t>& estimated, std::vector<format::Picture>& pictures);
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
+
 namespace {
 
 // Bits that things cost, as they are taken into account: about what they come to.
@@ -187,4 +190,4 @@ const BlockSearch::Found& BlockSearch::run(std::size_t k, const BlockSamples& wa
     return best_;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

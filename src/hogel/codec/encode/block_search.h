@@ -5,7 +5,7 @@
 #include "hogel/codec/encode/analysis.h"
 #include "hogel/codec/encode/warped_blocks.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 
 // The search for what a block of the first channel is best predicted from: a disparity and sides. Tries what costs few
 // bits first, stops at a prediction that is good enough, and leaves out what its bits alone keep from winning.
@@ -14,12 +14,12 @@ class BlockSearch {
     // Disparities that are known before blocks are told.
     struct Known {
         std::span<const std::int16_t> estimated{};   // of the blocks; may be empty
-        std::span<const Block* const> moved{};       // moved to the blocks of this hogel; may be empty
-        const std::vector<Block>* beside = nullptr;  // of the first teller; may be null
+        std::span<const format::Block* const> moved{};       // moved to the blocks of this hogel; may be empty
+        const std::vector<format::Block>* beside = nullptr;  // of the first teller; may be null
     };
     // @param seen   of the block that is searched for
-    BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source, SeenBlocks& seen,
-                ReferenceWeights& weights, const Known& known);
+    BlockSearch(const format::TileSetup& setup, const format::HogelOrder::Hogel& hogel, const format::Plane& source, SeenBlocks& seen,
+                format::ReferenceWeights& weights, const Known& known);
     BlockSearch(const BlockSearch&) = delete;
     BlockSearch& operator=(const BlockSearch&) = delete;
 
@@ -28,10 +28,10 @@ class BlockSearch {
         float error = 0;                                      // Σ (prediction − wanted)²
         std::uint8_t mode = 0;                                // of Block; 0: nothing was found
         std::int16_t disparity = 0;
-        const BlockSamples* prediction = nullptr;
+        const format::BlockSamples* prediction = nullptr;
     };
     // For block k, whose samples are `wanted`. Valid until the next call.
-    const Found& run(std::size_t k, const BlockSamples& wanted, const Candidates& candidates);
+    const Found& run(std::size_t k, const format::BlockSamples& wanted, const format::Candidates& candidates);
     // Farther and then nearer around what was found. True if there is something better, which is found then.
     bool look_around();
     // What was found is good enough not to look for anything else.
@@ -41,31 +41,31 @@ class BlockSearch {
 
   private:
     bool may_win(float bits) const { return least_error_ + worth_ * bits < best_.cost; }
-    bool take_if_better(const BlockSamples& prediction, float error, float bits, int side, int disparity);
+    bool take_if_better(const format::BlockSamples& prediction, float error, float bits, int side, int disparity);
     void try_any_side(int disparity, float bits);
     void try_single_sides(int disparity, float bits);
     void follow_slopes();
-    void try_nearby(std::size_t k, const Candidates& candidates);
+    void try_nearby(std::size_t k, const format::Candidates& candidates);
     // What is not a candidate is told in units from the likeliest.
     int told_as(float disparity) const;
 
-    const TileSetup& setup_;
-    const HogelOrder::Hogel& hogel_;
-    const Plane& source_;
+    const format::TileSetup& setup_;
+    const format::HogelOrder::Hogel& hogel_;
+    const format::Plane& source_;
     SeenBlocks& seen_;
-    ReferenceWeights& weights_;
+    format::ReferenceWeights& weights_;
     Known known_;
     float worth_, good_enough_, worth_looking_, least_error_;
     int unit_;
 
     // Of the block that is searched for:
     std::size_t x_ = 0, y_ = 0;
-    const BlockSamples* wanted_ = nullptr;
+    const format::BlockSamples* wanted_ = nullptr;
     int likeliest_ = 0;
     Found best_;
-    std::array<BlockSamples, 2> kept_;  // the best prediction, and the next one
+    std::array<format::BlockSamples, 2> kept_;  // the best prediction, and the next one
     bool slopes_known_ = false;
-    Slopes slopes_;
+    format::Slopes slopes_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

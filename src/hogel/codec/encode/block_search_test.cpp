@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdint>
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
+
 namespace {
 
 // Three by three hogels that see a texture `disparity` 64ths of a direction away from each other; all but the last have
@@ -82,4 +85,4 @@ TEST(BlockSearch, looks_farther_only_where_it_must) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -8,11 +8,13 @@
 #include "hogel/codec/format/pictures.h"
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
 
 void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightFieldGrid& grid, LightFieldTile& tile) {
     ByteReader header(bytes, "tile");
-    if (!hogel_tile_fits(grid, tile.range)) header.damaged("it is too large");
+    if (!decode::hogel_tile_fits(grid, tile.range)) header.damaged("it is too large");
     const float step = header.take_float(), growth = header.take_float();
     if (!(step > 0 && std::isfinite(step) && growth >= 1 && growth <= 4)) header.damaged("its steps are no steps");
     const TileSetup setup(HogelOrder(tile.range.ns, tile.range.nt, HogelOrder::all_of_a_side, HogelOrder::all_of_a_side,
@@ -27,7 +29,7 @@ void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightField
     for (std::size_t wave = 0; wave + 1 < setup.order.waves().size(); ++wave) {
         const std::size_t begin = setup.order.waves()[wave], end = setup.order.waves()[wave + 1];
         std::vector<std::vector<const Block*>> moved(end - begin);
-        parallel_for(end - begin, [&](std::size_t n) {
+        core::parallel_for(end - begin, [&](std::size_t n) {
             moved[n] = moved_blocks(order[begin + n], coded, setup.grid, setup.aspect);
         });
         for (std::size_t k = begin; k < end; ++k) {
@@ -36,7 +38,7 @@ void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightField
                        tellers.empty() ? nullptr : &coded[tellers.front().hogel].blocks, coded[k]);
         }
         if (reader.ended()) header.damaged("it ends too early");
-        parallel_for(end - begin, [&](std::size_t n) {
+        core::parallel_for(end - begin, [&](std::size_t n) {
             const std::size_t k = begin + n;
             std::vector<BlockState> blocks(setup.grid.count(), BlockState::wanted);
             reconstruct(setup, k, coded[k], blocks, pictures);
@@ -49,4 +51,4 @@ void decode_chained_hogels(std::span<const std::uint8_t> bytes, const LightField
     if (!reader.all_read()) header.damaged("bytes are left over");
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

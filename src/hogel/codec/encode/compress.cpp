@@ -20,6 +20,11 @@
 #include "hogel/error.h"
 
 namespace hogel {
+
+using namespace codec;
+using namespace codec::encode;
+using namespace codec::format;
+
 namespace {
 
 // Of the bytes that were asked for, how many may be missing, where a step is looked for with some of the tiles and then
@@ -98,7 +103,7 @@ class Compression {
             sizes_.clear();
         }
         CodingOutcome sum;
-        parallel_ordered<Coded>(
+        core::parallel_ordered<Coded>(
             tiles.size(), in_flight(),
             [&](std::size_t i) {
                 return code_tile(tiles[i], step, most_bytes.empty() ? TileCoder::no_limit : most_bytes[i]);
@@ -109,14 +114,14 @@ class Compression {
                     writer_.append(coded.bytes, coded.layers);
                     sizes_.push_back(coded.bytes.size());
                 }
-                report(progress_, static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
+                progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
             });
         return sum;
     }
     // The sums over the signal alone.
     CodingOutcome look(std::span<const std::size_t> tiles) {
         CodingOutcome sum;
-        parallel_ordered<CodingOutcome>(
+        core::parallel_ordered<CodingOutcome>(
             tiles.size(), in_flight(),
             [&](std::size_t i) {
                 auto [tile, outcome] = read(tiles[i]);
@@ -151,7 +156,7 @@ class Compression {
         CodingOutcome outcome;
     };
 
-    std::size_t in_flight() const { return std::min(default_in_flight(), parts_.front().coder->most_at_once()); }
+    std::size_t in_flight() const { return std::min(core::default_in_flight(), parts_.front().coder->most_at_once()); }
 
     std::pair<LightFieldTile, CodingOutcome> read(std::size_t index) const {
         return read(parts_[index / tiling_.count()], tiling_[index % tiling_.count()]);
@@ -163,7 +168,7 @@ class Compression {
         const bool any_value = part.coder->takes_any_value();
         const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
         std::vector<double> signal(tile.radiance.size() / (width * height));  // of each hogel and channel
-        parallel_for(signal.size(), [&](std::size_t hogel) {
+        core::parallel_for(signal.size(), [&](std::size_t hogel) {
             for (std::size_t v = 0; v < height; ++v) {
                 const auto [begin, end] = counted_.columns(v, width);
                 const auto values = tile.radiance.elements().subspan((hogel * height + v) * width + begin, end - begin);
@@ -371,7 +376,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
     info.tile.ns = std::min(info.tile.ns, grid.hogels_s);
     info.tile.nt = std::min(info.tile.nt, grid.hogels_t);
     info.layer_ends.resize(parts.front().coder->layers(info.tile));
-    std::optional<OutputFile> depth;
+    std::optional<core::OutputFile> depth;
     if (options.with_depth) info.depth = compress_depth(sources, depth.emplace(path).temporary(), options);
     StreamWriter writer(path, info, depth ? depth->temporary() : std::filesystem::path());
     Compression compression(parts, info, writer, progress);

@@ -8,17 +8,17 @@
 #include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 namespace {
 
 std::vector<CodingMethod> all_methods() {
     std::vector<CodingMethod> methods{{"hogel", ""}};
-    for (const std::string_view name : transform_names())
+    for (const std::string_view name : transform::transform_names())
         if (name == "dct8")
             methods.push_back({"jpeg4d", "dct8"});
         else
             methods.push_back({name.size() % 2 == 0 ? "ezw" : "threepass", std::string(name)});
-    methods.push_back({"jpeg4d", "dct8", QuantisationTable::jpeg});
+    methods.push_back({"jpeg4d", "dct8", coding::QuantisationTable::jpeg});
     methods.push_back({"fringes", "cdf97"});
     return methods;
 }
@@ -38,8 +38,8 @@ TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
     const auto source = open_coefficients(folder / "a.hgl");
     LightField coefficients(source->grid());
     copy(*source, coefficients);
-    const Pyramid pyramid = Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
-    transform("ai33").inverse(pyramid, coefficients.radiance.elements());
+    const transform::Pyramid pyramid = transform::Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
+    transform::transform("ai33").inverse(pyramid, coefficients.radiance.elements());
     const LightField expected = decoded(folder / "a.hgl");
     for (std::size_t i = 0; i < expected.radiance.size(); ++i)
         ASSERT_NEAR(std::pow(coefficients.radiance.data()[i], 2), expected.radiance.data()[i], 1e-5) << i;
@@ -223,4 +223,4 @@ TEST(Search, finds_the_band_of_a_falling_function) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -10,7 +10,10 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
+
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -76,8 +79,8 @@ DepthCoding depth_coding(std::span<const LightFieldSource* const> faces, double 
     Range all;
     for (const LightFieldSource* face : faces) {
         const Tiling tiling(face->grid(), face->preferred_tile());
-        parallel_ordered<Range>(
-            tiling.count(), default_in_flight(), [&](std::size_t i) { return depths_of(*face, tiling[i]); },
+        core::parallel_ordered<Range>(
+            tiling.count(), core::default_in_flight(), [&](std::size_t i) { return depths_of(*face, tiling[i]); },
             [&](std::size_t, Range& depths) { all.include(depths); });
     }
     return all.nearest <= all.farthest ? DepthCoding(all.nearest, all.farthest, error_wanted)
@@ -86,13 +89,6 @@ DepthCoding depth_coding(std::span<const LightFieldSource* const> faces, double 
 
 std::unique_ptr<LightFieldSource> depth_as_radiance(const LightFieldSource& source, const DepthCoding& coding) {
     return std::make_unique<DepthAsRadiance>(source, coding);
-}
-
-void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile) {
-    LightFieldTile values(coded.grid(), tile.range, false);
-    coded.read(values);
-    std::ranges::transform(values.radiance.elements(), tile.depth.elements().begin(),
-                           [&](float value) { return value < beyond ? value : infinity; });
 }
 
 StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
@@ -114,4 +110,4 @@ StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces,
     return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -7,9 +7,7 @@
 #include "hogel/compress.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
-
-struct CompressionOptions;
+namespace hogel::codec::encode {
 
 // How the depths of a light field stand in the stream behind its own: as a light field of one channel, each to within
 // an error, in metres. Nothing at all, at infinity, stands there as a depth behind all others.
@@ -32,7 +30,4 @@ std::unique_ptr<LightFieldSource> depth_as_radiance(const LightFieldSource& sour
 StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
                                  const CompressionOptions& options);
 
-// Reads the depth of a tile from such a light field.
-void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile);
-
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
+
 namespace {
 
 constexpr std::size_t per_octave = std::size_t{1} << (23 - ToneCurve::low_bits);
@@ -66,4 +69,4 @@ std::optional<ToneCurve> adjusted_curve(const LuminanceHistogram& histogram, dou
     return ToneCurve(first, std::move(values));
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -4,7 +4,7 @@
 
 #include "hogel/codec/format/tone_curve.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 
 // The histogram adjustment of Ward Larson, Rushmeier and Piatko ("A visibility matching tone reproduction operator for
 // high dynamic range scenes", IEEE TVCG 3(4), 1997): the cumulative distribution of the logarithm of luminance, scaled
@@ -12,6 +12,6 @@ namespace hogel {
 // from a bin, all others share. Two things are added, so that it can be inverted: a part of all samples is spread
 // evenly over the logarithm, and luminances six decades below the highest are left in proportion. The highest luminance
 // stays as it is. Nothing where the luminances span no more decades than are wanted.
-std::optional<ToneCurve> adjusted_curve(const LuminanceHistogram& histogram, double decades);
+std::optional<format::ToneCurve> adjusted_curve(const format::LuminanceHistogram& histogram, double decades);
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

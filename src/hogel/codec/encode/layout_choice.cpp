@@ -10,7 +10,10 @@
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
+
 namespace {
 
 constexpr std::size_t tried = 2;        // tiles of a face, as large as they are where they are gathered
@@ -146,4 +149,4 @@ StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const
                                                                                       : StreamLayout::faces;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

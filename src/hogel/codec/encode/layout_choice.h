@@ -6,7 +6,7 @@
 
 #include "hogel/compress.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 
 // How a stream of these faces is laid out: as the options say, or where they leave it open, gathered where that can be
 // and takes fewer bytes of some hogels in the middle of each face. Rows of hogels that lie far apart show too little of
@@ -14,7 +14,7 @@ namespace hogel {
 // @param info      of which the layout is still open
 // @param coder_of  makes the coder of a face in a stream
 using CoderOfFace = std::function<std::unique_ptr<TileCoder>(const StreamInfo& info, const LightFieldGrid& face)>;
-StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
+format::StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
                            const CompressionOptions& options, const CoderOfFace& coder_of);
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

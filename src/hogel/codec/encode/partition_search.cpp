@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-namespace hogel {
+namespace hogel::codec::encode {
+
+using namespace format;
+
 namespace {
 
 // Bits that things cost, about.
@@ -67,4 +70,4 @@ std::optional<Block> PartSearch::best(BlockSamples& prediction) {
     return block;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -3,7 +3,7 @@
 
 #include "hogel/codec/encode/secant_search.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 
 bool Search::tell(double value) {
     if (value >= low_ && value <= high_) return true;
@@ -26,4 +26,4 @@ bool Search::tell(double value) {
     return false;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

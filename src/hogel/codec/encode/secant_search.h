@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-namespace hogel {
+namespace hogel::codec::encode {
 
 // Finds where a falling function is within a band, from as few values as possible: by the secant through the last two
 // places, or the middle of what is known to be too far on either side when the secant leads out of it.
@@ -27,4 +27,4 @@ class Search {
     int told_ = 0;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -6,7 +6,7 @@
 
 #include "hogel/codec/encode/secant_search.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 namespace {
 
 constexpr double sqnr_tolerance = 0.1;
@@ -72,4 +72,4 @@ StepFound StepSearch::run(const StepBand& band, const Code& code) {
     return search.above() ? StepFound::beside_band : StepFound::only_below;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

@@ -5,7 +5,7 @@
 
 #include "hogel/compress.h"
 
-namespace hogel {
+namespace hogel::codec::encode {
 
 // What coding tiles with a step gave.
 struct CodingOutcome {
@@ -65,4 +65,4 @@ class StepSearch {
     int passes_ = 0;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::encode

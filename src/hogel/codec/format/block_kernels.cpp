@@ -5,7 +5,7 @@
 
 #include "hogel/codec/format/block_kernels.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 // A sum over a block: of the even and of the odd rows column by column, then of halves, so that vectors of eight or
@@ -160,4 +160,4 @@ void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& t
     transform_along_v_plain(matrix, across, out);
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // The innermost loops of the coder "hogel": on a vector of samples where the machine has one, and plain. Both give the
 // same bits, because what is added to what in which order is part of the format.
@@ -105,4 +105,4 @@ void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transpo
 void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                                BlockSamples& out);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

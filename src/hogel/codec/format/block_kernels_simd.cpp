@@ -1,7 +1,7 @@
 // The vector twins of block_kernels.cpp, compiled for every instruction set and chosen when first called. Products are
 // rounded before they are added, as there.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/codec/block_kernels_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/codec/format/block_kernels_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -9,7 +9,7 @@
 #include "hogel/codec/format/block_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::codec::format {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -301,11 +301,11 @@ void TransformBothWays(const BlockSamples& matrix, const BlockSamples& transpose
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::codec::format
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::codec::format {
 
 HWY_EXPORT(InterpolateBlock);
 HWY_EXPORT(MixBlocks);
@@ -375,5 +375,5 @@ void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transpo
     HWY_DYNAMIC_DISPATCH(TransformBothWays)(matrix, transposed, in, out);
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format
 #endif

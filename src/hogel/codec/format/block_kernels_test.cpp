@@ -7,11 +7,11 @@
 
 #include "hogel/core/random.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 float random_value(std::uint32_t place, std::uint32_t seed) {
-    return static_cast<float>(philox({place, seed, 0, 0}, {3, 4})[0]) * 0x1p-31f - 1;
+    return static_cast<float>(core::philox({place, seed, 0, 0}, {3, 4})[0]) * 0x1p-31f - 1;
 }
 
 BlockSamples random_block(std::uint32_t seed) {
@@ -124,4 +124,4 @@ TEST(BlockKernels, interpolation_moves_the_window) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -7,7 +7,7 @@
 
 #include "hogel/codec/format/level_syntax.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 constexpr int one_surface = 12;  // disparities no farther apart than this belong to one surface
@@ -221,8 +221,8 @@ void count_bits(const BlockRecorder::Record& record, std::span<BitCount> counts)
         if (bit < BlockRecorder::even_bit) ++counts[bit / 2][bit % 2];
 }
 
-std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<BitModel> models) {
-    ArithmeticEncoder encoder;
+std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<coding::BitModel> models) {
+    coding::ArithmeticEncoder encoder;
     for (const std::uint16_t bit : record)
         if (bit < BlockRecorder::even_bit)
             encoder.bit(models[bit / 2], bit % 2 != 0);
@@ -236,4 +236,4 @@ template void code_hogel(BlockRecorder&, BlockModelNumbers&, const BlockGrid&, c
 template void code_hogel(BlockReader&, BlockModels&, const BlockGrid&, const HogelOrder::Hogel&,
                          const std::vector<const Block*>&, const std::vector<Block>*, CodedHogel&);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

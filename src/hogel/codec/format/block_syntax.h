@@ -11,7 +11,7 @@
 #include "hogel/codec/tile_coder.h"
 #include "hogel/coding/arithmetic.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 using Levels = std::array<std::int32_t, block_samples>;
 
@@ -57,7 +57,7 @@ struct BlockGrid {
     bool may_be_parted() const { return version >= 4; }   // blocks
     bool tells_by_moved() const { return version >= 5; }  // what they are told, by what is moved here
     bool has_bases() const { return version >= 6; }       // other than cosines
-    int within_modes() const { return version >= 6 ? hogel::within_modes : first_direction; }
+    int within_modes() const { return version >= 6 ? format::within_modes : first_direction; }
 };
 
 // The blocks of the tellers, moved to where they are seen from this hogel: one for each block, or null.
@@ -202,7 +202,7 @@ struct ModelsOf {
 };
 
 // Adaptive ones.
-using BlockModels = ModelsOf<BitModel>;
+using BlockModels = ModelsOf<coding::BitModel>;
 
 // The number of each, in the order of for_each().
 struct BlockModelNumbers : ModelsOf<std::uint16_t> {
@@ -238,13 +238,13 @@ class BlockRecorder {
 // How often a bit of each model was 0, and 1.
 using BitCount = std::array<std::uint32_t, 2>;
 void count_bits(const BlockRecorder::Record& record, std::span<BitCount> counts);
-std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<BitModel> models);
+std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<coding::BitModel> models);
 
 class BlockWriter {
   public:
     using Models = BlockModels;
     static constexpr bool reads = false;
-    bool bit(BitModel& model, bool value) {
+    bool bit(coding::BitModel& model, bool value) {
         encoder_.bit(model, value);
         return value;
     }
@@ -255,7 +255,7 @@ class BlockWriter {
     std::vector<std::uint8_t> finish() { return encoder_.finish(); }
 
   private:
-    ArithmeticEncoder encoder_;
+    coding::ArithmeticEncoder encoder_;
 };
 
 class BlockReader {
@@ -263,13 +263,13 @@ class BlockReader {
     using Models = BlockModels;
     static constexpr bool reads = true;
     explicit BlockReader(std::span<const std::uint8_t> bytes) : decoder_(bytes) {}
-    bool bit(BitModel& model, bool) { return decoder_.bit(model); }
+    bool bit(coding::BitModel& model, bool) { return decoder_.bit(model); }
     bool even(bool) { return decoder_.even(); }
     bool ended() const { return decoder_.ended(); }
     bool all_read() const { return decoder_.all_read(); }
 
   private:
-    ArithmeticDecoder decoder_;
+    coding::ArithmeticDecoder decoder_;
 };
 
 // Codes all blocks of a hogel; a reader fills `coded`.
@@ -281,4 +281,4 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
 void guess_hogel(const BlockGrid& grid, const std::vector<const Block*>& moved, const std::vector<Block>* beside,
                  CodedHogel& coded);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

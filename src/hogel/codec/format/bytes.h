@@ -11,7 +11,7 @@
 #include "hogel/core/checksum.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // Numbers and texts of a stream, little-endian; texts are their length as 32 bits and their bytes.
 class ByteWriter {
@@ -64,4 +64,4 @@ class ByteReader {
     std::string what_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -4,7 +4,7 @@
 
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 constexpr float third = 0.57735026918962576f, half = 0.70710678118654752f, sixth = 0.40824829046386302f;
@@ -29,7 +29,7 @@ template <class Change>
 void for_each_part(View<float, 5> radiance, Change&& change) {
     if (radiance.extent(0) != 3) return;
     const std::size_t count = radiance.size() / 3;
-    parallel_for((count + batch - 1) / batch, [&](std::size_t part) {
+    core::parallel_for((count + batch - 1) / batch, [&](std::size_t part) {
         const auto of = [&](std::size_t channel) {
             return radiance[channel].elements().subspan(part * batch, std::min(batch, count - part * batch));
         };
@@ -55,4 +55,4 @@ void join_colours(View<float, 5> radiance) {
     for_each_part(radiance, [](auto a, auto b, auto c) { join_colours(a, b, c); });
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

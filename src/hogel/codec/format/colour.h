@@ -5,7 +5,7 @@
 
 #include "hogel/array.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // R, G, B to one luminance-like and two chrominance-like channels and back, in place: the orthonormal DCT of three
 // points, so that an error has the same energy in either. One channel stays as it is.
@@ -15,4 +15,4 @@ void join_colours(View<float, 5> radiance);
 void separate_colours(std::span<float> a, std::span<float> b, std::span<float> c);
 void join_colours(std::span<float> a, std::span<float> b, std::span<float> c);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdlib>
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 // The level of each of n places in a row: of the ends and the middle one, then that of the halving that reaches it.
@@ -100,4 +100,4 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t refere
     waves_.push_back(hogels_.size());
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // The order in which the hogels of a tile are coded, from far apart to side by side: first the corners, then what lies
 // halfway between coded ones, and so on. A hogel is predicted from those of its own row and column that come earlier:
@@ -44,4 +44,4 @@ class HogelOrder {
     std::vector<std::size_t> waves_, waves_of_levels_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

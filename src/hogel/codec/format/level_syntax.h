@@ -4,7 +4,7 @@
 
 #include "hogel/codec/format/block_syntax.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // How the levels of a channel of a block are told.
 
@@ -147,4 +147,4 @@ void code_cosines(Coder& coder, typename Coder::Models::ForCosines& models, Leve
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

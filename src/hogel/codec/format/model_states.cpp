@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 constexpr int most_state = 40;
@@ -30,7 +30,7 @@ struct Probabilities {
 };
 const Probabilities probabilities;
 
-BitModel model_of(int state) { return BitModel(probabilities.zero[place_of(state)]); }
+coding::BitModel model_of(int state) { return coding::BitModel(probabilities.zero[place_of(state)]); }
 
 double bits_for(const BitCount& count, int state) {
     const auto& bits = probabilities.bits[place_of(state)];
@@ -58,8 +58,8 @@ ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& be
     }
 }
 
-std::vector<BitModel> ModelStates::models_in_order() const {
-    std::vector<BitModel> models;
+std::vector<coding::BitModel> ModelStates::models_in_order() const {
+    std::vector<coding::BitModel> models;
     for (const int state : states_) models.push_back(model_of(state));
     return models;
 }
@@ -67,15 +67,15 @@ std::vector<BitModel> ModelStates::models_in_order() const {
 BlockModels ModelStates::models() const {
     BlockModels models;
     std::size_t at = 0;
-    models.for_each([&](BitModel& model) { model = model_of(states_[at++]); }, version_);
+    models.for_each([&](coding::BitModel& model) { model = model_of(states_[at++]); }, version_);
     return models;
 }
 
 template <class Coder>
 void ModelStates::code(Coder& coder, const ModelStates& before) {
-    std::array<BitModel, 2> changed;  // by whether the one before has
-    BitModel sign;
-    std::array<BitModel, most_number_bits + 1> size;
+    std::array<coding::BitModel, 2> changed;  // by whether the one before has
+    coding::BitModel sign;
+    std::array<coding::BitModel, most_number_bits + 1> size;
     bool last = false;
     for (std::size_t k = 0; k < states_.size(); ++k) {
         const int difference = states_[k] - before.states_[k];
@@ -94,4 +94,4 @@ void ModelStates::code(Coder& coder, const ModelStates& before) {
 template void ModelStates::code(BlockWriter&, const ModelStates&);
 template void ModelStates::code(BlockReader&, const ModelStates&);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -5,7 +5,7 @@
 
 #include "hogel/codec/format/block_syntax.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // Where the models of all hogels of a level begin, so that each can be decoded without having seen the others: the
 // logarithm of zeros to ones, in quarters of a bit, of each model in order.
@@ -19,7 +19,7 @@ class ModelStates {
 
     std::size_t count() const { return states_.size(); }
     BlockModels models() const;
-    std::vector<BitModel> models_in_order() const;
+    std::vector<coding::BitModel> models_in_order() const;
 
     // Writes them as what is new since `before`, or reads them.
     template <class Coder>
@@ -39,10 +39,10 @@ class CodeLengths {
     }
 
   private:
-    std::array<BitModel, most_number_bits + 1> models_;
+    std::array<coding::BitModel, most_number_bits + 1> models_;
 };
 
 extern template void ModelStates::code(BlockWriter&, const ModelStates&);
 extern template void ModelStates::code(BlockReader&, const ModelStates&);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

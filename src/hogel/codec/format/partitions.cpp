@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 // Of a row with these samples; a line leaves its first or its last ones.
@@ -54,4 +54,4 @@ void put_beyond(std::size_t line, const BlockSamples& beyond, BlockSamples& bloc
         if (samples >> n & 1) block[n] = beyond[n];
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

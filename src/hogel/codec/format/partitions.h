@@ -6,7 +6,7 @@
 
 #include "hogel/codec/format/block_kernels.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // Where a nearer surface ends within a block, a straight line cuts it into two parts: the main one, which holds its
 // middle, and what lies beyond the line.
@@ -26,4 +26,4 @@ const LinesInRows& lines_in_rows();
 // Puts what lies beyond a line in place of what is there.
 void put_beyond(std::size_t line, const BlockSamples& beyond, BlockSamples& block);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

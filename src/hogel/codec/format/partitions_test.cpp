@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 TEST(Parts, main_part_holds_the_middle) {
@@ -56,9 +56,9 @@ TEST(Parts, are_found_where_a_surface_ends) {
     Candidates candidates;
     candidates.add(0);
     candidates.add(disparity * shift_unit);
-    SeenBlocks seen(middle, pictures);
+    encode::SeenBlocks seen(middle, pictures);
     seen.go_to(8, 0);
-    PartSearch parts(seen, weights);
+    encode::PartSearch parts(seen, weights);
     parts.begin(wanted, candidates, 1e-4f);
     const auto block = parts.best(prediction);
     ASSERT_TRUE(block);
@@ -74,4 +74,4 @@ TEST(Parts, are_found_where_a_surface_ends) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::format

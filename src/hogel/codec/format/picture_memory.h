@@ -8,7 +8,7 @@
 
 #include "hogel/array.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // Memory for the planes of a tile, all of one size: cut from large blocks, whose pages are large too, because a plane
 // alone is too small for these and spends more time on being given pages than on being written. For any number of
@@ -52,4 +52,4 @@ class PictureMemory final : public std::pmr::memory_resource {
     std::vector<void*> free_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

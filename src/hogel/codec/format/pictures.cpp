@@ -1,6 +1,6 @@
 #include "hogel/codec/format/pictures.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 Picture copy_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t) {
     Picture picture = setup.blank();
@@ -27,4 +27,4 @@ Picture as_in_tile(LightFieldTile& tile, const TileSetup& setup, std::size_t s, 
     return picture;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -9,7 +9,7 @@
 #include "hogel/codec/format/reconstruct.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // A hogel's channels, filled up to whole blocks by their last samples, apart in luminance and chrominance. `s` and `t`
 // count within the tile.
@@ -37,4 +37,4 @@ void for_each_row(const Picture& picture, const TileSetup& setup, Use&& use) {
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

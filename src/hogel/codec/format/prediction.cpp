@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 // Interpolation at each 64th between two samples: a sinc windowed by a wider sinc (Lanczos), in units of 2^-14 so that
@@ -167,4 +167,4 @@ const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
     return kept.choices;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -12,7 +12,7 @@
 #include "hogel/codec/format/block_kernels.h"
 #include "hogel/codec/format/hogel_order.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // Samples of one hogel and channel, [v][u], filled up to whole blocks: its own, which mean nothing at first, or
 // somebody else's.
@@ -135,4 +135,4 @@ class ReferenceWeights {
     std::unique_ptr<Kept[]> kept_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

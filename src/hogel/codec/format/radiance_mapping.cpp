@@ -5,7 +5,7 @@
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 constexpr std::size_t batch = 1 << 14;
@@ -16,7 +16,7 @@ float luminance(float red, float green, float blue) { return (red + green + blue
 template <class Change>
 void for_each_part(View<float, 5> radiance, Change&& change) {
     const std::size_t channels = radiance.extent(0), count = radiance.size() / channels;
-    parallel_for((count + batch - 1) / batch, [&](std::size_t part) {
+    core::parallel_for((count + batch - 1) / batch, [&](std::size_t part) {
         const auto of = [&](std::size_t channel) {
             return radiance[channel].elements().subspan(part * batch, std::min(batch, count - part * batch));
         };
@@ -96,8 +96,8 @@ LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> 
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const LightFieldGrid& grid = faces[face]->grid();
         const Tiling tiling(grid, faces[face]->preferred_tile());
-        parallel_ordered<LuminanceHistogram>(
-            tiling.count(), default_in_flight(),
+        core::parallel_ordered<LuminanceHistogram>(
+            tiling.count(), core::default_in_flight(),
             [&](std::size_t i) {
                 LightFieldTile tile(grid, tiling[i], false);
                 faces[face]->read(tile);
@@ -107,11 +107,11 @@ LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> 
             },
             [&](std::size_t i, LuminanceHistogram& histogram) {
                 sum.add(histogram);
-                report(progress, (static_cast<double>(face) + static_cast<double>(i + 1) / double(tiling.count())) /
+                progress.report((static_cast<double>(face) + static_cast<double>(i + 1) / double(tiling.count())) /
                                      static_cast<double>(faces.size()));
             });
     }
     return sum;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -8,7 +8,7 @@
 #include "hogel/codec/format/tone_curve.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 /// What radiances become before they are coded, and what is undone behind the decoder, so that coders do not know of
 /// it. The colours of a ray are scaled alike, by y(L)/L of a curve, L = (R + G + B)/3; then, what they differ by from
@@ -31,4 +31,4 @@ std::unique_ptr<LightFieldSource> map_radiances(const LightFieldSource& source, 
 /// What luminances all of the light fields together have; reads them once, tile by tile on all threads.
 LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> faces, const Progress& progress = {});
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

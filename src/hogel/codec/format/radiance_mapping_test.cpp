@@ -12,7 +12,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 // Textured planes with radiances over four decades and a half.
@@ -24,7 +24,7 @@ LightField high_range(std::size_t hogels_s, std::size_t hogels_t, std::size_t u,
 
 RadianceMapping mapping_of(const LightField& field, double decades, float chrominance) {
     const LightFieldSource* const source = &field;
-    return {adjusted_curve(luminance_histogram({&source, 1}), decades), chrominance};
+    return {encode::adjusted_curve(luminance_histogram({&source, 1}), decades), chrominance};
 }
 
 CompressionOptions mapped(const CodingMethod& method, std::optional<double> decades, double chrominance) {
@@ -126,7 +126,7 @@ TEST(RadianceMapping, goes_with_hemicubes) {
         options.layout = layout;
         compress(faces, folder / "a.hgl", options);
         const RadianceMapping mapping = read_stream_info(folder / "a.hgl").mapping;
-        EXPECT_EQ(mapping.tone, adjusted_curve(luminance_histogram(faces), 2));
+        EXPECT_EQ(mapping.tone, encode::adjusted_curve(luminance_histogram(faces), 2));
         const auto sources = open_stream_faces(folder / "a.hgl");
         for (std::size_t i = 0; i < faces.size(); ++i) {
             LightField truth = fields[i], other(fields[i].grid());
@@ -237,7 +237,7 @@ TEST(RadianceMapping, damaged_in_a_header_is_refused) {
         file.put(static_cast<std::uint32_t>(begin - 16 + forged.size()));
         file.put(std::span(good).subspan(16, begin - 16));
         file.put(std::span(forged));
-        file.put(checksum(file.bytes));
+        file.put(core::checksum(file.bytes));
         file.put(std::span(good).subspan(end + 4));
         write_bytes(folder / "b.hgl", file.bytes);
         return complaint(folder / "b.hgl");
@@ -271,4 +271,4 @@ TEST(RadianceMapping, damaged_in_a_header_is_refused) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::format

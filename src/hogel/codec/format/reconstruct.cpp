@@ -7,7 +7,7 @@
 #include "hogel/error.h"
 #include "hogel/transform/dct.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 struct Cosines {
@@ -17,7 +17,7 @@ struct Cosines {
         for (std::size_t k = 0; k < block_side; ++k)
             for (std::size_t j = 0; j < block_side; ++j) {
                 const auto element =
-                    static_cast<float>(std::nearbyint(dct_element(block_side, k, j) * 0x1p20) * 0x1p-20);
+                    static_cast<float>(std::nearbyint(transform::dct_element(block_side, k, j) * 0x1p20) * 0x1p-20);
                 of[0][k * block_side + j] = of[1][j * block_side + k] = element;
             }
     }
@@ -230,4 +230,4 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

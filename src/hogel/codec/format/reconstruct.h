@@ -3,7 +3,7 @@
 #include "hogel/codec/format/block_syntax.h"
 #include "hogel/codec/format/picture_memory.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // The channels of one hogel as they are decoded, whole blocks.
 using Picture = std::vector<Plane>;
@@ -65,4 +65,4 @@ enum class BlockState : std::uint8_t { unknown, wanted, made };
 void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,
                  std::vector<Picture>& pictures);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -4,7 +4,7 @@
 
 #include "hogel/codec/format/residuals.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 // Of a number, how many bits its magnitude has.
@@ -75,4 +75,4 @@ Residual code_residual(Coder& coder, ResidualModels& models, const ResidualsArou
 template Residual code_residual(ResidualWriter&, ResidualModels&, const ResidualsAround::Context&, const Residual&);
 template Residual code_residual(ResidualReader&, ResidualModels&, const ResidualsAround::Context&, const Residual&);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -6,7 +6,7 @@
 
 #include "hogel/coding/arithmetic.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // What a sample is told beside its prediction: a whole number, or that it is special, which the coder knows the
 // meaning of.
@@ -18,9 +18,9 @@ struct Residual {
 // Adaptive models of residuals: of how many bits a number has, by how many those around it have.
 struct ResidualModels {
     static constexpr std::size_t sizes = 34, special = 33;  // numbers of 0 to 32 bits; special
-    std::array<std::array<std::array<BitModel, 64>, sizes>, 3> size;
-    std::array<BitModel, 5> sign;
-    std::array<std::array<BitModel, 4>, sizes> below_highest;
+    std::array<std::array<std::array<coding::BitModel, 64>, sizes>, 3> size;
+    std::array<coding::BitModel, 5> sign;
+    std::array<std::array<coding::BitModel, 4>, sizes> below_highest;
 };
 
 // The sizes of the residuals of an array [v][u] so far, negative for negative numbers.
@@ -44,7 +44,7 @@ class ResidualsAround {
 // One function for both: a writer returns what it is given, a reader what it reads.
 class ResidualWriter {
   public:
-    bool bit(BitModel& model, bool value) {
+    bool bit(coding::BitModel& model, bool value) {
         encoder.bit(model, value);
         return value;
     }
@@ -52,15 +52,15 @@ class ResidualWriter {
         encoder.raw(value, count);
         return value;
     }
-    ArithmeticEncoder encoder;
+    coding::ArithmeticEncoder encoder;
 };
 
 class ResidualReader {
   public:
     explicit ResidualReader(std::span<const std::uint8_t> bytes) : decoder(bytes) {}
-    bool bit(BitModel& model, bool) { return decoder.bit(model); }
+    bool bit(coding::BitModel& model, bool) { return decoder.bit(model); }
     std::uint32_t raw(std::uint32_t, int count) { return decoder.raw(count); }
-    ArithmeticDecoder decoder;
+    coding::ArithmeticDecoder decoder;
 };
 
 template <class Coder>
@@ -71,4 +71,4 @@ extern template Residual code_residual(ResidualWriter&, ResidualModels&, const R
 extern template Residual code_residual(ResidualReader&, ResidualModels&, const ResidualsAround::Context&,
                                        const Residual&);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 constexpr std::size_t most_gathered = 64;  // hogels: eight rows of blocks
@@ -137,4 +137,4 @@ std::unique_ptr<TileCoder> coder_in_layout(StreamLayout layout, const LightField
     return std::make_unique<GatheredCoder>(grid, std::move(coder_of));
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

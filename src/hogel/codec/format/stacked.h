@@ -6,7 +6,7 @@
 
 #include "hogel/codec/tile_coder.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // Light fields with a single row of directions, as those with horizontal parallax alone have, would leave most of a
 // coder's blocks of directions empty. So what lies one above the other is gathered: a tile of S × T hogels with n_U × 1
@@ -21,4 +21,4 @@ bool can_gather(std::span<const LightFieldGrid> faces);
 using CoderOf = std::function<std::unique_ptr<TileCoder>(const LightFieldGrid&)>;
 std::unique_ptr<TileCoder> coder_in_layout(StreamLayout layout, const LightFieldGrid& grid, CoderOf coder_of);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

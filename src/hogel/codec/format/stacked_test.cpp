@@ -11,7 +11,7 @@
 #include "hogel/compress.h"
 #include "hogel/core/parallel.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 struct Size {
@@ -113,7 +113,7 @@ TEST(Gathered, reads_any_range_the_same) {
             copy(*open_stream(folder / "a.hgl", {.layers = layer}), whole);
             EXPECT_GE(sqnr_of(field, whole), layer == layers ? 25 : 5);
             const auto source = open_stream(folder / "a.hgl", {.memory = 1, .layers = layer});
-            parallel_for(60, [&](std::size_t i) {
+            core::parallel_for(60, [&](std::size_t i) {
                 HogelRange range{i % field.grid().hogels_s, i * 7 % field.grid().hogels_t, 0, 0};
                 range.ns = 1 + i % (field.grid().hogels_s - range.s0);
                 range.nt = 1 + i % (field.grid().hogels_t - range.t0);
@@ -251,4 +251,4 @@ TEST(Gathered, hemisquares_come_back) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::format

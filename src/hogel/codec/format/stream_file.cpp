@@ -8,7 +8,7 @@
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/stream_header.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -36,12 +36,6 @@ bool same_faces(const StreamInfo& a, const StreamInfo& b) {
 }
 
 }  // namespace
-
-std::vector<LightFieldGrid> StreamInfo::faces() const {
-    std::vector<LightFieldGrid> all{grid};
-    all.insert(all.end(), sides.begin(), sides.end());
-    return all;
-}
 
 std::vector<LightFieldGrid> coded_parts(const StreamInfo& info) {
     if (info.layout == StreamLayout::unfolded) return {Unfolding(info.faces()).grid()};
@@ -74,7 +68,7 @@ HogelRange Tiling::operator[](std::size_t tile) const {
 StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& info, std::filesystem::path depth)
     : output_(path),
       spool_(path),
-      spooled_(spool_.temporary(), RawFile::Mode::create, path),
+      spooled_(spool_.temporary(), core::RawFile::Mode::create, path),
       info_(info),
       header_bytes_(header_of(info).size()),
       layers_(info.layer_ends.size()),
@@ -97,7 +91,7 @@ void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const st
     std::size_t begin = 0;
     for (std::size_t layer = 0; layer < layers_; ++layer) {
         const std::size_t end = layer < layers.size() ? layers[layer] : tile.size();
-        entries_.push_back({next_ + begin, end - begin, checksum(tile.subspan(begin, end - begin))});
+        entries_.push_back({next_ + begin, end - begin, core::checksum(tile.subspan(begin, end - begin))});
         begin = end;
     }
     next_ += tile.size();
@@ -118,13 +112,13 @@ void StreamWriter::finish(std::uint64_t filler) {
         index.put(static_cast<std::uint32_t>(entry.bytes));
         index.put(entry.checksum);
     }
-    index.put(checksum(index.bytes));
-    RawFile file(output_.temporary(), RawFile::Mode::create, output_.target());
+    index.put(core::checksum(index.bytes));
+    core::RawFile file(output_.temporary(), core::RawFile::Mode::create, output_.target());
     file.write(0, header.data(), header.size());
     file.write(header.size(), index.bytes.data(), index.bytes.size());
     std::uint64_t at = header.size() + index.bytes.size();
     Bytes bytes;
-    const auto copy = [&](const RawFile& from, std::uint64_t offset, std::uint64_t count) {
+    const auto copy = [&](const core::RawFile& from, std::uint64_t offset, std::uint64_t count) {
         bytes.resize(count);
         from.read(offset, bytes.data(), bytes.size());
         file.write(at, bytes.data(), bytes.size());
@@ -133,7 +127,7 @@ void StreamWriter::finish(std::uint64_t filler) {
     for (const StreamEntry& entry : entries) copy(spooled_, entry.offset, entry.bytes);
     if (info_.depth.bytes > 0) {
         constexpr std::uint64_t most = std::uint64_t{1} << 24;
-        const RawFile depth(depth_, RawFile::Mode::read, depth_);
+        const core::RawFile depth(depth_, core::RawFile::Mode::read, depth_);
         for (std::uint64_t done = 0; done < info_.depth.bytes; done += most)
             copy(depth, done, std::min(most, info_.depth.bytes - done));
     }
@@ -142,7 +136,7 @@ void StreamWriter::finish(std::uint64_t filler) {
 }
 
 StreamReader::StreamReader(const std::filesystem::path& path, Content content)
-    : file_(path, RawFile::Mode::read, path),
+    : file_(path, core::RawFile::Mode::read, path),
       what_(fmt::format("cannot read '{}'", path.string())),
       end_(file_.size()) {
     const std::uint64_t all = end_, index = read_header(0);
@@ -175,7 +169,7 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
     header.resize(prefix + length + 4);
     file_.read(at + prefix, header.data() + prefix, length + 4);
     ByteReader end(std::span<const std::uint8_t>(header).last(4), what_);
-    if (end.take<std::uint32_t>() != checksum(std::span(header).first(prefix + length)))
+    if (end.take<std::uint32_t>() != core::checksum(std::span(header).first(prefix + length)))
         damaged("its header is damaged");
     ByteReader fields(std::span<const std::uint8_t>(header).subspan(prefix, length), what_);
     info_ = read_header_fields(fields, version);
@@ -211,7 +205,7 @@ void StreamReader::read_index(std::uint64_t header) {
         layer_end = offset;
         if (offset <= end_) ++info_.layers_there;
     }
-    if (entries.take<std::uint32_t>() != checksum(std::span(index).first(index.size() - checksum_bytes)))
+    if (entries.take<std::uint32_t>() != core::checksum(std::span(index).first(index.size() - checksum_bytes)))
         damaged("its index is damaged");
     if (info_.layers_there == 0) damaged("it is truncated");
     // Behind the last layer comes the depth, or nothing.
@@ -236,7 +230,7 @@ void StreamReader::read_index_at_end(std::uint64_t header) {
         offset += bytes;
     }
     const bool in_place = entries.take<std::uint64_t>() == offset && offset + index.size() == size;
-    if (!in_place || entries.take<std::uint32_t>() != checksum(std::span(index).first(index.size() - 4)))
+    if (!in_place || entries.take<std::uint32_t>() != core::checksum(std::span(index).first(index.size() - 4)))
         damaged("it is truncated, or its index is damaged");
     info_.layer_ends = {size};
     info_.layers_there = 1;
@@ -249,7 +243,7 @@ Bytes StreamReader::read(std::size_t tile, std::size_t layers) const {
         const std::size_t begin = bytes.size();
         bytes.resize(begin + entry.bytes);
         file_.read(entry.offset, bytes.data() + begin, entry.bytes);
-        if (checksum(std::span(std::as_const(bytes)).subspan(begin)) != entry.checksum)
+        if (core::checksum(std::span(std::as_const(bytes)).subspan(begin)) != entry.checksum)
             damaged(fmt::format("tile {} is damaged", tile));
     }
     return bytes;
@@ -259,8 +253,20 @@ void StreamReader::damaged(const std::string& why) const {
     throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", file_.name().string(), why));
 }
 
+}  // namespace hogel::codec::format
+
+namespace hogel {
+
+using namespace codec::format;
+
+std::vector<LightFieldGrid> StreamInfo::faces() const {
+    std::vector<LightFieldGrid> all{grid};
+    all.insert(all.end(), sides.begin(), sides.end());
+    return all;
+}
+
 bool is_stream(const std::filesystem::path& path) {
-    const RawFile file(path, RawFile::Mode::read, path);
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
     std::array<std::uint8_t, stream_magic.size()> begin{};
     if (file.size() < begin.size()) return false;
     file.read(0, begin.data(), begin.size());

@@ -12,7 +12,7 @@
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // The tiles of a stream, numbered row by row.
 class Tiling {
@@ -63,8 +63,8 @@ class StreamWriter {
     void finish(std::uint64_t filler = 0);
 
   private:
-    OutputFile output_, spool_;
-    RawFile spooled_;  // tile by tile
+    core::OutputFile output_, spool_;
+    core::RawFile spooled_;  // tile by tile
     StreamInfo info_;
     std::size_t header_bytes_;  // without filler
     std::size_t layers_;
@@ -91,7 +91,7 @@ class StreamReader {
     void read_index(std::uint64_t header);
     void read_index_at_end(std::uint64_t header);
 
-    RawFile file_;
+    core::RawFile file_;
     std::string what_;
     std::uint64_t end_;  // of the stream in the file
     StreamInfo info_;
@@ -100,4 +100,4 @@ class StreamReader {
     std::vector<StreamEntry> index_;  // the tiles of each layer
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 constexpr std::uint32_t most_layers = 64;
@@ -154,7 +154,7 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     header.put(latest_version);
     header.put(static_cast<std::uint32_t>(fields.bytes.size()));
     header.put(std::span(fields.bytes));
-    header.put(checksum(header.bytes));
+    header.put(core::checksum(header.bytes));
     return std::move(header.bytes);
 }
 
@@ -188,4 +188,4 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
     return info;
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

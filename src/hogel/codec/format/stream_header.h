@@ -7,7 +7,7 @@
 #include "hogel/codec/format/bytes.h"
 #include "hogel/compress.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 // As in PNG: not text, and damaged by what damages line ends.
 constexpr std::array<std::uint8_t, 8> stream_magic{0x89, 'H', 'G', 'L', '\r', '\n', 0x1A, '\n'};
@@ -21,4 +21,4 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info);
 // The fields alone. Throws Error(bad_input).
 StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -4,7 +4,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 ToneCurve::ToneCurve(std::uint32_t first, std::vector<float> values) : first_(first), values_(std::move(values)) {
     constexpr std::uint32_t smallest = 1 << (23 - low_bits), end = 0xFF << (23 - low_bits);  // of normal numbers
@@ -46,4 +46,4 @@ void LuminanceHistogram::add(const LuminanceHistogram& other) {
     std::ranges::transform(counts_, other.counts_, counts_.begin(), std::plus<>{});
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

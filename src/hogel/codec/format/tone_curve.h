@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace hogel {
+namespace hogel::codec::format {
 
 /// A strictly increasing function y(L) of luminance and its inverse: straight from point to point, eight points an
 /// octave, which are the numbers of binary32 whose lowest 20 bits are 0; in proportion to L below the first point and
@@ -85,4 +85,4 @@ class LuminanceHistogram {
     std::vector<std::uint64_t> counts_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -6,7 +6,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 const LightFieldGrid& face_of(std::span<const LightFieldGrid> faces, Face face) {
@@ -92,7 +92,7 @@ class UnfoldedSource final : public LightFieldSource {
                                         &tile.radiance(c, t, s, v + row, u));
         }
         const std::size_t hogels = range.hogels(), channels = tile.radiance.extent(0);
-        parallel_for(hogels * channels, [&](std::size_t k) {
+        core::parallel_for(hogels * channels, [&](std::size_t k) {
             const std::size_t hogel = k % hogels;
             unfolding_.fill_corners(tile.radiance[k / hogels][hogel / range.ns][hogel % range.ns]);
         });
@@ -169,4 +169,4 @@ std::unique_ptr<LightFieldSource> unfold(std::span<const LightFieldSource* const
     return std::make_unique<UnfoldedSource>(faces, grids);
 }
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

@@ -8,7 +8,7 @@
 
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 
 /// How the faces of a light field are coded: each by itself, or all unfolded into one array, the front in the middle;
 /// or each by itself, its hogels gathered into rows of directions, where it has a single row of them (docs/format.md).
@@ -60,4 +60,4 @@ double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded,
 /// The faces of a hemicube, unfolded where they are read. They must outlive it.
 std::unique_ptr<LightFieldSource> unfold(std::span<const LightFieldSource* const> faces);
 
-}  // namespace hogel
+}  // namespace hogel::codec::format

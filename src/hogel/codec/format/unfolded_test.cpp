@@ -7,7 +7,7 @@
 #include "hogel/core/checksum.h"
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::codec::format {
 namespace {
 
 // A hemicube around hogels that see a smooth sky: the same function of direction on all faces.
@@ -163,7 +163,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
             // A header that lies, with the right checksum, may read as something else, but does no harm.
             const std::size_t length = good[12] | std::size_t{good[13]} << 8;
             if (at < 16 || at >= 16 + length) continue;
-            const std::uint32_t sum = checksum(std::span(std::as_const(bad)).first(16 + length));
+            const std::uint32_t sum = core::checksum(std::span(std::as_const(bad)).first(16 + length));
             for (std::size_t i = 0; i < 4; ++i) bad[16 + length + i] = static_cast<std::uint8_t>(sum >> (8 * i));
             fails(bad);
         }
@@ -171,4 +171,4 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::codec::format

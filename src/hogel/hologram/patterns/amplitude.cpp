@@ -9,7 +9,7 @@
 #include "hogel/math/fft.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram::patterns {
 namespace {
 
 using Complex = std::complex<float>;
@@ -68,7 +68,7 @@ float component(Complex value, std::size_t m, std::size_t columns) {
 
 double band_along_x(View<const Complex, 2> field) {
     const std::size_t width = field.extent(1);
-    const Fft2 fft(1, width);
+    const math::Fft2 fft(1, width);
     std::vector<double> power(width / 2 + 1);
     Array<Complex, 2> row({1, width});
     double all = 0;
@@ -118,4 +118,4 @@ Array<float, 2> encode_amplitude(View<const Complex, 2> field, const PatternOpti
     return values;
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram::patterns

@@ -7,7 +7,7 @@
 #include "hogel/hologram/patterns/pattern_parts.h"
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::hologram::patterns {
 namespace {
 
 using Complex = std::complex<float>;
@@ -42,7 +42,7 @@ struct Squares {
 
 // Of the frequencies of a square those in which the field has light at all: its mean there is more than a twentieth of
 // the largest. In the rest, where nobody looks, the pattern may have what light it likes.
-std::vector<float> lit_frequencies(View<const Complex, 2> field, const Squares& squares, const Fft2& fft) {
+std::vector<float> lit_frequencies(View<const Complex, 2> field, const Squares& squares, const math::Fft2& fft) {
     const std::size_t n = squares.side;
     std::vector<double> mean(n * n);
     Array<Complex, 2> square({n, n});
@@ -69,20 +69,20 @@ std::vector<float> lit_frequencies(View<const Complex, 2> field, const Squares& 
 Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     const std::size_t side = options.window;
     require_squares_fit(field, side);
-    const Fft2 fft(side, side);
+    const math::Fft2 fft(side, side);
     const std::vector<float> lit = lit_frequencies(field, {side, 0, 0}, fft);
     Array<float, 2> phases(field.shape()), gradient(field.shape()), first(field.shape()), second(field.shape());
     for (std::size_t i = 0; i < phases.size(); ++i) phases.data()[i] = std::arg(field.data()[i]);
     double scale = 1;
     for (std::size_t k = 0; k <= options.iterations; ++k) {
-        report(progress, static_cast<double>(k) / static_cast<double>(options.iterations + 1));
+        progress.report(static_cast<double>(k) / static_cast<double>(options.iterations + 1));
         const auto bits =
-            philox({static_cast<std::uint32_t>(k), 0, 0, 0},
+            core::philox({static_cast<std::uint32_t>(k), 0, 0, 0},
                    {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)});
         const Squares squares{side, bits[0] % side, bits[1] % side};
         const std::size_t rows = squares.rows(field.extent(0)), columns = squares.columns(field.extent(1));
         std::vector<Sums> sums(rows);
-        parallel_for(rows, [&](std::size_t j) {
+        core::parallel_for(rows, [&](std::size_t j) {
             Array<Complex, 2> shown({side, side}), wanted({side, side});
             for (std::size_t i = 0; i < columns; ++i) {
                 std::ranges::fill(shown.elements(), Complex(0));
@@ -117,7 +117,7 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOption
         const double length = radians_a_step * 0.5 * (1 + std::cos(std::numbers::pi * along));
         const double first_left = 1 - std::pow(first_rate, static_cast<double>(k)),
                      second_left = 1 - std::pow(second_rate, static_cast<double>(k));
-        parallel_for(field.extent(0), [&](std::size_t y) {
+        core::parallel_for(field.extent(0), [&](std::size_t y) {
             for (std::size_t x = 0; x < field.extent(1); ++x) {
                 const float g = gradient(y, x);
                 float& m = first(y, x);
@@ -135,4 +135,4 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOption
     return phases;
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram::patterns

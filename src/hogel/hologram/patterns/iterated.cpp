@@ -9,7 +9,7 @@
 #include "hogel/hologram/patterns/pattern_parts.h"
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::hologram::patterns {
 namespace {
 
 using Complex = std::complex<float>;
@@ -42,11 +42,11 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
     const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
     require_squares_fit(field, side);
     const std::vector<std::size_t> columns = squares_along(side, width), rows = squares_along(side, height);
-    const Fft2 fft(side, side);
+    const math::Fft2 fft(side, side);
     Array<float, 2> turns(field.shape());
     for (std::size_t j = 0; j < rows.size(); ++j) {
-        report(progress, static_cast<double>(j) / static_cast<double>(rows.size()));
-        parallel_for(columns.size(), [&](std::size_t i) {
+        progress.report(static_cast<double>(j) / static_cast<double>(rows.size()));
+        core::parallel_for(columns.size(), [&](std::size_t i) {
             const std::size_t x0 = columns[i], y0 = rows[j];
             Array<Complex, 2> square({side, side});
             Array<float, 2> moduli({side, side});
@@ -74,4 +74,4 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
     return turns;
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram::patterns

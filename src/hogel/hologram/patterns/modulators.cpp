@@ -6,6 +6,7 @@
 
 namespace hogel {
 
+
 using namespace literals;
 
 const std::vector<Modulator>& modulators() {

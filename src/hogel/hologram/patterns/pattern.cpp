@@ -12,6 +12,9 @@
 #include "hogel/units.h"
 
 namespace hogel {
+
+using namespace hologram::patterns;
+
 namespace {
 
 using Complex = std::complex<float>;
@@ -44,7 +47,7 @@ Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
     // In bands of rows, on all threads; each starts where the source's work does.
     const std::size_t y0 = (plane.height - height) / 2, rows = std::max<std::size_t>(64, source.alignment());
     const std::size_t first = y0 / rows, bands = (y0 + height + rows - 1) / rows - first;
-    parallel_for(bands, [&](std::size_t band) {
+    core::parallel_for(bands, [&](std::size_t band) {
         const std::size_t from = std::max(y0, (first + band) * rows),
                           to = std::min(y0 + height, (first + band + 1) * rows);
         const Region region{(plane.width - width) / 2, from, width, to - from};
@@ -125,7 +128,7 @@ double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> 
 // The share of it that makes the moduli of the field's local spectra: in each square (Σ|A||B|)²/Σ|B|² of A's energy.
 double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
     side = std::min({side, field.extent(0), field.extent(1)});
-    const Fft2 fft(side, side);
+    const math::Fft2 fft(side, side);
     Array<Complex, 2> shown({side, side}), wanted({side, side});
     double light = 0, all = 0;
     for (std::size_t y0 = 0; y0 + side <= field.extent(0); y0 += side)

@@ -2,7 +2,7 @@
 
 #include "hogel/pattern.h"
 
-namespace hogel {
+namespace hogel::hologram::patterns {
 
 /// The wave that a pattern's useful order is F times of: e^{2πi f_x·column}, by column.
 using Carrier = std::vector<std::complex<float>>;
@@ -27,4 +27,4 @@ Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const P
 /// Throws Error(usage) unless squares of this side fit the modulator.
 void require_squares_fit(View<const std::complex<float>, 2> field, std::size_t side);
 
-}  // namespace hogel
+}  // namespace hogel::hologram::patterns

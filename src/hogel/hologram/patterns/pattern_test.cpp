@@ -11,7 +11,7 @@
 #include "hogel/math/fft.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::hologram::patterns {
 namespace {
 
 using namespace literals;
@@ -27,11 +27,11 @@ Field speckle(double band, std::uint32_t seed = 1) {
     const auto reach = std::ptrdiff_t(band * side);
     for (std::ptrdiff_t j = -reach; j <= reach; ++j)
         for (std::ptrdiff_t i = -reach; i <= reach; ++i) {
-            const auto bits = philox({std::uint32_t(i), std::uint32_t(j), 0, 0}, {seed, 0})[0];
+            const auto bits = core::philox({std::uint32_t(i), std::uint32_t(j), 0, 0}, {seed, 0})[0];
             field.samples(std::size_t(j + std::ptrdiff_t(side)) % side, std::size_t(i + std::ptrdiff_t(side)) % side) =
                 Complex(std::polar(1.0, 2 * std::numbers::pi * (bits / 4294967296.0)));
         }
-    Fft2(side, side).backward(field.samples);
+    math::Fft2(side, side).backward(field.samples);
     return field;
 }
 
@@ -101,7 +101,7 @@ TEST_P(Order, that_carries_the_field_carries_nothing_else) {
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x)
             order(y, x) *= Complex(std::polar(1.0, 2 * std::numbers::pi * frequency * double(x)));
-    const Fft2 fft(side, side);
+    const math::Fft2 fft(side, side);
     fft.forward(order);
     Array<Complex, 2> wanted = field.samples;
     fft.forward(wanted);
@@ -131,7 +131,7 @@ double spectral_error(const Pattern& pattern, Encoding encoding, const Field& fi
                       std::size_t reach = side) {
     constexpr std::size_t window = 24;
     const Array<Complex, 2> shown = transmission(pattern, encoding);
-    const Fft2 fft(window, window);
+    const math::Fft2 fft(window, window);
     double error = 0, all = 0;
     for (std::size_t y0 = first; y0 + window <= side; y0 += window)
         for (std::size_t x0 = first; x0 + window <= side; x0 += window) {
@@ -240,4 +240,4 @@ TEST(Pattern, that_cannot_be_is_refused_with_what_would_do) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram::patterns

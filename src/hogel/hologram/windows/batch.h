@@ -9,7 +9,7 @@
 
 #include "hogel/array.h"
 
-namespace hogel {
+namespace hogel::hologram::windows {
 
 /// A direction of a window's Fourier transform, with the ray of the light field nearest to it.
 struct WindowDirection {
@@ -81,4 +81,4 @@ class WindowBatch {
     Work work_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram::windows

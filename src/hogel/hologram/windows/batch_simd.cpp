@@ -2,7 +2,7 @@
 
 // Compiled for every instruction set and chosen when first called. The plain twin is OverlapAdd's way hogel by hogel.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/window_batch_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/hologram/windows/batch_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -12,7 +12,7 @@
 #include "hogel/hologram/windows/batch.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::hologram::windows {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -78,7 +78,7 @@ HWY_INLINE void StoreWave(D d, V amplitude, V turns, float* re, float* im) {
 #if HWY_TARGET == HWY_SCALAR
 void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* turns) {
     for (std::size_t i = 0; i < width; ++i)
-        turns[i] = static_cast<float>(philox({static_cast<std::uint32_t>(at.s + i), static_cast<std::uint32_t>(at.t),
+        turns[i] = static_cast<float>(core::philox({static_cast<std::uint32_t>(at.s + i), static_cast<std::uint32_t>(at.t),
                                               coefficient + 1, at.series},
                                              at.key)[0]) *
                    0x1p-32f;
@@ -92,7 +92,7 @@ void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float*
     for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
         auto c0 = hn::Iota(d, at.s + i), c1 = hn::Set(d, at.t), c2 = hn::Set(d, coefficient + std::uint64_t{1});
         auto c3 = hn::Set(d, at.series);
-        philox_lanes(d, c0, c1, c2, c3, at.key);
+        hologram::HWY_NAMESPACE::philox_lanes(d, c0, c1, c2, c3, at.key);
         hn::Store(hn::And(c0, low), d, drawn + i);
     }
     for (std::size_t i = 0; i < width; ++i)
@@ -236,7 +236,7 @@ void AddColumns(WindowBatch::Work& work, std::size_t q0, std::size_t q1, const s
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::hologram::windows
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -246,7 +246,7 @@ HWY_AFTER_NAMESPACE();
 
 #include "hogel/hologram/lobes.h"
 
-namespace hogel {
+namespace hogel::hologram::windows {
 
 HWY_EXPORT(FillWindows);
 HWY_EXPORT(TransformRows);
@@ -306,5 +306,5 @@ void WindowBatch::add(const At& at, Sum& sum) {
     (work_, q0, q1, places.data(), row, sum.re.data() + first, sum.im.data() + first);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram::windows
 #endif

@@ -6,7 +6,7 @@
 #include "hogel/hologram/windows/brightness.h"
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::hologram::windows {
 namespace {
 
 constexpr std::size_t steps = 256;
@@ -25,7 +25,7 @@ struct Line {
     double pitch, wavelength;
 };
 
-double one_dimension(const Line& line, double depth, const Fan& fan, const Fft2& fft) {
+double one_dimension(const Line& line, double depth, const Fan& fan, const math::Fft2& fft) {
     const std::size_t side = line.window.size();
     const double step = line.wavelength / (static_cast<double>(side) * line.pitch);
     const double hop = static_cast<double>(line.hop) * line.pitch;
@@ -77,7 +77,7 @@ WindowBrightness::WindowBrightness(const LightFieldGrid& rays, const FieldGrid& 
     steps_a_metre_ = 1 / depth_step;
     const double widest = std::max(rays.tan_half_u, rays.tan_half_v);
     const double farthest = widest * depth_step * (steps - 1) / pitch;
-    const Fft2 spectrum(1, good_fft_size(4 * window.size() + 4 * static_cast<std::size_t>(farthest)));
+    const math::Fft2 spectrum(1, math::good_fft_size(4 * window.size() + 4 * static_cast<std::size_t>(farthest)));
     const Line line{window, hop, pitch, grid.wavelength};
     const auto slant = [](double other) { return std::sqrt(1 + other * other); };
     const Fan across{rays.center_u, rays.tan_half_u, slant(rays.center_v)},
@@ -97,4 +97,4 @@ float WindowBrightness::operator()(double depth) const {
     return (1 - rest) * values_[below] + rest * values_[below + 1];
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram::windows

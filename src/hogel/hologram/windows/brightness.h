@@ -6,7 +6,7 @@
 #include "hogel/field.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::hologram::windows {
 
 /// By how much overlapping windows must make points at a depth brighter. Near the plane the windows that show one point
 /// overlap and interfere, far from it they lie apart. One point's windows are added up, in one dimension, to find what
@@ -28,4 +28,4 @@ class WindowBrightness {
     double steps_a_metre_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::hologram::windows

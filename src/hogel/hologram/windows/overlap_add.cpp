@@ -1,3 +1,5 @@
+#include "hogel/hologram/windows/overlap_add.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,7 +13,7 @@
 #include "hogel/hologram/windows/brightness.h"
 #include "hogel/math/fft.h"
 
-namespace hogel {
+namespace hogel::hologram::windows {
 namespace {
 
 using Complex = std::complex<float>;
@@ -286,7 +288,7 @@ class OverlapAdd final : public FieldSource {
     StereogramOptions options_;
     FieldGrid grid_;
     std::size_t hop_, side_;  // samples of a hogel's and a window's side
-    Fft2 fft_;
+    math::Fft2 fft_;
     UnitRoots roots_;
     std::vector<float> window_;  // along a line
     WindowBrightness brightness_;
@@ -295,7 +297,7 @@ class OverlapAdd final : public FieldSource {
     // What every ray would have to divide by.
     double hogels_a_metre_ = 0, waves_a_metre_ = 0;
     bool batches_ = false;  // windows of many hogels at once
-    mutable Reused<Room> rooms_;
+    mutable core::Reused<Room> rooms_;
 };
 
 }  // namespace
@@ -305,4 +307,4 @@ std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_fiel
     return std::make_unique<OverlapAdd>(light_field, grid, options, one_by_one);
 }
 
-}  // namespace hogel
+}  // namespace hogel::hologram::windows

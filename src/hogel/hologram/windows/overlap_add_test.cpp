@@ -5,9 +5,10 @@
 #include <limits>
 #include <random>
 
+#include "hogel/hologram/windows/overlap_add.h"
 #include "hogel/hologram/hogel_synthesis.h"
 
-namespace hogel {
+namespace hogel::hologram::windows {
 namespace {
 
 using Complex = std::complex<float>;
@@ -73,4 +74,4 @@ TEST(OverlapAdd, a_sample_is_the_same_whatever_the_region) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::hologram::windows

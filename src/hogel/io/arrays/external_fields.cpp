@@ -13,7 +13,7 @@
 #include "hogel/image.h"
 #include "hogel/io/arrays/numbers.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are taken as they lie in the file");
@@ -26,7 +26,7 @@ double value_at(const unsigned char* at) {
 }
 
 std::vector<unsigned char> first_bytes(const std::filesystem::path& path) {
-    const RawFile file(path, RawFile::Mode::read, path);
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
     std::vector<unsigned char> start(std::min<std::uint64_t>(file.size(), 128));
     file.read(0, start.data(), start.size());
     return start;
@@ -140,6 +140,12 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
         field->samples.data()[i] = meaning(double{real.values.data()[i]}, double{imaginary.data()[i]});
     return field;
 }
+
+}  // namespace hogel::io::arrays
+
+namespace hogel {
+
+using namespace io::arrays;
 
 bool is_foreign_array(const std::filesystem::path& path) {
     const std::vector<unsigned char> start = first_bytes(path);

@@ -15,7 +15,7 @@
 #include "hogel/error.h"
 #include "hogel/image.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,7 +29,7 @@ class Foreign : public testing::Test {
     ~Foreign() override { fs::remove_all(directory_); }
 
     fs::path write(const char* name, const Bytes& bytes) const {
-        write_file(directory_ / name, bytes);
+        core::write_file(directory_ / name, bytes);
         return directory_ / name;
     }
 
@@ -326,4 +326,4 @@ TEST_F(Foreign, damaged_files_are_refused_or_harmless) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::io::arrays

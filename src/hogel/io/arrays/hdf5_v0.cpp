@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
@@ -106,7 +106,7 @@ std::uint64_t EarlyDataset::samples() const {
     return n;
 }
 
-EarlyHdf5::EarlyHdf5(const std::filesystem::path& path) : file_(path, RawFile::Mode::read, path) {
+EarlyHdf5::EarlyHdf5(const std::filesystem::path& path) : file_(path, core::RawFile::Mode::read, path) {
     // The superblock (II.A) stands at the beginning or after a block of 512, 1024, … bytes.
     Bytes start;
     for (base_ = 512;; base_ *= 2) {
@@ -159,4 +159,4 @@ std::vector<EarlyDataset> EarlyHdf5::datasets() const {
     return list;
 }
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

@@ -9,7 +9,7 @@
 #include "hogel/core/raw_file.h"
 #include "hogel/io/arrays/numbers.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 
 /// A dataset of an early HDF5 file.
 struct EarlyDataset {
@@ -60,7 +60,7 @@ class EarlyHdf5 {
     [[noreturn]] void fail(const std::string& why) const;
 
   private:
-    RawFile file_;
+    core::RawFile file_;
     std::uint64_t base_ = 0, root_ = 0;
 };
 
@@ -93,4 +93,4 @@ class ByteCursor {
     std::size_t all_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

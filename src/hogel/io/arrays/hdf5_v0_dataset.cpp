@@ -6,7 +6,7 @@
 
 #include "hogel/io/arrays/hdf5_v0.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
@@ -220,4 +220,4 @@ EarlyDataset early_dataset(const EarlyHdf5& file, const std::string& name, std::
     return dataset;
 }
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

@@ -8,7 +8,7 @@
 
 #include "hogel/io/arrays/hdf5_v0.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
@@ -183,4 +183,4 @@ std::vector<unsigned char> EarlyHdf5::read(const EarlyDataset& dataset) const {
     return Chunks(*this, dataset).take();
 }
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

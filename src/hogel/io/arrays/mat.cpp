@@ -5,11 +5,11 @@
 #include "hogel/core/raw_file.h"
 #include "hogel/io/arrays/mat.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
-    const RawFile file(path, RawFile::Mode::read, path);
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
     std::vector<unsigned char> bytes(file.size());
     file.read(0, bytes.data(), bytes.size());
     return bytes;
@@ -17,7 +17,7 @@ std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
 
 // Its header says so, little-endian, before what tells the order of bytes.
 bool is_version_73(const std::filesystem::path& path) {
-    const RawFile file(path, RawFile::Mode::read, path);
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
     unsigned char version[4];
     file.read(124, version, sizeof version);
     return version[1] == 2 && version[2] == 'I' && version[3] == 'M';
@@ -59,4 +59,4 @@ std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const F
     return field;
 }
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

@@ -8,7 +8,7 @@
 
 #include "hogel/io/arrays/numbers.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 
 /// An array of a MAT file: two axes, column after column, as MATLAB keeps them.
 struct MatArray {
@@ -27,4 +27,4 @@ std::vector<MatArray> read_mat5(const std::filesystem::path& path, std::span<con
 /// The same of a MAT file of version 7.3.
 std::vector<MatArray> read_mat73(const std::filesystem::path& path, const std::string& name);
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

@@ -9,7 +9,7 @@
 
 #include "hogel/io/arrays/mat.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 constexpr std::uint32_t type_int8 = 1, type_int32 = 5, type_uint32 = 6, type_array = 14, type_compressed = 15;
@@ -155,4 +155,4 @@ std::vector<MatArray> read_mat5(const std::filesystem::path& path, std::span<con
     return arrays;
 }
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

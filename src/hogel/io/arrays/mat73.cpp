@@ -9,7 +9,7 @@
 #include "hogel/io/arrays/hdf5_v0.h"
 #include "hogel/io/arrays/mat.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 std::vector<unsigned char> numbers_of(const std::vector<unsigned char>& elements, std::size_t element_bytes,
@@ -60,4 +60,4 @@ std::vector<MatArray> read_mat73(const std::filesystem::path& path, const std::s
     return arrays;
 }
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

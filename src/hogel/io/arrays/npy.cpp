@@ -12,7 +12,7 @@
 #include "hogel/error.h"
 #include "hogel/io/arrays/numbers.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 namespace {
 
 constexpr std::array<unsigned char, 6> magic{0x93, 'N', 'U', 'M', 'P', 'Y'};
@@ -79,7 +79,7 @@ void parse_type(const std::filesystem::path& path, std::string_view descr, Heade
                  fmt::format("its numbers are of type {}; <c8, <c16, <f4, <f8 and whole numbers are read", shown));
 }
 
-Header read_header(const std::filesystem::path& path, const RawFile& file) {
+Header read_header(const std::filesystem::path& path, const core::RawFile& file) {
     std::array<unsigned char, 12> start{};
     file.read(0, start.data(), 10);
     const int version = start[6];
@@ -116,7 +116,7 @@ Header read_header(const std::filesystem::path& path, const RawFile& file) {
 class NpyField final : public FieldSource {
   public:
     NpyField(const std::filesystem::path& path, const ForeignField& what)
-        : file_(path, RawFile::Mode::read, path),
+        : file_(path, core::RawFile::Mode::read, path),
           header_(read_header(path, file_)),
           grid_(foreign_grid(path, what, header_.width, header_.height)),
           meaning_(path, what, header_.number, header_.complex) {}
@@ -144,7 +144,7 @@ class NpyField final : public FieldSource {
     }
 
   private:
-    RawFile file_;
+    core::RawFile file_;
     Header header_;
     FieldGrid grid_;
     Meaning meaning_;
@@ -160,6 +160,12 @@ std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const F
     return std::make_unique<NpyField>(path, what);
 }
 
+}  // namespace hogel::io::arrays
+
+namespace hogel {
+
+using namespace io::arrays;
+
 void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples) {
     std::string header = fmt::format("{{'descr': '<c8', 'fortran_order': False, 'shape': ({}, {}), }}",
                                      samples.extent(0), samples.extent(1));
@@ -168,8 +174,8 @@ void write_npy(const std::filesystem::path& path, View<const std::complex<float>
     std::string start(magic.begin(), magic.end());
     start += {1, 0, static_cast<char>(header.size()), 0};
     start += header;
-    OutputFile output(path);
-    RawFile file(output.temporary(), RawFile::Mode::create, path);
+    core::OutputFile output(path);
+    core::RawFile file(output.temporary(), core::RawFile::Mode::create, path);
     file.write(0, start.data(), start.size());
     file.write(start.size(), samples.data(), samples.size() * sizeof(std::complex<float>));
     file.close();

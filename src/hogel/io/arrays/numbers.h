@@ -7,7 +7,7 @@
 #include "hogel/array.h"
 #include "hogel/files.h"
 
-namespace hogel {
+namespace hogel::io::arrays {
 
 /// How numbers lie in a file, little-endian.
 enum class Number { int8, uint8, int16, uint16, int32, uint32, int64, uint64, single, real };
@@ -42,4 +42,4 @@ FieldGrid foreign_grid(const std::filesystem::path& path, const ForeignField& wh
 
 [[noreturn]] void fail_foreign(const std::filesystem::path& path, const std::string& why);
 
-}  // namespace hogel
+}  // namespace hogel::io::arrays

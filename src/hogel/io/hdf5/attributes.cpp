@@ -5,7 +5,7 @@
 #include "hogel/error.h"
 #include "hogel/io/hdf5/hdf5.h"
 
-namespace hogel::hdf5 {
+namespace hogel::io::hdf5 {
 namespace {
 
 constexpr std::size_t longest_text = 60000;  // an object header message of HDF5 holds 64 kB
@@ -134,4 +134,4 @@ Metadata read_metadata(hid_t file, const std::filesystem::path& path) {
     return metadata;
 }
 
-}  // namespace hogel::hdf5
+}  // namespace hogel::io::hdf5

@@ -8,7 +8,7 @@
 #include "hogel/error.h"
 #include "hogel/io/hdf5/dataset.h"
 
-namespace hogel {
+namespace hogel::io::hdf5 {
 namespace {
 
 using hdf5::Element;
@@ -85,7 +85,7 @@ void DatasetReader::fail(const std::string& why) const {
 }
 
 DatasetReader::DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
-                             std::shared_ptr<const RawFile> raw)
+                             std::shared_ptr<const core::RawFile> raw)
     : name_(name), shape_(std::move(shape)), raw_(std::move(raw)) {
     if (dataset_shape(file, name, raw_->name()) != shape_) fail("does not have the shape that its attributes tell");
     Handle dataset = open_dataset(file, name, raw_->name());
@@ -150,7 +150,7 @@ void DatasetReader::read(const Box& box, float* to) const {
     if (dataset_.valid() && half) {
         std::vector<std::uint16_t> halves(samples_of(box.extent));
         read_by_hdf5(box, halves.data());
-        to_float(halves.data(), to, halves.size());
+        core::to_float(halves.data(), to, halves.size());
     } else if (dataset_.valid()) {
         read_by_hdf5(box, to);
     } else if (half) {
@@ -159,7 +159,7 @@ void DatasetReader::read(const Box& box, float* to) const {
             for (std::size_t done = 0, some = 0; done < n; done += some) {
                 some = std::min(halves.size(), n - done);
                 raw_->read(offset_ + 2 * (there + done), halves.data(), 2 * some);
-                to_float(halves.data(), to + here + done, some);
+                core::to_float(halves.data(), to + here + done, some);
             }
         });
     } else {
@@ -217,19 +217,19 @@ std::vector<std::uint64_t> offsets_in(const std::filesystem::path& path,
 
 DatasetFile::DatasetFile(const std::filesystem::path& path, const hdf5::Attributes& attributes,
                          std::vector<hdf5::NewDataset> datasets, const std::optional<std::string>& resume)
-    : output_(path, resume ? OutputFile::Unfinished::kept : OutputFile::Unfinished::removed),
+    : output_(path, resume ? core::OutputFile::Unfinished::kept : core::OutputFile::Unfinished::removed),
       datasets_(std::move(datasets)) {
     const std::filesystem::path part = output_.temporary().lexically_normal();
     if (resume) {
         journal_.emplace(part.string() + ".journal", describe(attributes, datasets_, *resume), [&] { raw_->flush(); });
         if (journal_->begun() && std::filesystem::exists(part)) {
             offsets_ = offsets_in(part, datasets_);
-            raw_.emplace(part, RawFile::Mode::write, path);
+            raw_.emplace(part, core::RawFile::Mode::write, path);
             return;
         }
     }
     offsets_ = hdf5::lay_out_file(part, path, attributes, datasets_);
-    raw_.emplace(part, RawFile::Mode::write, path);
+    raw_.emplace(part, core::RawFile::Mode::write, path);
     raw_->reserve(raw_->size());  // HDF5 leaves a hole where the samples go: fill it with room on the disk
     if (!journal_) return;
     raw_->flush();
@@ -252,7 +252,7 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) 
     const std::size_t samples = samples_of(box.extent);
     auto halves = halves_.take();
     if (halves->size() < samples) halves->resize(samples);
-    to_half(from, halves->data(), samples);
+    core::to_half(from, halves->data(), samples);
     write_bytes(dataset, box, halves->data());
 }
 
@@ -266,4 +266,4 @@ void DatasetFile::finish() {
     if (journal_) journal_->remove();
 }
 
-}  // namespace hogel
+}  // namespace hogel::io::hdf5

@@ -12,7 +12,7 @@
 #include "hogel/core/raw_file.h"
 #include "hogel/io/hdf5/hdf5.h"
 
-namespace hogel {
+namespace hogel::io::hdf5 {
 
 /// A box of an array: for each axis its first index and its extent.
 struct Box {
@@ -26,7 +26,7 @@ class DatasetReader {
     /// Looks at the dataset, takes no memory for it. Throws Error(bad_input) when it is missing, its type or shape is
     /// not that, or samples are missing. Needs a Session.
     DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
-                  std::shared_ptr<const RawFile> raw);
+                  std::shared_ptr<const core::RawFile> raw);
     ~DatasetReader();
     DatasetReader(DatasetReader&&) = default;
     DatasetReader& operator=(DatasetReader&&) = delete;
@@ -44,7 +44,7 @@ class DatasetReader {
     std::string name_;
     std::vector<std::size_t> shape_;
     hdf5::Element element_ = hdf5::Element::single;
-    std::shared_ptr<const RawFile> raw_;
+    std::shared_ptr<const core::RawFile> raw_;
     std::uint64_t offset_ = 0;
     hdf5::Handle dataset_;  // open only where HDF5 has to read
 };
@@ -62,8 +62,8 @@ class DatasetFile {
     void write(std::size_t dataset, const Box& box, const float* from);
     void write(std::size_t dataset, const Box& box, const std::complex<float>* from);
     /// For work that can be resumed: whether a part was done before this run, and that one is done now.
-    bool was_done(const Journal::Part& part) const { return journal_ && journal_->was_done(part); }
-    void note(const Journal::Part& part) {
+    bool was_done(const core::Journal::Part& part) const { return journal_ && journal_->was_done(part); }
+    void note(const core::Journal::Part& part) {
         if (journal_) journal_->note(part);
     }
     /// Closes the file and gives it its name.
@@ -73,13 +73,13 @@ class DatasetFile {
   private:
     void write_bytes(std::size_t dataset, const Box& box, const void* from);
 
-    OutputFile output_;
+    core::OutputFile output_;
     std::vector<hdf5::NewDataset> datasets_;
     std::vector<std::uint64_t> offsets_;
-    std::optional<RawFile> raw_;
+    std::optional<core::RawFile> raw_;
     std::mutex writing_;
-    Reused<std::vector<std::uint16_t>> halves_;
-    std::optional<Journal> journal_;  // goes first: it flushes the file
+    core::Reused<std::vector<std::uint16_t>> halves_;
+    std::optional<core::Journal> journal_;  // goes first: it flushes the file
 };
 
-}  // namespace hogel
+}  // namespace hogel::io::hdf5

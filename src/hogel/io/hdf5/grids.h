@@ -4,7 +4,7 @@
 #include "hogel/io/hdf5/dataset.h"
 #include "hogel/light_field.h"
 
-namespace hogel {
+namespace hogel::io::hdf5 {
 
 /// The sampling of each face of a light field, the front first, from the attributes of its "radiance". Checks all that
 /// can be known without reading samples. Needs a Session.
@@ -15,6 +15,6 @@ std::vector<FieldGrid> read_hologram_grids(hid_t file, const std::filesystem::pa
 
 /// The samples of a hologram's field number `field`, which has that grid.
 DatasetReader samples_of_field(hid_t file, std::size_t field, const FieldGrid& grid,
-                               const std::shared_ptr<const RawFile>& raw);
+                               const std::shared_ptr<const core::RawFile>& raw);
 
-}  // namespace hogel
+}  // namespace hogel::io::hdf5

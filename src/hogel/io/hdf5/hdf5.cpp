@@ -10,7 +10,7 @@
 #include "hogel/error.h"
 #include "hogel/io/hdf5/hdf5.h"
 
-namespace hogel::hdf5 {
+namespace hogel::io::hdf5 {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "samples are written as they lie in memory");
@@ -135,4 +135,4 @@ Handle type_of(Element element) {
     return type;
 }
 
-}  // namespace hogel::hdf5
+}  // namespace hogel::io::hdf5

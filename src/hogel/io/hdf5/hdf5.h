@@ -13,7 +13,7 @@
 
 #include "hogel/image.h"
 
-namespace hogel::hdf5 {
+namespace hogel::io::hdf5 {
 
 /// The right to call HDF5, which is not thread-safe: one at a time in the whole process. While it lives HDF5 prints
 /// nothing. Every Handle is made, used and closed inside one.
@@ -105,4 +105,4 @@ struct NewDataset {
 std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const Attributes& attributes, const std::vector<NewDataset>& datasets);
 
-}  // namespace hogel::hdf5
+}  // namespace hogel::io::hdf5

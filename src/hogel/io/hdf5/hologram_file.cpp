@@ -8,7 +8,7 @@
 #include "hogel/files.h"
 #include "hogel/io/hdf5/grids.h"
 
-namespace hogel {
+namespace hogel::io::hdf5 {
 namespace {
 
 constexpr std::size_t most_fields = 64;
@@ -92,7 +92,7 @@ class FieldWriter final : public FieldSink {
     }
 
   private:
-    Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
+    core::Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
 
     // One infinite sample would be all that a photograph shows.
     void require_halves(std::span<const float> numbers) const {
@@ -150,15 +150,22 @@ std::vector<FieldGrid> read_hologram_grids(hid_t file, const std::filesystem::pa
 }
 
 DatasetReader samples_of_field(hid_t file, std::size_t field, const FieldGrid& grid,
-                               const std::shared_ptr<const RawFile>& raw) {
+                               const std::shared_ptr<const core::RawFile>& raw) {
     const std::string name = samples_name(field);
     const Parts parts = dataset_shape(file, name.c_str(), raw->name()).size() == 3 ? Parts::axis : Parts::members;
     return {file, name.c_str(), shape_of(grid, parts), parts == Parts::members, raw};
 }
 
+}  // namespace hogel::io::hdf5
+
+namespace hogel {
+
+using namespace io;
+using namespace io::hdf5;
+
 HologramFile open_hologram(const std::filesystem::path& path) {
     const hdf5::Session session;
-    const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+    const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
     HologramFile hologram;
     for (const FieldGrid& grid : read_hologram_grids(file.id(), path))

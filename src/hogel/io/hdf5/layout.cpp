@@ -6,7 +6,7 @@
 #include "hogel/error.h"
 #include "hogel/io/hdf5/hdf5.h"
 
-namespace hogel::hdf5 {
+namespace hogel::io::hdf5 {
 namespace {
 
 // Samples begin on a page of the disk and of memory.
@@ -70,7 +70,7 @@ std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const
     {
         // HDF5 does not come to rest when it cannot close a file, so find out first what would be in its way: a full
         // disk, or a limit on the size of files.
-        RawFile room(path, RawFile::Mode::create, target);
+        core::RawFile room(path, core::RawFile::Mode::create, target);
         room.reserve(header_bytes);
         room.resize(total_bytes(datasets));
         room.resize(0);
@@ -119,4 +119,4 @@ std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const
     return offsets;
 }
 
-}  // namespace hogel::hdf5
+}  // namespace hogel::io::hdf5

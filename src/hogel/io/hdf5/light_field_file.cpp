@@ -9,7 +9,7 @@
 #include "hogel/io/hdf5/dataset.h"
 #include "hogel/io/hdf5/grids.h"
 
-namespace hogel {
+namespace hogel::io::hdf5 {
 namespace {
 
 using hdf5::Element;
@@ -30,7 +30,7 @@ std::string dataset_name(Face face, const char* dataset) {
 class LightFieldReader final : public LightFieldSource {
   public:
     LightFieldReader(hid_t file, const LightFieldGrid& grid, const std::filesystem::path& path,
-                     const std::shared_ptr<const RawFile>& raw)
+                     const std::shared_ptr<const core::RawFile>& raw)
         : grid_(grid) {
         const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
         radiance_.emplace(file, dataset_name(grid.face, "radiance").c_str(), radiance_box(grid, all).extent, false,
@@ -95,7 +95,7 @@ class LightFieldWriter final : public LightFieldSink {
     }
 
   private:
-    Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
+    core::Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
 
     LightFieldGrid grid_;
     std::size_t first_dataset_;  // radiance; the depth is the next
@@ -170,11 +170,18 @@ std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesy
     return grids;
 }
 
+}  // namespace hogel::io::hdf5
+
+namespace hogel {
+
+using namespace io;
+using namespace io::hdf5;
+
 std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path) {
     if (is_stream(path)) return open_stream_faces(path);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
     const hdf5::Session session;
-    const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+    const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
     for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
         faces.push_back(std::make_unique<LightFieldReader>(file.id(), grid, path, raw));

@@ -13,6 +13,11 @@
 #include "hogel/io/hdf5/grids.h"
 
 namespace hogel {
+using namespace codec::format;
+
+using namespace io;
+using namespace io::hdf5;
+
 namespace {
 
 constexpr std::array pictures{".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg",
@@ -160,7 +165,7 @@ FileSummary summarize(const std::filesystem::path& path) {
         const LightFieldGrid& grid = grids.front();
         describe(grid, summary);
         describe_faces(grids, summary);
-        const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+        const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
         const std::vector<std::size_t> shape{grid.channels, grid.hogels_t, grid.hogels_s, grid.directions_v,
                                              grid.directions_u};
         const DatasetReader radiance(file.id(), "radiance", shape, false, raw);
@@ -170,7 +175,7 @@ FileSummary summarize(const std::filesystem::path& path) {
         const std::vector<FieldGrid> grids = read_hologram_grids(file.id(), path);
         summary.numbers.emplace_back("fields", static_cast<double>(grids.size()));
         for (std::size_t i = 0; i < grids.size(); ++i) describe(grids[i], i, summary);
-        const auto raw = std::make_shared<RawFile>(path, RawFile::Mode::read, path);
+        const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
         summary.text.emplace_back("samples", name_of(samples_of_field(file.id(), 0, grids[0], raw).element()));
     }
     for (auto& word : hdf5::read_metadata(file.id(), path)) summary.text.push_back(std::move(word));

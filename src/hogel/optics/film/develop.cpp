@@ -6,7 +6,7 @@
 #include "hogel/optics/film/kernels.h"
 #include "hogel/optics/film/lens.h"
 
-namespace hogel {
+namespace hogel::optics::film {
 
 void Film::develop(View<const float, 2> intensity, const Camera& camera, const Rectangle& shown, double weight,
                    Image& image) const {
@@ -47,7 +47,7 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
         const double nx = size_.sines.first_x + static_cast<double>(i) * size_.sines.step;
         slopes[i] = std::sqrt(1 - nx * nx);
     }
-    parallel_for(picture.height, [&](std::size_t row) {
+    core::parallel_for(picture.height, [&](std::size_t row) {
         std::vector<float> line(size_.sines.size_x), pixels(picture.width);
         for (std::size_t b = 0; b < sub_y; ++b) {
             const double y = picture.y(place(row, b, sub_y)), dy = y - eye.y;
@@ -69,4 +69,4 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
     });
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::film

@@ -8,7 +8,7 @@
 #include "hogel/optics/film/lens.h"
 #include "hogel/optics/lines.h"
 
-namespace hogel {
+namespace hogel::optics::film {
 namespace {
 
 using Complex = std::complex<float>;
@@ -22,7 +22,7 @@ std::size_t across(std::ptrdiff_t reach) { return static_cast<std::size_t>(2 * r
 
 }  // namespace
 
-FilmSize::FilmSize(const NarrowBand& band, const FieldGrid& hologram, double pupil, double blur)
+FilmSize::FilmSize(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur)
     : sines(sine_grid(band, hologram.plane, blur)),
       reach_x(pupil_reach(pupil, band.geometry.eye().z, pupil_step(hologram.wavelength, sines.size_x, sines.step),
                           sines.size_x)),
@@ -39,7 +39,7 @@ double FilmSize::work_bytes() const {
     return static_cast<double>(sizeof(Complex) * std::max(to_pupil, to_film)) + pupil_bytes();
 }
 
-Film::Film(const NarrowBand& band, const FieldGrid& hologram, double pupil, double blur)
+Film::Film(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur)
     : band_(band),
       hologram_(hologram),
       size_(band, hologram, pupil, blur),
@@ -60,7 +60,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
         slopes[i] = nx / std::sqrt(1 - nx * nx);
     }
     const double middle_x = plane.column(eye.x), middle_y = plane.row(eye.y);
-    parallel_for(blocks_of(plane.height), [&](std::size_t block) {
+    core::parallel_for(blocks_of(plane.height), [&](std::size_t block) {
         for (std::size_t row = block * lines_together; row < std::min((block + 1) * lines_together, plane.height);
              ++row) {
             const double reach = std::hypot(plane.y(static_cast<double>(row)) - eye.y, eye.z) / plane.pitch_x;
@@ -71,7 +71,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
     // Each column is transformed at once, and what the pupil takes of it kept.
     Array<Complex, 2> half({across(size_.reach_y), size_.sines.size_x});
     const double reach = eye.z / plane.pitch_y;
-    parallel_for(blocks_of(size_.sines.size_x), [&](std::size_t block) {
+    core::parallel_for(blocks_of(size_.sines.size_x), [&](std::size_t block) {
         const std::size_t first = block * lines_together, count = std::min(lines_together, size_.sines.size_x - first);
         Array<Complex, 2> lines({count, stride_of(size_.sines.size_y)});
         for (std::size_t c = 0; c < count; ++c) {
@@ -89,7 +89,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
                 half(k + size_.reach_y, first + c) = lines(c, wrapped(k, size_.sines.size_y));
     });
     Array<Complex, 2> wave({across(size_.reach_y), across(size_.reach_x)});
-    parallel_for(wave.extent(0), [&](std::size_t row) {
+    core::parallel_for(wave.extent(0), [&](std::size_t row) {
         Array<Complex, 1> line({size_.sines.size_x});
         std::ranges::copy(half[row].elements(), line.data());
         along_.forward(line.data());
@@ -114,7 +114,7 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
     std::vector<float> share(size_.sines.size_x);
     for (std::size_t b = 0; b < lens.nodes_y; ++b)
         for (std::size_t a = 0; a < lens.nodes_x; ++a) {
-            parallel_for(opening.extent(0), [&](std::size_t y) {
+            core::parallel_for(opening.extent(0), [&](std::size_t y) {
                 std::ranges::fill(opening[y].elements(), Complex(0));
                 const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) - reach_y;
                 lens.row(lens.node_x(a), lens.node_y(b), row, [&](std::ptrdiff_t column, Complex factor) {
@@ -125,7 +125,7 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
                 });
             });
             // The few columns of the opening first; then each row, whose light is added at once.
-            parallel_for(blocks_of(width), [&](std::size_t block) {
+            core::parallel_for(blocks_of(width), [&](std::size_t block) {
                 const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
                 Array<Complex, 2> lines({count, stride_of(size_.sines.size_y)});
                 for (std::size_t y = 0; y < opening.extent(0); ++y) {
@@ -138,7 +138,7 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
             });
             for (std::size_t i = 0; i < size_.sines.size_x; ++i)
                 share[i] = weight(i, size_.sines.size_x, a, lens.nodes_x);
-            parallel_for(blocks_of(size_.sines.size_y), [&](std::size_t block) {
+            core::parallel_for(blocks_of(size_.sines.size_y), [&](std::size_t block) {
                 Array<Complex, 1> line({size_.sines.size_x});
                 for (std::size_t j = block * lines_together;
                      j < std::min((block + 1) * lines_together, size_.sines.size_y); ++j) {
@@ -157,4 +157,4 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
         }
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::film

@@ -6,7 +6,7 @@
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/sine_grid.h"
 
-namespace hogel {
+namespace hogel::optics::film {
 
 /// How large one eye's film is.
 struct FilmSize {
@@ -14,7 +14,7 @@ struct FilmSize {
     std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< of the pupil, in steps of its plane at a transform's frequencies
     std::size_t band_rows = 0;
 
-    FilmSize(const NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
+    FilmSize(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
     /// Bytes of a pupil's wave, and of what Film::pupil_wave() and expose() need at the most besides their results.
     double pupil_bytes() const;
     double work_bytes() const;
@@ -28,7 +28,7 @@ class Film {
   public:
     /// @param pupil  the widest of the cameras that will be used, at most the one that the band was made for
     /// @param blur   the widest defocus_blur() of these cameras
-    Film(const NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
+    Film(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
 
     const SineGrid& sines() const { return size_.sines; }
 
@@ -44,10 +44,10 @@ class Film {
                  Image& picture) const;
 
   private:
-    NarrowBand band_;
+    narrow_band::NarrowBand band_;
     FieldGrid hologram_;
     FilmSize size_;
-    Fft1 along_, down_;
+    math::Fft1 along_, down_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::optics::film

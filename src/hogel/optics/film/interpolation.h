@@ -9,7 +9,7 @@
 #include "hogel/array.h"
 #include "hogel/optics/low_pass.h"
 
-namespace hogel {
+namespace hogel::optics::film {
 
 /// LowPass as an interpolation kernel, tabulated by the fraction of a sample: ten taps around the place between two
 /// samples, each twice, for the real and the imaginary part. A band-limited signal moves by less than 1e-3 of itself
@@ -75,4 +75,4 @@ auto cubic_at(std::size_t height, std::size_t width, double row, double column, 
                     [&](std::size_t j) { return cubic_at(width, column, [&](std::size_t i) { return value(j, i); }); });
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::film

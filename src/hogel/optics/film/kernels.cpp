@@ -5,7 +5,7 @@
 
 #include "hogel/optics/film/interpolation.h"
 
-namespace hogel {
+namespace hogel::optics::film {
 
 void add_down_columns_plain(const float* values, std::size_t stride, std::size_t height, const ColumnPlaces& places,
                             float weight, std::span<float> out) {
@@ -24,4 +24,4 @@ void add_along_line_plain(std::span<const float> line, const LinePlaces& places,
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::film

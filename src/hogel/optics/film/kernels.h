@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-namespace hogel {
+namespace hogel::optics::film {
 
 /// The inner loops that bring a film to a picture, each plain and as fast as this processor allows; the twins agree to
 /// rounding. Both interpolate by Catmull and Rom's cubic through four neighbours: intensities come with two samples to
@@ -29,4 +29,4 @@ struct LinePlaces {
 void add_along_line_plain(std::span<const float> line, const LinePlaces& places, float weight, std::span<float> out);
 void add_along_line(std::span<const float> line, const LinePlaces& places, float weight, std::span<float> out);
 
-}  // namespace hogel
+}  // namespace hogel::optics::film

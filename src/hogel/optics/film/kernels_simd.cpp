@@ -1,6 +1,6 @@
 // The vector twins of film_kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/film_kernels_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/optics/film/kernels_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -10,7 +10,7 @@
 #include "hogel/optics/film/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::optics::film {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -103,11 +103,11 @@ void AddAlongLine(std::span<const float> line, const LinePlaces& places, float w
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::optics::film
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::optics::film {
 
 HWY_EXPORT(AddDownColumns);
 HWY_EXPORT(AddAlongLine);
@@ -121,5 +121,5 @@ void add_along_line(std::span<const float> line, const LinePlaces& places, float
     HWY_DYNAMIC_DISPATCH(AddAlongLine)(line, places, weight, out);
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::film
 #endif

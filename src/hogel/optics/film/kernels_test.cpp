@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace hogel {
+namespace hogel::optics::film {
 namespace {
 
 std::vector<float> noise(std::size_t count) {
@@ -64,4 +64,4 @@ TEST(FilmKernels, keep_parabolas) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics::film

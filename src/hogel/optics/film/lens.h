@@ -9,7 +9,7 @@
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/sine_grid.h"
 
-namespace hogel {
+namespace hogel::optics::film {
 
 /// What a point in direction sine (n_x, n_y) at depth ζ adds to the path of light to the point δ of the pupil, beside
 /// the term linear in δ that its direction makes: exactly |x − q| − |x − c| + n·δ.
@@ -179,4 +179,4 @@ class FilmLens {
     double radius_, step_x_, step_y_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::optics::film

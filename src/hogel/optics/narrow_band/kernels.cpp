@@ -1,6 +1,6 @@
 #include "hogel/optics/narrow_band/kernels.h"
 
-namespace hogel {
+namespace hogel::optics::narrow_band {
 
 void weighted_rows_plain(const std::complex<float>* rows, std::size_t stride,
                          std::span<const std::complex<float>> weights, std::span<std::complex<float>> out) {
@@ -27,4 +27,4 @@ void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, 
                   a[x].real() * b[x].imag() + a[x].imag() * b[x].real()};
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band

@@ -6,7 +6,7 @@
 
 #include "hogel/array.h"
 
-namespace hogel {
+namespace hogel::optics::narrow_band {
 
 /// The inner loops of the narrow-band camera, each plain and as fast as this processor allows; the twins agree to
 /// rounding.
@@ -28,4 +28,4 @@ void decimated_line(const std::complex<float>* line, std::size_t step, std::span
 void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
 void multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
 
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band

@@ -1,6 +1,6 @@
 // The vector twins of narrow_band_kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/narrow_band_kernels_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/optics/narrow_band/kernels_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -8,7 +8,7 @@
 #include "hogel/optics/narrow_band/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::optics::narrow_band {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -107,11 +107,11 @@ void Multiply(const std::complex<float>* a, const std::complex<float>* b, std::s
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::optics::narrow_band {
 
 HWY_EXPORT(WeightedRows);
 HWY_EXPORT(DecimatedLine);
@@ -131,5 +131,5 @@ void multiply(const std::complex<float>* a, const std::complex<float>* b, std::s
     HWY_DYNAMIC_DISPATCH(Multiply)(a, b, out);
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band
 #endif

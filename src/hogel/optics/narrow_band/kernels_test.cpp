@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-namespace hogel {
+namespace hogel::optics::narrow_band {
 namespace {
 
 using Complex = std::complex<float>;
@@ -54,4 +54,4 @@ TEST(NarrowBandKernels, vector_and_plain_products_agree) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band

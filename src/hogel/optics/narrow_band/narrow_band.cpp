@@ -11,7 +11,7 @@
 #include "hogel/optics/phase_walk.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics::narrow_band {
 namespace {
 
 using Complex = std::complex<float>;
@@ -238,8 +238,8 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
 
     const std::vector<Region> regions = tiles(plane);
     using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
-    parallel_ordered<Contributions>(
-        regions.size(), default_in_flight(),
+    core::parallel_ordered<Contributions>(
+        regions.size(), core::default_in_flight(),
         [&](std::size_t i) {
             std::vector<TilePass> passes;
             Contributions contributions;
@@ -267,9 +267,9 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
                                 band(m, n) += part.looks[look](m - part.rows.first, n - part.columns.first);
                     }
                 }
-            report(progress, static_cast<double>(i + 1) / static_cast<double>(regions.size()));
+            progress.report(static_cast<double>(i + 1) / static_cast<double>(regions.size()));
         });
     return bands;
 }
 
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band

@@ -6,7 +6,7 @@
 #include "hogel/field.h"
 #include "hogel/optics/view_geometry.h"
 
-namespace hogel {
+namespace hogel::optics::narrow_band {
 
 /// One eye's narrow band of a hologram, before and after it is drawn from the field.
 ///
@@ -43,4 +43,4 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
                                                                           std::size_t first_look, std::size_t looks,
                                                                           const Progress& progress = {});
 
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band

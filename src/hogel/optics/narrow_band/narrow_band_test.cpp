@@ -7,7 +7,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::optics::narrow_band {
 namespace {
 
 using namespace literals;
@@ -58,4 +58,4 @@ TEST(NarrowBand, is_the_same_for_any_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::optics::narrow_band

@@ -9,7 +9,7 @@
 #include "hogel/render/row_tile.h"
 #include "hogel/render/span.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 namespace {
 
 struct Interval {
@@ -159,4 +159,4 @@ std::unique_ptr<LightFieldSource> make_mvr_renderer(std::shared_ptr<const Shaded
     return std::make_unique<MvrRenderer>(std::move(scene), grid);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

@@ -5,7 +5,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 
 /// Multiple viewpoint rendering: for each row of hogels, triangles are cut into slices, one for each row V of
 /// directions, which wait in slice tables; then for each V the tracks that slices leave in (s, U) are scan converted
@@ -17,4 +17,4 @@ namespace hogel {
 std::unique_ptr<LightFieldSource> make_mvr_renderer(std::shared_ptr<const ShadedScene> scene,
                                                     const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

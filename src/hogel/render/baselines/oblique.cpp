@@ -7,7 +7,7 @@
 #include "hogel/render/region_memory.h"
 #include "hogel/render/span.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 namespace {
 
 // The slid triangle's corners as columns and rows of hogels, counted from the tile's first.
@@ -92,4 +92,4 @@ std::unique_ptr<LightFieldSource> make_oblique_renderer(std::shared_ptr<const Sh
     return std::make_unique<ObliqueRenderer>(std::move(scene), grid);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

@@ -5,7 +5,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 
 /// For each direction (U, V) one picture over the hogels of a tile, an oblique parallel projection in which triangles
 /// are scan converted with a depth buffer of (s, t). Nothing is divided by ζ, so a scene may be on both sides of the
@@ -14,4 +14,4 @@ namespace hogel {
 std::unique_ptr<LightFieldSource> make_oblique_renderer(std::shared_ptr<const ShadedScene> scene,
                                                         const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

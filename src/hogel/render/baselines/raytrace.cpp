@@ -7,8 +7,9 @@
 #include "hogel/render/baselines/raytrace.h"
 #include "hogel/render/sample_store.h"
 #include "hogel/trace/ray_caster.h"
+#include "hogel/shading/triangles.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 namespace {
 
 // Neighbouring directions travel together: the rays of a square of this side share most of their way through the tree.
@@ -17,7 +18,7 @@ constexpr std::size_t bundle = 16;
 class RaytraceRenderer final : public LightFieldSource {
   public:
     RaytraceRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), caster_(seen_triangles(*scene_)) {
+        : scene_(std::move(scene)), grid_(grid), caster_(shading::seen_triangles(*scene_)) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         low_ = {infinity, infinity, infinity};
         high_ = -low_;
@@ -55,7 +56,7 @@ class RaytraceRenderer final : public LightFieldSource {
                          grid_.t(static_cast<double>(tile.range.t0 + t)), 0};
         const auto [near, far] = steps(hogel);
         std::array<Vec3, bundle * bundle> origins, directions;
-        std::array<RayHit, bundle * bundle> hits;
+        std::array<trace::RayHit, bundle * bundle> hits;
         for (std::size_t v = 0; v < nv; ++v)
             for (std::size_t u = 0; u < nu; ++u) {
                 const Vec3 way =
@@ -70,10 +71,10 @@ class RaytraceRenderer final : public LightFieldSource {
                         std::span(hits).first(n));
         for (std::size_t v = 0; v < nv; ++v)
             for (std::size_t u = 0; u < nu; ++u) {
-                const RayHit& hit = hits[v * nu + u];
+                const trace::RayHit& hit = hits[v * nu + u];
                 VisiblePoint point;
                 const bool is_ray = directions[v * nu + u].z != 0;  // a frequency grid has corners beyond all rays
-                if (is_ray && hit.triangle != RayHit::miss)
+                if (is_ray && hit.triangle != trace::RayHit::miss)
                     point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2,
                              -directions[v * nu + u].z * (near + hit.distance)};
                 store(tile, *scene_, grid_, point, t, s, v0 + v, u0 + u);
@@ -82,7 +83,7 @@ class RaytraceRenderer final : public LightFieldSource {
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
-    RayCaster caster_;
+    trace::RayCaster caster_;
     Vec3 low_, high_;  // the scene's box in (x, y, ζ)
 };
 
@@ -93,4 +94,4 @@ std::unique_ptr<LightFieldSource> make_raytrace_renderer(std::shared_ptr<const S
     return std::make_unique<RaytraceRenderer>(std::move(scene), grid);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

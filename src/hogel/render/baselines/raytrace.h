@@ -5,11 +5,11 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 
 /// One ray a sample, traced through Embree from in front of the whole scene, so scenes on both sides of the hologram
 /// plane need no special care.
 std::unique_ptr<LightFieldSource> make_raytrace_renderer(std::shared_ptr<const ShadedScene> scene,
                                                          const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

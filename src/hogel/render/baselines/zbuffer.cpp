@@ -6,7 +6,7 @@
 #include "hogel/render/baselines/zbuffer.h"
 #include "hogel/render/sample_store.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 namespace {
 
 // A linear function of the direction: value(U, V) = c + u U + v V.
@@ -147,4 +147,4 @@ std::unique_ptr<LightFieldSource> make_zbuffer_renderer(std::shared_ptr<const Sh
     return std::make_unique<ZbufferRenderer>(std::move(scene), grid);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

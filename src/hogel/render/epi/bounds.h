@@ -15,7 +15,7 @@
 #include "hogel/render/epi/hits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -121,6 +121,6 @@ HWY_NOINLINE inline void bound_strips(const float* ends, const Extent& plane, Bo
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 #endif

@@ -5,7 +5,7 @@
 #include "hogel/render/epi/clusters.h"
 #include "hogel/render/sample_store.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 // Spreads the low 21 bits of a number to every third bit.
@@ -133,4 +133,4 @@ TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

@@ -9,7 +9,7 @@
 #include "hogel/render/epi/frame.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// So many triangles of a cluster fit the bits of one word.
 constexpr std::size_t cluster_size = 64;
@@ -58,4 +58,4 @@ struct TriangleClusters {
     }
 };
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

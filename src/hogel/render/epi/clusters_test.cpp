@@ -7,7 +7,7 @@
 #include "hogel/render/epi/setup.h"
 #include "hogel/render/test_triangles.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
@@ -131,4 +131,4 @@ TEST(EpipolarFrame, counts_in_samples) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::epi

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace hogel {
+namespace hogel::render::epi {
 
 bool may_meet(const ClusterBox& box, const RowRays& rays) {
     const double near = box.z_low - rays.z0, far = box.z_high - rays.z0;
@@ -83,4 +83,4 @@ void find_crossings_plain(const TriangleClusters& clusters, const RowRays& rays,
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

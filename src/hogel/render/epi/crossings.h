@@ -5,7 +5,7 @@
 
 #include "hogel/render/epi/clusters.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// Some epipolar planes of one row of hogels, with directions that follow each other: y = row + slope (z − z0), of
 /// which the slope of plane i is `slope` + i `step`. They are seen at (x + shift, z − z0) by columns from n_first to
@@ -48,4 +48,4 @@ struct HeightScale {
     HeightScale(const ClusterBox& box, const RowRays& rays);
 };
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

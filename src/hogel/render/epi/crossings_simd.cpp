@@ -1,7 +1,7 @@
 // The vector twin of find_crossings_plain in epi_crossings.cpp, compiled for every instruction set and chosen when
 // first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi_crossings_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/render/epi/crossings_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -12,7 +12,7 @@
 #include "hogel/render/epi/crossings.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -116,11 +116,11 @@ void FindCrossings(const TriangleClusters& clusters, const RowRays& rays, Crossi
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::render::epi {
 
 HWY_EXPORT(FindCrossings);
 
@@ -128,5 +128,5 @@ void find_crossings(const TriangleClusters& clusters, const RowRays& rays, Cross
     HWY_DYNAMIC_DISPATCH(FindCrossings)(clusters, rays, crossings);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi
 #endif

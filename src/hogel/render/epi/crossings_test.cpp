@@ -9,7 +9,7 @@
 #include "hogel/render/epi/setup.h"
 #include "hogel/render/test_triangles.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 // The vector kernels as built for each instruction set that this processor has.
@@ -190,4 +190,4 @@ TEST_P(CrossingsOnEveryTarget, vector_and_plain_ones_are_the_same) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::epi

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// Where an edge meets a plane, and the weight there of the corner that is alone (the edge's other corner has the
 /// rest).
@@ -36,4 +36,4 @@ inline TriangleCut cut_triangle(const std::array<double, 3>& x, const std::array
     return {lone, next, last, cut(next), cut(last)};
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

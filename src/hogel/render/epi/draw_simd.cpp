@@ -1,6 +1,6 @@
 // The vector twin of draw_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi_draw_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/render/epi/draw_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -12,7 +12,7 @@
 #include "hogel/render/epi/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -231,11 +231,11 @@ void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane&
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::render::epi {
 
 HWY_EXPORT(Draw);
 
@@ -250,5 +250,5 @@ void use_kernel_target(std::int64_t target) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi
 #endif

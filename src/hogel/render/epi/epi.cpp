@@ -13,7 +13,7 @@
 #include "hogel/render/epi/setup.h"
 #include "hogel/render/sample_store.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 // So many samples of an epipolar plane are drawn at once that their words stay in the second level cache.
@@ -102,7 +102,7 @@ class EpiRenderer final : public LightFieldSource {
         if (!scene_->needs_samples(triangle)) return LightFrom::ends;
         if (!scene_->light_cache || scene_->triangles[triangle].texture != ShadedScene::no_texture)
             return LightFrom::samples;
-        const LightGrid& grid = scene_->light_cache->grid(triangle);
+        const shading::LightGrid& grid = scene_->light_cache->grid(triangle);
         return grid.points && grid.is_radiance ? LightFrom::points : LightFrom::samples;
     }
 
@@ -277,7 +277,7 @@ class EpiRenderer final : public LightFieldSource {
 
         Grids grids() const override { return {work_.origins.data(), renderer_.scene_->light_cache->grids().data()}; }
 
-        LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
+        shading::LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
             return renderer_.scene_->light_cache->corners(*renderer_.scene_, work_.origins[strip].triangle, row,
                                                           column);
         }
@@ -305,4 +305,4 @@ std::unique_ptr<LightFieldSource> make_epi_renderer(std::shared_ptr<const Shaded
     return std::make_unique<EpiRenderer>(std::move(scene), grid);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

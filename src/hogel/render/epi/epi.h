@@ -5,7 +5,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// The light field in epipolar order (docs/notation.md, section 2): for each row t of hogels and each row V of
 /// directions, the plane y = t + Vζ cuts every triangle in a segment, and a segment is a thin strip in the plane (s,U).
@@ -13,4 +13,4 @@ namespace hogel {
 std::unique_ptr<LightFieldSource> make_epi_renderer(std::shared_ptr<const ShadedScene> scene,
                                                     const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

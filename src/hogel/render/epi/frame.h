@@ -5,7 +5,7 @@
 
 #include "hogel/render/row_axes.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// Lengths counted in samples, so that the loops over samples work on small whole numbers. Column i of hogels has the
 /// whole number n = i − ⌊S/2⌋, and a point (x, ζ) is seen by column n in the direction K = U/ΔU if n = x − K z, where
@@ -70,4 +70,4 @@ class EpipolarFrame {
     double step_ratio_;                 // of the slow directions to the fast
 };
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

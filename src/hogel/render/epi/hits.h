@@ -17,7 +17,7 @@
 #include "hogel/render/epi/lane_bits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -171,6 +171,6 @@ class Candidates {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 #endif

@@ -4,7 +4,7 @@
 
 #include "hogel/render/epi/kernels.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 void PlaneCells::clear(std::size_t columns, std::size_t directions) {
     constexpr std::size_t spare = 64;
@@ -58,4 +58,4 @@ void shade_plain(const EpipolarPlane& plane, std::span<const StripShades> strips
         }
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

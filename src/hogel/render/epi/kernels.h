@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// What is left of a triangle in an epipolar plane: the segment between two points (x, z), in the units of an
 /// EpipolarFrame. Column n sees point p in direction K if n = c_p(K), c_p(K) = x_p − K z_p. The strip covers sample (n,
@@ -106,4 +106,4 @@ inline float part_of_strip(const StripShades& strip, float n, float K) {
     return positive < 1 ? positive : 1;
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

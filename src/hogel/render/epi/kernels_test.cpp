@@ -13,7 +13,7 @@
 #include "hogel/render/test_plane.h"
 #include "hogel/render/test_triangles.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 using Draw = void (*)(std::span<const Strip>, std::size_t, const EpipolarPlane&);
@@ -333,4 +333,4 @@ TEST_P(EveryTarget, vector_and_plain_shadings_are_the_same) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::epi

@@ -1,7 +1,7 @@
 // The nodes of strips on which light is kept, made for all that part of a plane shows before any of it is shaded;
 // compiled for every instruction set and chosen when first called. The plain twin makes each when it is needed.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi_nodes_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/render/epi/knots_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -15,7 +15,7 @@
 #include "hogel/render/sample_store.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -70,7 +70,7 @@ HWY_INLINE std::size_t find_waiting(std::span<const std::uint64_t> words, std::u
 struct StripsOnGrids {
     HWY_ALIGN float place[2][most_lanes], change[2][most_lanes], scale[2][most_lanes], last[2][most_lanes],
         cells[most_lanes];
-    const LightGrid* grids[most_lanes];
+    const shading::LightGrid* grids[most_lanes];
 };
 
 HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32_t* numbers, std::size_t count,
@@ -78,7 +78,7 @@ HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32
     const FloatTag d;
     const NumberTag du;
     const hn::RebindToSigned<FloatTag> di;
-    static_assert(offsetof(LightGrid, rows) == 8 && offsetof(LightGrid, corner) == 24 && sizeof(StripOrigin) == 16 &&
+    static_assert(offsetof(shading::LightGrid, rows) == 8 && offsetof(shading::LightGrid, corner) == 24 && sizeof(StripOrigin) == 16 &&
                   offsetof(StripOrigin, lone) == 12);
     const float *origins[most_lanes], *on[most_lanes];
     for (std::size_t i = 0; i < most_lanes; ++i) {
@@ -114,7 +114,7 @@ HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32
     Floats most = zero;
     for (int i = 0; i < 2; ++i) {
         const Floats cells_there = hn::ConvertTo(d, hn::BitCast(di, grid[2 + i]));
-        const Floats on_axis = hn::Max(cells_there, one), scale = hn::Add(on_axis, hn::Set(d, 2 * LightGrid::inset));
+        const Floats on_axis = hn::Max(cells_there, one), scale = hn::Add(on_axis, hn::Set(d, 2 * shading::LightGrid::inset));
         const Floats change = hn::Sub(ends[i][1], ends[i][0]);
         most = hn::Max(most, hn::IfThenElseZero(hn::Gt(cells_there, zero), hn::Mul(hn::Abs(change), scale)));
         hn::Store(ends[i][0], d, to.place[i]);
@@ -132,11 +132,11 @@ HWY_INLINE Numbers place_on_axis(Floats part, float scale, float last, Floats& b
     const FloatTag d;
     const NumberTag du;
     const Floats parts = hn::Min(hn::Max(part, hn::Zero(d)), hn::Set(d, 1.0f));
-    const Floats at = hn::Sub(hn::Mul(parts, hn::Set(d, scale)), hn::Set(d, LightGrid::inset + 0.5f));
-    const Floats to_whole = hn::Set(d, LightGrid::to_whole);
+    const Floats at = hn::Sub(hn::Mul(parts, hn::Set(d, scale)), hn::Set(d, shading::LightGrid::inset + 0.5f));
+    const Floats to_whole = hn::Set(d, shading::LightGrid::to_whole);
     const Floats rounded = hn::Add(hn::Min(hn::Max(at, hn::Set(d, -0.25f)), hn::Set(d, last)), to_whole);
     beyond = hn::Add(hn::Sub(at, hn::Sub(rounded, to_whole)), hn::Set(d, 0.5f));
-    return hn::And(hn::BitCast(du, rounded), hn::Set(du, LightGrid::node_bits));
+    return hn::And(hn::BitCast(du, rounded), hn::Set(du, shading::LightGrid::node_bits));
 }
 
 // Nodes whose points are on their way from memory: of each where the upper left one is, in words, and how far it lies
@@ -149,7 +149,7 @@ class NodesOnGrids {
     HWY_INLINE void add(const StripsOnGrids& strips, std::size_t lane, const StripShades& strip, std::uint32_t to) {
         const FloatTag d;
         const NumberTag du;
-        const LightGrid& grid = *strips.grids[lane];
+        const shading::LightGrid& grid = *strips.grids[lane];
         Row& row = rows_[row_count_++];
         row = {grid.points,
                grid.columns > 0 ? grid.right : 0,
@@ -204,7 +204,7 @@ class NodesOnGrids {
         using Four = hn::Vec<Tag>;
         const Tag d;
         const std::uint32_t *upper = row.points + upper_[i], *lower = upper + row.down;
-        if (HWY_UNLIKELY(!LightGrid::are_made(upper, upper + row.right, lower, lower + row.right))) {
+        if (HWY_UNLIKELY(!shading::LightGrid::are_made(upper, upper + row.right, lower, lower + row.right))) {
             node[3] = std::numeric_limits<float>::quiet_NaN();
             return;
         }
@@ -257,11 +257,11 @@ void MakeNodesOfSeen(std::span<const std::uint64_t> words, std::span<const Strip
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::render::epi {
 
 HWY_EXPORT(MakeNodesOfSeen);
 
@@ -270,5 +270,5 @@ void make_nodes_of_seen(std::span<const std::uint64_t> words, std::span<const St
     HWY_DYNAMIC_DISPATCH(MakeNodesOfSeen)(words, strips, lit, samples, colour);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi
 #endif

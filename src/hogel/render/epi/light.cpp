@@ -6,21 +6,21 @@
 #include "hogel/render/epi/light.h"
 #include "hogel/render/sample_store.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 using Node = LitStrips::Node;
 
 constexpr float not_yet = std::numeric_limits<float>::quiet_NaN();
 
-LightCache::Corners corners_of(const StripLight& light, const LightGrid::Place& row, const LightGrid::Place& column,
+shading::LightCache::Corners corners_of(const StripLight& light, const shading::LightGrid::Place& row, const shading::LightGrid::Place& column,
                                std::size_t strip, const SampleSource& samples) {
     const std::uint32_t* first =
         light.points + std::uint64_t{row.node} * light.down + std::uint64_t{column.node} * light.right;
     const std::array points{first, first + light.right, first + light.down, first + light.down + light.right};
-    if (!LightGrid::are_made(points[0], points[1], points[2], points[3]))
+    if (!shading::LightGrid::are_made(points[0], points[1], points[2], points[3]))
         return samples.corners(strip, row.node, column.node);
-    LightCache::Corners corners{};
+    shading::LightCache::Corners corners{};
     for (std::size_t k = 0; k < 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) corners[k][i] = std::bit_cast<float>(points[k][i]);
     return corners;
@@ -29,9 +29,9 @@ LightCache::Corners corners_of(const StripLight& light, const LightGrid::Place& 
 // What is kept where part of the way along a strip lies, and a zero.
 Node light_of_points(const StripLight& light, float part, std::size_t strip, const SampleSource& samples) {
     const float towards = light.place[0] + part * light.change[0], last = light.place[1] + part * light.change[1];
-    const LightGrid::Place row(towards, light.axis[0]);
-    const LightGrid::Place column(LightGrid::along(towards, last), light.axis[1]);
-    const LightCache::Corners corner = corners_of(light, row, column, strip, samples);
+    const shading::LightGrid::Place row(towards, light.axis[0]);
+    const shading::LightGrid::Place column(shading::LightGrid::along(towards, last), light.axis[1]);
+    const shading::LightCache::Corners corner = corners_of(light, row, column, strip, samples);
     Node value;
     for (std::size_t i = 0; i < value.size(); ++i) {
         const float upper = corner[0][i] + column.beyond * (corner[1][i] - corner[0][i]);
@@ -49,8 +49,8 @@ Node value_of_one(const StripShades& strip, float part) {
 
 }  // namespace
 
-StripLight::StripLight(const LightGrid& grid, const StripOrigin& strip)
-    : axis{LightGrid::Axis(grid.rows), LightGrid::Axis(grid.columns)},
+StripLight::StripLight(const shading::LightGrid& grid, const StripOrigin& strip)
+    : axis{shading::LightGrid::Axis(grid.rows), shading::LightGrid::Axis(grid.columns)},
       points(grid.points),
       down(grid.rows > 0 ? grid.down : 0),
       right(grid.columns > 0 ? grid.right : 0) {
@@ -168,4 +168,4 @@ void shade_lit_plain(const EpipolarPlane& plane, std::span<const StripShades> st
         }
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

@@ -12,7 +12,7 @@
 #include "hogel/render/epi/setup.h"
 #include "hogel/shading/light_cache.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// Where the samples of a strip have their light from.
 enum class LightFrom : std::uint32_t {
@@ -25,11 +25,11 @@ enum class LightFrom : std::uint32_t {
 struct StripLight {
     /// Rows and columns: `towards` and `last` at end 0, and from there to end 1.
     float place[2], change[2];
-    LightGrid::Axis axis[2];
+    shading::LightGrid::Axis axis[2];
     const std::uint32_t* points;
     std::uint32_t down, right;  ///< words from a point to the next, where there are several
 
-    StripLight(const LightGrid& grid, const StripOrigin& strip);
+    StripLight(const shading::LightGrid& grid, const StripOrigin& strip);
     /// So many cells along the strip are at most half as long as those of the grid, unless they were more than
     /// `most_cells`.
     float cells() const;
@@ -45,11 +45,11 @@ class SampleSource {
     /// Where the strips lie on their triangles, and the grids on those. For strips LightFrom::points.
     struct Grids {
         const StripOrigin* of_strips;
-        const LightGrid* of_triangles;
+        const shading::LightGrid* of_triangles;
     };
     virtual Grids grids() const = 0;
     /// The light of four points that are not made yet (LightCache::corners).
-    virtual LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const = 0;
+    virtual shading::LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const = 0;
 };
 
 /// What the strips of one plane show where they do not all have their light from their ends: each has nodes at equal
@@ -68,11 +68,11 @@ class LitStrips {
 
         /// @param first_node  `unmade` where the strip has none yet
         void set_nodes(std::uint32_t first_node, float count) {
-            first = first_node - std::bit_cast<std::uint32_t>(LightGrid::to_whole);
+            first = first_node - std::bit_cast<std::uint32_t>(shading::LightGrid::to_whole);
             cells = count;
             last = count - 1.25f;
         }
-        std::uint32_t first_node() const { return first + std::bit_cast<std::uint32_t>(LightGrid::to_whole); }
+        std::uint32_t first_node() const { return first + std::bit_cast<std::uint32_t>(shading::LightGrid::to_whole); }
     };
     /// Where part of the way along a strip lies.
     struct Place {
@@ -81,9 +81,9 @@ class LitStrips {
 
         Place(const Line& line, float part) {
             const float at = part * line.cells;
-            const float rounded = std::min(at - 0.5f, line.last) + LightGrid::to_whole;
-            cell = std::bit_cast<std::uint32_t>(rounded) & LightGrid::node_bits;
-            beyond = at - (rounded - LightGrid::to_whole);
+            const float rounded = std::min(at - 0.5f, line.last) + shading::LightGrid::to_whole;
+            cell = std::bit_cast<std::uint32_t>(rounded) & shading::LightGrid::node_bits;
+            beyond = at - (rounded - shading::LightGrid::to_whole);
         }
     };
     /// Two nodes that are never made.
@@ -134,4 +134,4 @@ void shade_lit_plain(const EpipolarPlane& plane, std::span<const StripShades> st
 void shade_lit(const EpipolarPlane& plane, std::span<const StripShades> strips, LitStrips& lit,
                const SampleSource& samples, const ShadedPlane& out);
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

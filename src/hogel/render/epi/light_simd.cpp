@@ -1,6 +1,6 @@
 // The vector twin of epi_light.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi_light_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/render/epi/light_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -13,7 +13,7 @@
 #include "hogel/render/sample_store.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -67,7 +67,7 @@ class LitSamples {
                 }
             }
             const Floats at = hn::Mul(parts_of_strips(n, K, place), line[1]);
-            const Floats to_whole = hn::Set(d, LightGrid::to_whole);
+            const Floats to_whole = hn::Set(d, shading::LightGrid::to_whole);
             const Floats rounded = hn::Add(hn::Min(hn::Sub(at, hn::Set(d, 0.5f)), line[2]), to_whole);
             hn::Store(hn::Sub(at, hn::Sub(rounded, to_whole)), d, beyonds_ + k);
             hn::Store(hn::ShiftLeft<4>(hn::Add(hn::BitCast(du, line[0]), hn::BitCast(du, rounded))), du, offsets_ + k);
@@ -184,11 +184,11 @@ void ShadeLit(const EpipolarPlane& plane, std::span<const StripShades> strips, L
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::render::epi {
 
 HWY_EXPORT(ShadeLit);
 
@@ -197,5 +197,5 @@ void shade_lit(const EpipolarPlane& plane, std::span<const StripShades> strips, 
     HWY_DYNAMIC_DISPATCH(ShadeLit)(plane, strips, lit, samples, out);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi
 #endif

@@ -10,7 +10,7 @@
 #include "hogel/render/sample_store.h"
 #include "hogel/render/test_triangles.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 using Weights = std::array<float, 3>;
@@ -41,7 +41,7 @@ ShadedScene lit_triangles(float spacing, bool linear) {
     scene.radiance.resize(scene.positions.size());
     scene.texture_coordinates.resize(scene.positions.size());
     scene.lighting = std::make_shared<SomeLight>(linear);
-    cache_light(scene, std::vector<float>(scene.triangles.size(), spacing));
+    shading::cache_light(scene, std::vector<float>(scene.triangles.size(), spacing));
     return scene;
 }
 
@@ -93,7 +93,7 @@ struct Strips final : SampleSource {
     }
     Weights weights_at(std::size_t strip, float part) const { return origins[strip].weights(part); }
     Grids grids() const override { return {origins.data(), scene.light_cache->grids().data()}; }
-    LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
+    shading::LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
         ++points_asked;
         return scene.light_cache->corners(scene, origins[strip].triangle, row, column);
     }
@@ -207,4 +207,4 @@ TEST(EpipolarLight, shows_a_wave_to_second_order) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::epi

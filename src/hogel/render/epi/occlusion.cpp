@@ -4,7 +4,7 @@
 
 #include "hogel/render/epi/occlusion.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 void Occlusion::clear(const EpipolarPlane& plane) {
     plane.cells->clear(plane.columns, plane.directions);
@@ -81,4 +81,4 @@ bool cells_hide_plain(const EpipolarPlane& plane, const SeenBox& box) {
     return true;
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

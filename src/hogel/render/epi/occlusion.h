@@ -8,7 +8,7 @@
 #include "hogel/render/epi/clusters.h"
 #include "hogel/render/epi/kernels.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// A box as the rays of an epipolar plane see it.
 struct BoxBounds {
@@ -103,4 +103,4 @@ class Occlusion {
     bool worth_asking_ = false;
 };
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

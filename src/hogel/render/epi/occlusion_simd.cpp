@@ -1,7 +1,7 @@
 // The vector twins of find_farthest_plain in epi_kernels.cpp and of see_box_plain and cells_hide_plain in
 // epi_occlusion.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi_occlusion_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/render/epi/occlusion_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -13,7 +13,7 @@
 #include "hogel/render/epi/occlusion.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -160,11 +160,11 @@ bool CellsHide(const EpipolarPlane& plane, const SeenBox& box) {
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::render::epi {
 
 HWY_EXPORT(FindFarthest);
 HWY_EXPORT(SeeBox);
@@ -178,5 +178,5 @@ BoxDepth see_box(const ClusterBox& box, const EpipolarPlane& plane, double shift
 
 bool cells_hide(const EpipolarPlane& plane, const SeenBox& box) { return HWY_DYNAMIC_DISPATCH(CellsHide)(plane, box); }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi
 #endif

@@ -7,7 +7,7 @@
 
 #include "hogel/render/test_plane.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 // Whatever lies in a box that is hidden changes nothing when it is drawn after all, with whatever number. Boxes are
@@ -136,4 +136,4 @@ TEST(Occlusion, cells_hold_the_farthest_depth_in_all_kernels) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::epi

@@ -17,7 +17,7 @@
 #include "hogel/render/epi/lane_bits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -142,6 +142,6 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 #endif

@@ -4,7 +4,7 @@
 #include "hogel/render/epi/cut.h"
 #include "hogel/render/epi/setup.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 void set_up_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlanePlace& plane,
                   Strip* strips, StripShades* shades, StripOrigin* origins) {
@@ -47,4 +47,4 @@ void set_up_plain(const TriangleClusters& clusters, std::span<const std::uint32_
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

@@ -8,7 +8,7 @@
 #include "hogel/render/epi/clusters.h"
 #include "hogel/render/epi/kernels.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 
 /// An epipolar plane: y = row + slope z, seen at (x + shift, z − z0) (EpipolarFrame).
 struct PlanePlace {
@@ -45,4 +45,4 @@ void set_up_plain(const TriangleClusters& clusters, std::span<const std::uint32_
 void set_up(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlanePlace& plane,
             Strip* strips, StripShades* shades, StripOrigin* origins);
 
-}  // namespace hogel
+}  // namespace hogel::render::epi

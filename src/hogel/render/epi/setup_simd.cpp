@@ -1,6 +1,6 @@
 // The vector twin of epi_set_up.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi_set_up_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/render/epi/setup_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -12,7 +12,7 @@
 #include "hogel/render/epi/setup.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -175,11 +175,11 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::render::epi {
 
 HWY_EXPORT(SetUp);
 
@@ -188,5 +188,5 @@ void set_up(const TriangleClusters& clusters, std::span<const std::uint32_t> pla
     HWY_DYNAMIC_DISPATCH(SetUp)(clusters, places, plane, strips, shades, origins);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi
 #endif

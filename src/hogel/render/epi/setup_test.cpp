@@ -9,7 +9,7 @@
 
 #include "hogel/render/test_triangles.h"
 
-namespace hogel {
+namespace hogel::render::epi {
 namespace {
 
 // The vector kernels as built for each instruction set that this processor has.
@@ -88,4 +88,4 @@ TEST_P(SetUpOnEveryTarget, vector_and_plain_strips_are_the_same) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::epi

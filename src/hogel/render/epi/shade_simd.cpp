@@ -1,7 +1,7 @@
 // The vector twins of epi_kernels.cpp that turn what is seen into values, compiled for every instruction set and chosen
 // when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi_shade_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/render/epi/shade_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
@@ -13,7 +13,7 @@
 #include "hogel/render/epi/samples.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel {
+namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -159,11 +159,11 @@ void Shade(const EpipolarPlane& plane, std::span<const StripShades> strips, cons
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel
+}  // namespace hogel::render::epi
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hogel {
+namespace hogel::render::epi {
 
 HWY_EXPORT(Shade);
 
@@ -171,5 +171,5 @@ void shade(const EpipolarPlane& plane, std::span<const StripShades> strips, cons
     HWY_DYNAMIC_DISPATCH(Shade)(plane, strips, out);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::epi
 #endif

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 /// A corner of the product of two simplices: one corner of each.
 struct ProductCorner {
@@ -53,4 +53,4 @@ std::span<const std::array<ProductCorner, Corners>> product_paths(std::size_t m)
     return {table.paths.data(), table.count};
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

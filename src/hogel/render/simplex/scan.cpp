@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 double crossing(const ProjectedPoint& a, const ProjectedPoint& b, double t) {
     const double from_a = t * a[axis::q] - a[axis::t], from_b = t * b[axis::q] - b[axis::t];
@@ -42,4 +42,4 @@ Span SliceInHogels::columns(std::size_t row, std::size_t ns) const {
     return samples_between(low, high, ns);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

@@ -6,7 +6,7 @@
 #include "hogel/render/simplex/volume.h"
 #include "hogel/render/span.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 /// Where row t crosses the edge between two projected points that lie on either side of it, or one of them on it.
 /// Source: [K] 5.7.4, the equation below (5.7).
@@ -29,4 +29,4 @@ class SliceInHogels {
     std::array<double, 3> s_, t_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

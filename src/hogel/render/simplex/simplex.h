@@ -5,7 +5,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 /// The four-dimensional depth buffer: a triangle is projected once from the whole (s, t) range of a tile, and the
 /// polyhedron that it sweeps out in (S, T, U, V) is cut down to samples. The larger the tile, the more hogels share
@@ -18,4 +18,4 @@ namespace hogel {
 std::unique_ptr<LightFieldSource> make_simplex_renderer(std::shared_ptr<const ShadedScene> scene,
                                                         const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

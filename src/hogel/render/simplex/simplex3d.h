@@ -5,7 +5,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 /// `simplex` with one dimension less, for light fields of one row of hogels (horizontal parallax only) or for one row
 /// after the other: a triangle seen from a row of hogels sweeps out a (2,1)-simploid in (S, U, V), three tetrahedra.
@@ -16,4 +16,4 @@ namespace hogel {
 std::unique_ptr<LightFieldSource> make_simplex3d_renderer(std::shared_ptr<const ShadedScene> scene,
                                                           const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

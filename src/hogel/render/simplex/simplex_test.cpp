@@ -10,7 +10,7 @@
 #include "hogel/render/simplex/volume.h"
 #include "hogel/units.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 namespace {
 
 using namespace literals;
@@ -390,4 +390,4 @@ TEST(Scan, finds_the_samples_between_the_edges_of_a_slice) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::simplex

@@ -11,7 +11,7 @@
 #include "hogel/render/row_axes.h"
 #include "hogel/render/span.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 namespace {
 
 // A point (x, ζ) in the plane of the rays of one t and one V, with x counted in hogels from the tile's first, and in
@@ -53,7 +53,7 @@ struct SlidTriangle {
 class SimplexStripRenderer final : public LightFieldSource {
   public:
     SimplexStripRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(triangles_with_area(*scene_)) {}
+        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(baselines::triangles_with_area(*scene_)) {}
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
@@ -62,9 +62,9 @@ class SimplexStripRenderer final : public LightFieldSource {
         const std::size_t rows = axes_.slow_hogels(tile.range), hogels = axes_.fast_hogels(tile.range);
         const std::size_t directions = axes_.fast_directions();
         // One V at a time, so that what the triangles of a neighbourhood write to stays close together.
-        Array<NearestTriangle, 3> buffer(simplex_strip_buffer(axes_, tile.range));
+        Array<baselines::NearestTriangle, 3> buffer(simplex_strip_buffer(axes_, tile.range));
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
-            std::ranges::fill(buffer.elements(), NearestTriangle{});
+            std::ranges::fill(buffer.elements(), baselines::NearestTriangle{});
             const Slab slab(*this, tile.range, slow);
             for (std::uint32_t index : triangles_) slab.scan_convert(index, buffer);
             for (std::size_t row = 0; row < rows; ++row)
@@ -97,7 +97,7 @@ class SimplexStripRenderer final : public LightFieldSource {
             hogels_ = axes_.fast_hogels(range);
         }
 
-        void scan_convert(std::uint32_t index, Array<NearestTriangle, 3>& buffer) const {
+        void scan_convert(std::uint32_t index, Array<baselines::NearestTriangle, 3>& buffer) const {
             const SlidTriangle slid = slide(index);
             const auto [low, high] = std::minmax({slid.row[0], slid.row[1], slid.row[2]});
             const Span rows = samples_between(low, high, rows_);
@@ -124,7 +124,7 @@ class SimplexStripRenderer final : public LightFieldSource {
         }
 
         void scan_convert(std::uint32_t index, const ThinStrip& strip, std::size_t row,
-                          View<NearestTriangle, 2> buffer) const {
+                          View<baselines::NearestTriangle, 2> buffer) const {
             const Span columns = columns_of_directions(strip);
             for (std::size_t k = columns.first; k < columns.end; ++k) {
                 double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -135,10 +135,10 @@ class SimplexStripRenderer final : public LightFieldSource {
                 }
                 const Span hogels = samples_between(low, high, hogels_);
                 if (hogels.first == hogels.end) continue;
-                const ObliqueTriangle triangle(scene_, index, slopes_[k].x, slopes_[k].y);
+                const baselines::ObliqueTriangle triangle(scene_, index, slopes_[k].x, slopes_[k].y);
                 for (std::size_t i = hogels.first; i < hogels.end; ++i) {
                     const auto [at_t, at_s, at_v, at_u] = axes_.sample(row, i, slow_, k);
-                    see(buffer(i, k), index, triangle, grid_.s(static_cast<double>(range_.s0 + at_s)),
+                    baselines::see(buffer(i, k), index, triangle, grid_.s(static_cast<double>(range_.s0 + at_s)),
                         grid_.t(static_cast<double>(range_.t0 + at_t)));
                 }
             }
@@ -189,4 +189,4 @@ std::unique_ptr<LightFieldSource> make_simplex_strip_renderer(std::shared_ptr<co
     return std::make_unique<SimplexStripRenderer>(std::move(scene), grid);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

@@ -5,7 +5,7 @@
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 /// The four-dimensional depth buffer without simplices ([K] 7.2.2, future work there): the simploid that a triangle
 /// sweeps is sliced whole, first at each V, then at each t, and what is left is a strip in the plane (s, U), scan
@@ -13,4 +13,4 @@ namespace hogel {
 std::unique_ptr<LightFieldSource> make_simplex_strip_renderer(std::shared_ptr<const ShadedScene> scene,
                                                               const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

@@ -1,6 +1,6 @@
 #include "hogel/render/simplex/slice.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 template <std::size_t N>
 void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axis, double bound, bool keep_above) {
@@ -49,4 +49,4 @@ template void clip(std::vector<Simplex<4>>&, std::size_t, double, bool);
 template void clip_to_view(std::vector<Simplex<3>>&, const LightFieldGrid&);
 template void clip_to_view(std::vector<Simplex<4>>&, const LightFieldGrid&);
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

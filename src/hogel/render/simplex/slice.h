@@ -6,7 +6,7 @@
 
 #include "hogel/render/simplex/volume.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 /// Sorts the corners of a simplex along an axis, and where they are level by their other coordinates: simplices that
 /// share corners have them in the same order, so cuts through shared faces agree to the last bit.
@@ -65,4 +65,4 @@ void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axi
 template <std::size_t N>
 void clip_to_view(std::vector<std::array<ProjectedPoint, N>>& simplices, const LightFieldGrid& grid);
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

@@ -9,7 +9,7 @@
 #include "hogel/error.h"
 #include "hogel/render/simplex/slice.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 namespace {
 
 // The part of a convex polygon where `side` is not negative. A point between two corners is computed from the negative
@@ -185,4 +185,4 @@ void append_projected_volume(const DeepTriangle& triangle, const CameraLine& lin
     append_divided(undivided, nearest, grid, simplices);
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

@@ -9,7 +9,7 @@
 #include "hogel/render/simplex/product_paths.h"
 #include "hogel/shading.h"
 
-namespace hogel {
+namespace hogel::render::simplex {
 
 /// The coordinates of a projected point: U and V as column and row of the picture, S = s/ζ and T = t/ζ with s and t as
 /// column and row of hogels counted from the tile's first, and Q = 1/ζ. In these samples lie at whole numbers of U, V,
@@ -80,4 +80,4 @@ void append_projected_volume(const DeepTriangle& triangle, const std::vector<Cam
 void append_projected_volume(const DeepTriangle& triangle, const CameraLine& line, const LightFieldGrid& grid,
                              const HogelRange& range, std::vector<Simplex<3>>& simplices, double nearest = 0);
 
-}  // namespace hogel
+}  // namespace hogel::render::simplex

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "hogel/error.h"
-#include "hogel/scene/import/checks.h"
+#include "hogel/scene/mesh_files/checks.h"
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{4} << 30;
@@ -67,4 +67,4 @@ void check_mesh_file(const std::filesystem::path& path) {
         check_gltf(file, read_file(path, size));
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hogel/scene/import/checks.h"
+#include "hogel/scene/mesh_files/checks.h"
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 namespace {
 
 constexpr std::size_t deepest = 1000;
@@ -76,4 +76,4 @@ void check_gltf(const std::string& file, std::string_view bytes) {
     }
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 
 /// Lets assimp open regular files in one folder and below, and nothing else: what a mesh file names is not trusted.
 class FolderFiles final : public Assimp::DefaultIOSystem {
@@ -20,4 +20,4 @@ class FolderFiles final : public Assimp::DefaultIOSystem {
     std::filesystem::path folder_;  // canonical
 };
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

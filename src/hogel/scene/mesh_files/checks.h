@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 
 /// Throws Error(bad_input) "file: what; expected ...".
 [[noreturn]] void reject_file(const std::string& file, const std::string& what, const std::string& expected);
@@ -23,4 +23,4 @@ void check_mesh_file(const std::filesystem::path& path);
 void check_gltf(const std::string& file, std::string_view bytes);
 void check_ply(const std::string& file, std::string_view bytes);
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "hogel/error.h"
-#include "hogel/scene/import/materials.h"
+#include "hogel/scene/mesh_files/materials.h"
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 namespace {
 
 float reflectance(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.8f; }
@@ -119,4 +119,4 @@ std::shared_ptr<const Image> MaterialImport::load(const std::string& name) const
                 fmt::format("{}: texture '{}' not found; expected a file in the folder of the mesh", file_, name));
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

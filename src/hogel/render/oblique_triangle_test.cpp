@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace hogel {
+namespace hogel::render::baselines {
 namespace {
 
 std::size_t add_vertex(ShadedScene& scene, Vec3 position) {
@@ -116,4 +116,4 @@ TEST(ObliqueTriangle, the_nearest_is_seen_and_of_equals_the_first) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::render::baselines

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "hogel/scene/import/files.h"
+#include "hogel/scene/mesh_files/files.h"
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 
 bool FolderFiles::contains(const std::filesystem::path& path) const {
     std::error_code error;
@@ -19,4 +19,4 @@ Assimp::IOStream* FolderFiles::Open(const char* file, const char* mode) {
     return reading && contains(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

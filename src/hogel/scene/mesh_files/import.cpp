@@ -10,11 +10,14 @@
 #include <numbers>
 
 #include "hogel/error.h"
-#include "hogel/scene/import/checks.h"
-#include "hogel/scene/import/materials.h"
+#include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/materials.h"
 #include "hogel/scene/triangulate.h"
 
 namespace hogel {
+
+using namespace scene::mesh_files;
+
 namespace {
 
 constexpr std::size_t most_triangles = std::size_t{1} << 28;
@@ -132,7 +135,7 @@ void import_triangles(const aiMesh& source, bool mirrored, const std::string& fi
         }
         polygon.clear();
         for (const unsigned index : corners) polygon.push_back(mesh.positions[index]);
-        for (const auto& [a, b, c] : triangulate(polygon)) add({corners[a], corners[b], corners[c]});
+        for (const auto& [a, b, c] : scene::triangulate(polygon)) add({corners[a], corners[b], corners[c]});
     }
 }
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hogel/scene/import/checks.h"
+#include "hogel/scene/mesh_files/checks.h"
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 namespace {
 
 struct Type {
@@ -189,4 +189,4 @@ void check_ply(const std::string& file, std::string_view bytes) {
         walk(file, header, data);
 }
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

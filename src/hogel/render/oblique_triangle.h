@@ -8,7 +8,7 @@
 
 #include "hogel/render/sample_store.h"
 
-namespace hogel {
+namespace hogel::render::baselines {
 
 /// A triangle slid along one direction (U, V) into the hologram plane, where the rays of that direction are points.
 ///
@@ -127,4 +127,4 @@ inline std::vector<std::uint32_t> triangles_with_area(const ShadedScene& scene) 
     return list;
 }
 
-}  // namespace hogel
+}  // namespace hogel::render::baselines

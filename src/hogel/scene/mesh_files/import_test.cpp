@@ -11,7 +11,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -302,4 +302,4 @@ TEST_F(Import, buffers_outside_the_folder_are_not_opened) {
 }
 
 }  // namespace
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

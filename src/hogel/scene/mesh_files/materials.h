@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "hogel/scene.h"
-#include "hogel/scene/import/files.h"
+#include "hogel/scene/mesh_files/files.h"
 
-namespace hogel {
+namespace hogel::scene::mesh_files {
 
 /// Turns assimp's materials into ours. A texture is read once, however many materials use it.
 class MaterialImport {
@@ -35,4 +35,4 @@ class MaterialImport {
     std::map<std::string, std::shared_ptr<const Image>> textures_;
 };
 
-}  // namespace hogel
+}  // namespace hogel::scene::mesh_files

@@ -1,0 +1,10 @@
+#include "hogel/bake.h"
+#include "showpieces/showpieces.h"
+
+namespace hogel::showpieces {
+
+Scene make_church_radiance(double hologram_size, const Progress& progress) {
+    return bake(make_church(hologram_size), {.rays = 96, .bounces = 4, .tessellation = 6}, progress);
+}
+
+}  // namespace hogel::showpieces

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "hogel/progress.h"
+#include "hogel/scene.h"
+
+namespace hogel::showpieces {
+
+// One maker a scene; all take the hologram's side in metres.
+Scene make_pumpkin(double hologram_size);
+Scene make_tower(double hologram_size);
+Scene make_church(double hologram_size);
+Scene make_chandelier(double hologram_size);
+Scene make_billiards(double hologram_size);
+
+// The church, cut into 3.4 million triangles, with its global solution: [K] fig. 5.27.
+Scene make_church_radiance(double hologram_size, const Progress& progress);
+
+}  // namespace hogel::showpieces
