@@ -115,16 +115,16 @@ Test occluding(double depth, double half) {
 }
 
 // From the scene to one hologram of the seed, or to a light field and then that.
-struct Way {
+struct PropagationOptions {
     std::string name;
     std::string scene_method;
-    StereogramOptions stereogram;
+    HologramOptions stereogram;
 };
 
-std::vector<Way> ways() {
-    std::vector<Way> all;
+std::vector<PropagationOptions> ways() {
+    std::vector<PropagationOptions> all;
     const auto add = [&](const char* name, Method method, Phases phases) {
-        StereogramOptions options;
+        HologramOptions options;
         options.wavelength = wavelength;
         options.pitch = pitch;
         options.method = method;
@@ -134,8 +134,8 @@ std::vector<Way> ways() {
     add("fourier", Method::fourier, Phases::random);
     add("fourier, designed", Method::fourier, Phases::designed);
     add("basis", Method::basis, Phases::fixed);
-    add("phase-added", Method::fourier, Phases::added);
-    add("phase-added-exact", Method::fourier, Phases::added_exactly);
+    add("phase-added", Method::fourier, Phases::phase_added);
+    add("phase-added-exact", Method::fourier, Phases::phase_added_exact);
     add("olas", Method::overlap_add, Phases::random);
     for (const char* name : {"points", "points-visible", "points-tiled", "points-hpo", "edges", "lines", "fraunhofer",
                              "fresnel", "planes", "polygons", "polygons-visible"})
@@ -143,8 +143,8 @@ std::vector<Way> ways() {
     return all;
 }
 
-Field make(const Way& way, const ShadedScene& scene, const LightField* light_field, std::size_t samples,
-           std::uint64_t seed) {
+Field make(const PropagationOptions& way, const ShadedScene& scene, const LightFieldBuffer* light_field,
+           std::size_t samples, std::uint64_t seed) {
     if (!light_field) {
         SceneHologramOptions options;
         options.seed = seed;
@@ -152,9 +152,9 @@ Field make(const Way& way, const ShadedScene& scene, const LightField* light_fie
         return find_scene_method(way.scene_method)
             ->make(scene, {{samples, samples, pitch, pitch, 0, 0}, wavelength}, options, {});
     }
-    StereogramOptions options = way.stereogram;
+    HologramOptions options = way.stereogram;
     options.seed = seed;
-    const auto source = make_stereogram(*light_field, options);
+    const auto source = make_hologram(*light_field, options);
     Field field(source->grid());
     copy(*source, field);
     return field;
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
     for (const char* name : {"point", "uniform", "tilted plane", "two planes"})
         std::printf(" %s at -20 mm | -5 | 5 | 20 |", name);
     std::printf(" seconds |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (const Way& way : ways()) {
+    for (const PropagationOptions& way : ways()) {
         if (argc > 3 && std::find(argv + 3, argv + argc, way.name) == argv + argc) continue;
         std::printf("| `%s` |", way.name.c_str());
         double seconds = 0;
@@ -184,14 +184,14 @@ int main(int argc, char** argv) {
                 camera.pupil = 3e-3;
                 camera.focus_depth = focus;
                 camera.picture = {20, 20, 0.85 * size / 20, 0.85 * size / 20, 0, 0};
-                std::unique_ptr<LightField> light_field;
+                std::unique_ptr<LightFieldBuffer> light_field;
                 if (way.scene_method.empty()) {
                     // As many directions as a hogel shows, within what the pitch diffracts to.
                     const bool windows = way.stereogram.method == Method::overlap_add;
                     const double tangent = 0.98 * std::tan(std::asin(wavelength / (2 * pitch)));
                     const std::size_t n = windows ? samples / 2 : samples / hogel_side, d = windows ? 9 : hogel_side;
                     const LightFieldGrid grid{n, n, size / double(n), d, d, tangent, tangent, 3};
-                    light_field = std::make_unique<LightField>(grid, true);
+                    light_field = std::make_unique<LightFieldBuffer>(grid, true);
                     copy(*make_renderer("raytrace", scene, grid), *light_field);
                 }
                 try {

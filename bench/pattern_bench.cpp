@@ -25,11 +25,11 @@ using namespace hogel;
 constexpr double wavelength = 633e-9, pitch = 8e-6, depth = 10e-3;
 constexpr std::size_t hogel_side = 16, looks = 4;
 
-LightField wavy_picture(std::size_t samples) {
+LightFieldBuffer wavy_picture(std::size_t samples) {
     const double half_sine = 0.15 * wavelength / (2 * pitch), size = static_cast<double>(samples) * pitch;
     const LightFieldGrid grid{
         samples / hogel_side, samples / hogel_side, pitch * hogel_side, 16, 16, half_sine, half_sine, 1};
-    LightField light_field(grid);
+    LightFieldBuffer light_field(grid);
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
             for (std::size_t l = 0; l < 16; ++l)
@@ -63,7 +63,7 @@ void report(const char* name, Image mean, const Image& truth, double efficiency,
 int main(int argc, char** argv) {
     const std::size_t samples = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 512;
     const std::size_t iterations = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 40;
-    const LightField light_field = wavy_picture(samples);
+    const LightFieldBuffer light_field = wavy_picture(samples);
     const double size = double(samples) * pitch;
     Camera camera;
     camera.eye = {0, 0, 300e-3};
@@ -73,11 +73,11 @@ int main(int argc, char** argv) {
     const auto take = [&](const FieldSource& field) { return photograph(field, std::span(&camera, 1))[0]; };
     const Image truth = normalised(photograph(light_field, std::span(&camera, 1), 128)[0]);
     const auto stereogram = [&](std::uint64_t seed) {
-        StereogramOptions options;
+        HologramOptions options;
         options.wavelength = wavelength;
         options.pitch = pitch;
         options.seed = seed;
-        const auto source = make_stereogram(light_field, options);
+        const auto source = make_hologram(light_field, options);
         Field field(source->grid());
         copy(*source, field);
         return field;

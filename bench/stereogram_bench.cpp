@@ -28,13 +28,13 @@ double seconds(const std::function<void()>& work) {
 
 void measure(std::size_t side, std::size_t directions, std::size_t across, int rounds) {
     const std::size_t hogels = across / side;
-    StereogramOptions options;
+    HologramOptions options;
     options.pitch = 2e-6;
     const double tangent = 0.98 * std::tan(std::asin(options.wavelength / (2 * options.pitch)));
-    LightField rays({hogels, hogels, double(side) * options.pitch, directions, directions, tangent, tangent, 1});
+    LightFieldBuffer rays({hogels, hogels, double(side) * options.pitch, directions, directions, tangent, tangent, 1});
     std::minstd_rand random(1);
     for (float& ray : rays.radiance.elements()) ray = float(random() % 1024) / 1024;
-    const auto stereogram = make_stereogram(rays, options);
+    const auto stereogram = make_hologram(rays, options);
     Field field(stereogram->grid());
     Array<std::complex<float>, 3> squares({hogels * hogels, side, side});
     for (auto& value : squares.elements()) value = {float(random() % 1024) - 512, float(random() % 1024) - 512};

@@ -3,13 +3,12 @@
 #include <numbers>
 #include <vector>
 
-#include "showpieces/showpieces.h"
 #include "hogel/scenes.h"
 #include "showpieces/billiards.h"
+#include "showpieces/showpieces.h"
 
 namespace hogel::showpieces {
 namespace {
-
 
 // Balls are about twice as large as on a real table, or they would be a few hogels wide.
 constexpr double pi = std::numbers::pi;
@@ -88,9 +87,9 @@ Mesh cue() {
             return w < 0.015 ? leather : w < 0.05 ? ivory : w < 0.6 ? maple : std::fmod(w, 0.12) < 0.02 ? ivory : ebony;
         });
     scene::add_box(builder, {-0.11, rail_top, half_width + 0.075}, {-0.06, rail_top + 0.045, half_width + 0.125}, 0.03,
-            [](Vec3 p) {
-                return p.y > rail_top + 0.044 ? Rgb{0.06f, 0.22f, 0.45f} : Rgb{0.03f, 0.09f, 0.30f};
-            });
+                   [](Vec3 p) {
+                       return p.y > rail_top + 0.044 ? Rgb{0.06f, 0.22f, 0.45f} : Rgb{0.03f, 0.09f, 0.30f};
+                   });
     scene::drop_slivers(builder.mesh);
     builder.mesh.name = "cue";
     return std::move(builder.mesh);
@@ -157,7 +156,8 @@ Mesh carpet() {
             constexpr Rgb red{0.20f, 0.025f, 0.03f}, dark{0.09f, 0.012f, 0.022f}, cream{0.42f, 0.31f, 0.17f};
             if (r > 0.93) return scene::mix(cream, red, 0.3);
             if (r > 0.82) return std::sin(36 * angle) > 0 ? dark : scene::mix(red, cream, 0.45);
-            return scene::mix(red, dark, 0.5 + 0.5 * std::sin(18 * r + 2 * std::sin(12 * angle)) * std::cos(12 * angle));
+            return scene::mix(red, dark,
+                              0.5 + 0.5 * std::sin(18 * r + 2 * std::sin(12 * angle)) * std::cos(12 * angle));
         });
     for (Vec3& p : builder.mesh.positions) p = {1.62 * p.x, p.y, 1.16 * p.z};
     scene::drop_slivers(builder.mesh);

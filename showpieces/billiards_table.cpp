@@ -52,8 +52,8 @@ struct Around {
 
 /// A moulding around the table: its profile as steps outwards from the rectangle, and heights.
 template <std::size_t n>
-void add_moulding(scene::MeshBuilder& builder, const Around& around, const std::array<std::pair<double, double>, n>& profile,
-                  Rgb (*color)(Vec3)) {
+void add_moulding(scene::MeshBuilder& builder, const Around& around,
+                  const std::array<std::pair<double, double>, n>& profile, Rgb (*color)(Vec3)) {
     builder.patch(
         around.count(), n - 1, true,
         [&](std::size_t i, std::size_t k) {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "showpieces/showpieces.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scenes.h"
+#include "showpieces/showpieces.h"
 
 namespace hogel::showpieces {
 namespace {
@@ -128,7 +128,7 @@ void add_drop(scene::MeshBuilder& crystal, Vec3 top, double size, std::uint32_t 
     const float bright = static_cast<float>(0.75 + 0.35 * scene::hashed(number, 7, 1));
     const Rgb tint = scene::hashed(number, 1, 9) < 0.12   ? Rgb{0.62f, 0.72f, 0.95f}
                      : scene::hashed(number, 2, 9) < 0.12 ? Rgb{0.95f, 0.78f, 0.66f}
-                                                   : Rgb{0.84f, 0.87f, 0.92f};
+                                                          : Rgb{0.84f, 0.87f, 0.92f};
     crystal.patch(
         sides, 4, true,
         [&](std::size_t i, std::size_t k) {
@@ -197,7 +197,8 @@ Scene make_chandelier(double hologram_size) {
                 brass, 13, steps, [&](std::size_t k) { return arm_point(tier, arm, static_cast<double>(k) / steps); },
                 [](std::size_t k) {
                     const double w = static_cast<double>(k) / steps;
-                    return 0.015 + 0.010 * std::exp(-scene::square(w / 0.1)) + 0.009 * std::exp(-scene::square((w - 0.45) / 0.03));
+                    return 0.015 + 0.010 * std::exp(-scene::square(w / 0.1)) +
+                           0.009 * std::exp(-scene::square((w - 0.45) / 0.03));
                 },
                 [](Vec3) { return gold; });
             add_candle(brass, candles, flames, cup(tier, arm));

@@ -2,13 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "showpieces/showpieces.h"
 #include "hogel/scenes.h"
 #include "showpieces/church.h"
+#include "showpieces/showpieces.h"
 
 namespace hogel::showpieces {
 namespace {
-
 
 constexpr double pi = std::numbers::pi;
 constexpr double below_floor = -0.06;  // walls begin here, so that nothing lies in the plane of the floor

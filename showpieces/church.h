@@ -33,8 +33,8 @@ inline Vec3 pendant(std::size_t i) {
 inline Vec3 altar_candle(std::size_t i) { return {half_length + 1.35, 1.72, -0.9 + 0.45 * static_cast<double>(i)}; }
 
 /// Panes between leads, in four colours, in an opening at a depth behind the wall.
-void add_stained_glass(std::array<scene::MeshBuilder, 4>& glass, const Frame& wall, const Opening& opening, double depth,
-                       std::uint32_t number);
+void add_stained_glass(std::array<scene::MeshBuilder, 4>& glass, const Frame& wall, const Opening& opening,
+                       double depth, std::uint32_t number);
 void add_stars(scene::MeshBuilder& stars);
 /// The tiles, and the slab that all stands on.
 void add_floor(scene::MeshBuilder& floor);

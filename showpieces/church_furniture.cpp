@@ -12,8 +12,8 @@ constexpr Rgb gold{0.70f, 0.46f, 0.14f};
 
 }  // namespace
 
-void add_stained_glass(std::array<scene::MeshBuilder, 4>& glass, const Frame& wall, const Opening& opening, double depth,
-                       std::uint32_t number) {
+void add_stained_glass(std::array<scene::MeshBuilder, 4>& glass, const Frame& wall, const Opening& opening,
+                       double depth, std::uint32_t number) {
     constexpr double lead = 0.012, pane = 0.155;
     const double low = opening.sill + 0.03, high = opening.spring + opening.half_width - 0.03;
     const auto rows = static_cast<std::uint32_t>(std::ceil((high - low) / pane));
@@ -96,16 +96,16 @@ void add_floor(scene::MeshBuilder& floor) {
 
 void add_slab(scene::MeshBuilder& slab) {
     scene::add_box(slab, {-half_length - 0.2, -0.55, -aisle_back - 0.2},
-            {half_length + nave_half + 0.3, -0.10, nave_half + 0.5}, 1.8, [](Vec3) {
-                return Rgb{0.17f, 0.10f, 0.06f};
-            });
+                   {half_length + nave_half + 0.3, -0.10, nave_half + 0.5}, 1.8, [](Vec3) {
+                       return Rgb{0.17f, 0.10f, 0.06f};
+                   });
 }
 
 void add_pews(scene::MeshBuilder& wood) {
     constexpr int rows = 12;
     const auto oak = [](Vec3 p) {
         return scene::mix({0.34f, 0.19f, 0.085f}, {0.22f, 0.115f, 0.05f},
-                   0.5 + 0.5 * std::sin(23 * p.y + 5 * std::sin(3 * p.z + p.x)));
+                          0.5 + 0.5 * std::sin(23 * p.y + 5 * std::sin(3 * p.z + p.x)));
     };
     for (int row = 0; row < rows; ++row)
         for (double side : {-1.0, 1.0}) {
@@ -170,9 +170,9 @@ void add_choir(Masonry& masonry, scene::MeshBuilder& wood, scene::MeshBuilder& b
     }
     for (double side : {-1.0, 1.0})
         scene::add_box(wood, {x - 1.84, 0.725, side > 0 ? 0.45 : -2.5}, {x - 1.66, 0.81, side > 0 ? 2.5 : -0.45}, 0.25,
-                [](Vec3) {
-                    return Rgb{0.30f, 0.165f, 0.075f};
-                });
+                       [](Vec3) {
+                           return Rgb{0.30f, 0.165f, 0.075f};
+                       });
 }
 
 void add_pendants(scene::MeshBuilder& brass, scene::MeshBuilder& globes) {

@@ -4,7 +4,7 @@
 namespace hogel::showpieces {
 
 Scene make_church_radiance(double hologram_size, const Progress& progress) {
-    return bake(make_church(hologram_size), {.rays = 96, .bounces = 4, .tessellation = 6}, progress);
+    return bake_scene(make_church(hologram_size), {.rays = 96, .bounces = 4, .tessellation = 6}, progress);
 }
 
 }  // namespace hogel::showpieces

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "showpieces/showpieces.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scenes.h"
 #include "showpieces/carve.h"
+#include "showpieces/showpieces.h"
 
 namespace hogel::showpieces {
 namespace {
@@ -153,8 +153,9 @@ Mesh stem() {
     for (std::size_t k = 0; k <= rows; ++k)
         for (std::size_t i = 0; i < columns; ++i) {
             const double w = static_cast<double>(k) / rows;
-            builder.vertex(at(angle(i), w, 1), scene::mix(scene::mix(green, brown, 1.1 * w - 0.2), {0.05f, 0.06f, 0.02f},
-                                                   0.45 - 0.45 * std::cos(5 * angle(i) + 1.2 * w)));
+            builder.vertex(at(angle(i), w, 1),
+                           scene::mix(scene::mix(green, brown, 1.1 * w - 0.2), {0.05f, 0.06f, 0.02f},
+                                      0.45 - 0.45 * std::cos(5 * angle(i) + 1.2 * w)));
         }
     const auto index = [](std::size_t i, std::size_t k) {
         return static_cast<std::uint32_t>(k * columns + i % columns);

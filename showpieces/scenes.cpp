@@ -13,7 +13,8 @@ namespace {
 
 // A row for a scene that is made at once.
 SceneInfo row(std::string name, std::string text, Scene (*make)(double)) {
-    return {std::move(name), std::move(text), [make](double hologram_size, const Progress&) { return make(hologram_size); }};
+    return {std::move(name), std::move(text),
+            [make](double hologram_size, const Progress&) { return make(hologram_size); }};
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ constexpr double size = 0.02;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Eye {
-    explicit Eye(const Scene& scene) : shaded(shade_vertices(scene)), caster(shaded.positions, triangles(shaded)) {}
+    explicit Eye(const Scene& scene)
+        : shaded(shade_scene_vertices(scene)), caster(shaded.positions, triangles(shaded)) {}
     static std::vector<std::array<std::uint32_t, 3>> triangles(const ShadedScene& scene) {
         std::vector<std::array<std::uint32_t, 3>> list;
         for (const auto& triangle : scene.triangles) list.push_back(triangle.vertices);
@@ -176,7 +177,7 @@ TEST(Builtin, what_should_be_watertight_is) {
 
 TEST(Builtin, radiances_are_those_of_a_picture) {
     for (const SceneInfo& builtin : scenes().rows()) {
-        const ShadedScene shaded = shade_vertices(make_scene(builtin.name, size));
+        const ShadedScene shaded = shade_scene_vertices(make_scene(builtin.name, size));
         float brightest = 0;
         for (const Rgb& c : shaded.radiance) brightest = std::max({brightest, c.r, c.g, c.b});
         EXPECT_GT(brightest, 0.5f) << builtin.name;
@@ -192,7 +193,7 @@ TEST(Builtin, the_size_of_the_hologram_changes_nothing_but_the_size) {
             for (std::size_t i = 0; i < small.meshes[m].positions.size(); ++i)
                 ASSERT_NEAR(length(2 * small.meshes[m].positions[i] - large.meshes[m].positions[i]), 0, 1e-12 * size);
         if (triangle_count(small) > 20000) continue;  // lighting takes its time
-        const ShadedScene a = shade_vertices(small), b = shade_vertices(large);
+        const ShadedScene a = shade_scene_vertices(small), b = shade_scene_vertices(large);
         std::size_t different = 0;  // a shadow ray that grazes an edge may go either way
         for (std::size_t i = 0; i < a.positions.size(); ++i)
             different += std::abs(a.radiance[i].r - b.radiance[i].r) > 1e-4f;

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "showpieces/showpieces.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scenes.h"
 #include "showpieces/masonry.h"
+#include "showpieces/showpieces.h"
 
 namespace hogel::showpieces {
 namespace {

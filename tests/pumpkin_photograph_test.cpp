@@ -28,8 +28,8 @@ struct Photographs {
 
     Photographs() {
         const LightFieldGrid grid{pixels, pixels, size / pixels, 32, 32, 0.15, 0.15, 3};
-        LightField light_field(grid);
-        const auto scene = std::make_shared<const ShadedScene>(shade_vertices(make_scene("pumpkin", size)));
+        LightFieldBuffer light_field(grid);
+        const auto scene = std::make_shared<const ShadedScene>(shade_scene_vertices(make_scene("pumpkin", size)));
         copy(*make_renderer("raytrace", scene, grid), light_field);
         for (const Vec3 eye : {Vec3{-25_mm, 0, 300_mm}, Vec3{20_mm, 15_mm, 300_mm}})
             for (double focus : {0_mm, 2.5_mm}) {
@@ -40,12 +40,12 @@ struct Photographs {
                 camera.picture = {pixels, pixels, size / pixels, size / pixels, 0, 0};
                 cameras.push_back(camera);
             }
-        StereogramOptions options;
+        HologramOptions options;
         options.wavelength = 532_nm;
         options.pitch = size / pixels / 32;
         options.channel = 1;
         options.looks = 16;
-        waves = photograph(*make_stereogram(light_field, options), cameras);
+        waves = photograph(*make_hologram(light_field, options), cameras);
         for (const Image& colour : photograph(light_field, cameras)) {
             Image green(pixels, pixels, 1);
             for (std::size_t i = 0; i < green.pixels.size(); ++i)
@@ -140,8 +140,8 @@ double shift_between(const Image& from, const Image& to, std::size_t row) {
     return best + 0.5 * (before - after) / (before - 2 * at + after);
 }
 
-// Between two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in waves as
-// in rays, to a fraction of a pixel.
+// Interpolation two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in
+// waves as in rays, to a fraction of a pixel.
 TEST_F(PumpkinPhotograph, has_the_parallax_that_geometric_optics_says) {
     for (std::size_t row = 60; row + 60 < pixels; row += strip) {
         const double by_waves = shift_between(photographs().waves[0], photographs().waves[2], row);

@@ -12,13 +12,13 @@
 namespace hogel::cli {
 namespace {
 
-constexpr std::size_t largest_count = std::size_t{1} << 24;  // more along one side is a slip of the finger
+constexpr std::size_t max_count = std::size_t{1} << 24;  // more along one side is a slip of the finger
 
 std::size_t parse_count(const std::string& text, const std::string& what, const char* hint) {
     const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
     if (digits && text.size() < 10) {
         const std::size_t count = std::stoul(text);
-        if (count > 0 && count <= largest_count) return count;
+        if (count > 0 && count <= max_count) return count;
     }
     throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a positive whole number{}", what, text, hint));
 }

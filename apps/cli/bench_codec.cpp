@@ -11,7 +11,7 @@
 namespace hogel::cli {
 namespace {
 
-double root_mean_square(const LightField& field) {
+double root_mean_square(const LightFieldBuffer& field) {
     double sum = 0;
     for (const float value : field.radiance.elements()) sum += static_cast<double>(value) * value;
     return std::sqrt(sum / static_cast<double>(field.radiance.size()));
@@ -44,9 +44,9 @@ std::optional<RatePoint> RateCurve::at_rate(double pixels_per_bit) const {
     return std::nullopt;
 }
 
-RateCurve measure_method(const LightField& field, const codec::CodingMethod& method, const QualityRange& range,
+RateCurve measure_method(const LightFieldBuffer& field, const codec::CodingMethod& method, const QualityRange& range,
                          const Progress& go_on) {
-    constexpr int most_points = 24;
+    constexpr int max_points = 24;
     const ThreadLimit one(1);
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.path() / "a.hgl";
@@ -57,8 +57,8 @@ RateCurve measure_method(const LightField& field, const codec::CodingMethod& met
     // An error of step/√12 where there is detail of the step's size; less where there is none.
     double step = root_mean_square(field) * std::sqrt(12.0) * std::pow(10, -range.low / 20) * 16;
     const double samples = field.grid().samples() * 1e-6;
-    LightField decoded(field.grid());
-    for (int k = 0; k < most_points; ++k, step /= 1.6) {
+    LightFieldBuffer decoded(field.grid());
+    for (int k = 0; k < max_points; ++k, step /= 1.6) {
         options.target.step = step;
         double began = processor_seconds();
         const CompressionResult result = compress(field, path, options, go_on);

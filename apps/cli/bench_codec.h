@@ -20,7 +20,7 @@ struct RateCurve {
     std::string name;
     std::vector<RatePoint> points;
 
-    /// Between the points: straight in the logarithms of all but the SQNR. Nothing where they do not reach.
+    /// Interpolation the points: straight in the logarithms of all but the SQNR. Nothing where they do not reach.
     std::optional<RatePoint> at(double sqnr) const;
     std::optional<RatePoint> at_rate(double pixels_per_bit) const;
 };
@@ -33,7 +33,7 @@ struct QualityRange {
 /// One of our coders, with steps that halve until the whole range is covered.
 /// @param go_on   asked on the way
 /// Throws Error(cancelled) once that says no.
-RateCurve measure_method(const LightField& field, const codec::CodingMethod& method, const QualityRange& range,
+RateCurve measure_method(const LightFieldBuffer& field, const codec::CodingMethod& method, const QualityRange& range,
                          const Progress& go_on);
 
 /// Coders that other programs have.
@@ -42,7 +42,7 @@ std::vector<std::string> peer_names();
 /// the others, openjpeg by its own programs and the rest by way of ffmpeg, on the hogels as pictures, row by row and
 /// back, of 10 bits for video and 16 for still pictures. Nothing where the program is not
 /// installed or lacks the coder. Throws Error(cancelled) once `go_on`, asked before each quality, says no.
-std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range,
+std::optional<RateCurve> measure_peer(const LightFieldBuffer& field, const std::string& name, const QualityRange& range,
                                       const Progress& go_on);
 
 }  // namespace hogel::cli

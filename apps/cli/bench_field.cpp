@@ -11,7 +11,7 @@ namespace hogel::cli {
 namespace {
 
 constexpr std::size_t ellipses = 28, waves = 4;
-constexpr double most_disparity = 2;
+constexpr double max_disparity = 2;
 constexpr double finest = 0.22;  // cycles a direction
 
 // Numbers from 0 to 1, one after the other.
@@ -64,8 +64,8 @@ class DenseField final : public LightFieldSource {
         for (std::size_t k = 0; k <= ellipses; ++k) {
             const bool ground = k == 0;
             Surface surface{};
-            surface.p0 = ground ? 0.25 : number.between(0.3, 0.8 * most_disparity);
-            const double slant = (ground ? 0.05 : 0.2) * most_disparity / width;
+            surface.p0 = ground ? 0.25 : number.between(0.3, 0.8 * max_disparity);
+            const double slant = (ground ? 0.05 : 0.2) * max_disparity / width;
             surface.a = number.between(-slant, slant);
             surface.b = number.between(-slant, slant);
             surface.x = number() * width;

@@ -68,7 +68,7 @@ std::string quoted(const std::filesystem::path& path) {
 // The hogels as pictures of whole numbers, row by row and back, so that neighbours follow each other.
 class Pictures {
   public:
-    Pictures(const LightField& field, bool video) : field_(field), video_(video), top_(video ? 1023 : 65535) {
+    Pictures(const LightFieldBuffer& field, bool video) : field_(field), video_(video), top_(video ? 1023 : 65535) {
         for (const float value : field.radiance.elements()) {
             peak_ = std::max(peak_, value);
             signal_ += static_cast<double>(value) * value;
@@ -145,7 +145,7 @@ class Pictures {
         return field_.radiance[0][t][t % 2 == 0 ? s : field_.grid().hogels_s - 1 - s].elements();
     }
 
-    const LightField& field_;
+    const LightFieldBuffer& field_;
     bool video_;
     int top_;
     float peak_ = 0;
@@ -159,7 +159,7 @@ double bytes_in(const std::filesystem::path& folder) {
 }
 
 // The array of floats as it is, with absolute tolerances. Axes of one sample are left out.
-std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange& range, const Progress& go_on) {
+std::optional<RateCurve> measure_zfp(const LightFieldBuffer& field, const QualityRange& range, const Progress& go_on) {
     if (!run("command -v zfp")) return std::nullopt;
     const TemporaryFolder folder;
     const std::filesystem::path raw = folder.path() / "raw", back = folder.path() / "back",
@@ -203,7 +203,8 @@ std::optional<RateCurve> measure_zfp(const LightField& field, const QualityRange
 }
 
 // The programs of OpenJPEG on a picture a hogel, with ratios to those of 16 bits.
-std::optional<RateCurve> measure_openjpeg(const LightField& field, const QualityRange& range, const Progress& go_on) {
+std::optional<RateCurve> measure_openjpeg(const LightFieldBuffer& field, const QualityRange& range,
+                                          const Progress& go_on) {
     if (!run("command -v opj_compress && command -v opj_decompress")) return std::nullopt;
     const TemporaryFolder folder;
     const std::filesystem::path plain = folder.path() / "plain", coded = folder.path() / "coded";
@@ -243,7 +244,7 @@ std::vector<std::string> peer_names() {
     return names;
 }
 
-std::optional<RateCurve> measure_peer(const LightField& field, const std::string& name, const QualityRange& range,
+std::optional<RateCurve> measure_peer(const LightFieldBuffer& field, const std::string& name, const QualityRange& range,
                                       const Progress& go_on) {
     if (name == "zfp") return measure_zfp(field, range, go_on);
     if (name == "openexr-dwaa" || name == "openexr-dwab") return measure_openexr(field, name.substr(8), range, go_on);

@@ -85,7 +85,7 @@ RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<con
         const double milliseconds = 1e3 * time_of_hogels(*source, 0.2 * limits.seconds, lit);
         for (std::size_t side = 1; side <= largest; side *= 2)
             times.curve.points.emplace_back(static_cast<double>(side), milliseconds);
-        times.bytes = most_memory_held() - before;
+        times.bytes = max_memory_held() - before;
         return times;
     }
     times.part = affordable_part(algorithm, *scene, grid, limits.seconds);
@@ -95,9 +95,9 @@ RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<con
     double last = 0;
     for (std::size_t side = 1; side <= largest; side *= 2) {
         const std::size_t rows = row_by_row ? 1 : side, hogels = side * rows;
-        constexpr double bytes_per_ray = 20, least_growth = 1.5;
+        constexpr double bytes_per_ray = 20, min_growth = 1.5;
         const double bytes = static_cast<double>(hogels * grid.directions()) * bytes_per_ray;
-        if (bytes > limits.bytes || last * least_growth > limits.seconds) break;
+        if (bytes > limits.bytes || last * min_growth > limits.seconds) break;
         LightFieldTile tile(grid, {(grid.hogels_s - side) / 2, (grid.hogels_t - rows) / 2, side, rows}, false);
         last = time_of_reading(*source, tile, lit && times.part == 1);
         // Short times are uncertain, and the first includes memory that is touched for the first time.
@@ -106,7 +106,7 @@ RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<con
         const double whole = times.part > 1 ? part * last - (part - 1) * time_of_reading(*empty, tile, false) : last;
         times.curve.points.emplace_back(static_cast<double>(side), 1e3 * whole / static_cast<double>(hogels));
     }
-    times.bytes = most_memory_held() - before;
+    times.bytes = max_memory_held() - before;
     return times;
 }
 

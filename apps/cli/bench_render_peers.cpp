@@ -80,7 +80,7 @@ Race race(const Session& session, const std::string& algorithm, const std::vecto
     HogelRows rows(*source, limits.rows);
     rows.render();
     lanes.push_back(
-        {{.name = algorithm, .bytes = most_memory_held() - before, .hogels = rows.hogels()}, {}, {}, {}, {}});
+        {{.name = algorithm, .bytes = max_memory_held() - before, .hogels = rows.hogels()}, {}, {}, {}, {}});
     for (const RenderPeerInfo& info : peers) {
         if (interrupted_by() != 0) throw Error(ErrorCode::cancelled, "stopped");
         session.detail(fmt::format("preparing {}", info.name));
@@ -91,7 +91,7 @@ Race race(const Session& session, const std::string& algorithm, const std::vecto
             lane.hogels = rows.some(affordable_hogels(*lane.peer, rows, limits.seconds));
             lane.peer->render(lane.hogels);
             lane.racer = {.name = info.name,
-                          .bytes = most_memory_held() - held,
+                          .bytes = max_memory_held() - held,
                           .hogels = lane.hogels.size(),
                           .differing = differing(rows, *lane.peer, lane.hogels, grid)};
             lanes.push_back(std::move(lane));
@@ -100,9 +100,9 @@ Race race(const Session& session, const std::string& algorithm, const std::vecto
             session.say(fmt::format("{}: left out, {}", info.name, error.what()));
             continue;
         }
-        constexpr double most_differing = 0.005;  // along edges
+        constexpr double max_differing = 0.005;  // along edges
         const Racer& racer = lanes.back().racer;
-        if (racer.differing > most_differing)
+        if (racer.differing > max_differing)
             throw Error(ErrorCode::internal, fmt::format("{} and {} see different pictures: {:.2g} % of samples",
                                                          algorithm, racer.name, 100 * racer.differing));
     }
@@ -199,8 +199,8 @@ int bench_render_peers(const BenchRenderOptions& options, const Session& session
         for (const Counts& count : hogels) {
             render.hogels = count;
             // In rows that are kept: enough that threads share them evenly, as they would the whole light field.
-            constexpr std::size_t most_hogels = 2160, most_rows = 16;
-            limits.rows = std::clamp<std::size_t>(most_hogels / count.columns, 1, most_rows);
+            constexpr std::size_t max_hogels = 2160, max_rows = 16;
+            limits.rows = std::clamp<std::size_t>(max_hogels / count.columns, 1, max_rows);
             const Race result = race(session, algorithm, peers, scene, render.grid(), limits);
             print_row(fmt::format("{}, {} triangles", name, scene->triangles.size()), render.grid(), peers, result);
             bytes = std::max(bytes, result.racers.front().bytes);

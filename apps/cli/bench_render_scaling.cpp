@@ -133,7 +133,7 @@ void print_threads(const std::string& algorithm, const std::shared_ptr<const Sha
     fmt::print(
         "Two threads are {:.2f} times as fast as one; at most {} of memory beside the scene's, with {} rows of hogels "
         "that are kept.\n\n",
-        seconds[0] / seconds[1], format_bytes(most_memory_held() - before), std::min(rows_for_threads, grid.hogels_t));
+        seconds[0] / seconds[1], format_bytes(max_memory_held() - before), std::min(rows_for_threads, grid.hogels_t));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ int bench_render_stream(const BenchRenderOptions& options, const Session& sessio
         const Times times = time_of([&] { copy(*source, sink, stage.progress()); });
         fmt::print("| {} | {:.1f} | {:.4g} | {} | {:016x} |\n", name, times.wall,
                    1e-6 * grid.samples() / static_cast<double>(grid.channels) / times.wall,
-                   format_bytes(most_memory_held()), sink.sum());
+                   format_bytes(max_memory_held()), sink.sum());
         std::fflush(stdout);
     }
     return 0;

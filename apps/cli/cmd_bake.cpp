@@ -18,15 +18,15 @@ struct Options {
 int bake_scene(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
-    require_radiance_name(options.output);
+    require_baked_scene_name(options.output);
     require_writable(options.output);
     RenderOptions place;
     place.size = options.size;
     BakeOptions bake_options = options.bake;
     bake_options.seed = session.seed;
     Stage stage(session, "baking");
-    const Scene baked = bake(load_scene(session, options.scene, place), bake_options, stage.progress());
-    write_radiance(options.output, baked);
+    const Scene baked = bake_scene(load_scene(session, options.scene, place), bake_options, stage.progress());
+    write_baked_scene(options.output, baked);
     session.say(fmt::format("{}: {} triangles, {}; render it with --as-is", options.output, triangle_count(baked),
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
     return 0;

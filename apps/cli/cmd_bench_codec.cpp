@@ -29,13 +29,13 @@ struct Options {
 };
 
 // The whole light field in memory; its colours' mean where that is asked for.
-LightField load(const LightFieldSource& source, bool grey, const Progress& progress) {
-    LightField field(source.grid());
+LightFieldBuffer load(const LightFieldSource& source, bool grey, const Progress& progress) {
+    LightFieldBuffer field(source.grid());
     copy(source, field, progress);
     if (!grey || field.grid().channels == 1) return field;
     LightFieldGrid grid = field.grid();
     grid.channels = 1;
-    LightField mean(grid);
+    LightFieldBuffer mean(grid);
     const std::size_t count = mean.radiance.size();
     const float* in = field.radiance.data();
     for (std::size_t i = 0; i < count; ++i) mean.radiance.data()[i] = (in[i] + in[count + i] + in[2 * count + i]) / 3;
@@ -99,7 +99,7 @@ int bench(const Options& options, const Session& session) {
     for (const std::string& name : options.coders)
         codec::make_tile_coder({name, std::string(codec::default_transform(name))}, source->grid());
     std::optional<Stage> reading(std::in_place, session, "reading");
-    const LightField field = load(*source, options.grey, reading->progress());
+    const LightFieldBuffer field = load(*source, options.grey, reading->progress());
     reading.reset();
     const LightFieldGrid& grid = field.grid();
     if (!options.peers.empty() && grid.channels != 1)
@@ -141,7 +141,7 @@ int bench(const Options& options, const Session& session) {
         const std::string svg =
             plot_svg({name, subtitle, "Pixels per bit", "SQNR (dB)", PlotText::Scale::linear}, drawn);
         core::write_file(folder->path() / fmt::format("codec_{}.svg", name),
-                   {reinterpret_cast<const unsigned char*>(svg.data()), svg.size()});
+                         {reinterpret_cast<const unsigned char*>(svg.data()), svg.size()});
     }
     return 0;
 }

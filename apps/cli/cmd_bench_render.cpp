@@ -98,7 +98,7 @@ int bench_regions(const BenchRenderOptions& options, const Session& session) {
     for (const std::string& name : scenes) {
         RenderOptions render = options.render;
         render.shading = bench_shading(name, options);
-        if (!options.own_spacing) render.light_spacing = 0;  // as in [K]
+        if (!options.own_spacing) render.cache_spacing = 0;  // as in [K]
         const auto scene = bench_scene(session, name, render);
         const std::string title =
             fmt::format("{}, {} triangles, shading '{}'", name, scene->triangles.size(), render.shading);
@@ -155,7 +155,7 @@ std::shared_ptr<const ShadedScene> bench_scene(const Session& session, const std
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", plain));
     Scene scene = behind(load_scene(session, plain, render), 0.05 * render.size);
     if (parts != 1) scene = scene::tessellate(scene, parts);
-    return lit(session, scene, render);
+    return shade_scene(session, scene, render);
 }
 
 void add_bench_render(CLI::App& app, Session& session) {
@@ -185,10 +185,10 @@ void add_bench_render(CLI::App& app, Session& session) {
         ->type_name("NAME");
     CLI::Option* spacing =
         command
-            ->add_option("--light-spacing", options->render.light_spacing,
+            ->add_option("--cache-spacing", options->render.cache_spacing,
                          fmt::format("As hogel render has it, where light depends on the point; 0, anew for each ray, "
                                      "if none is given, but {:g} with --scaling and --stream",
-                                     defaults.light_spacing))
+                                     defaults.cache_spacing))
             ->type_name("F")
             ->check(CLI::Range(0.0, 16.0).description(""));
     add_count(command, "--largest", options->limits.side, "Largest side of a region, in hogels");

@@ -25,7 +25,7 @@ struct Options {
 };
 
 const std::map<std::string, coding::QuantisationTable> tables{{"jpeg", coding::QuantisationTable::jpeg},
-                                                      {"own", coding::QuantisationTable::own}};
+                                                              {"own", coding::QuantisationTable::own}};
 const std::vector<std::string> tones{"none", "histogram"};
 const std::vector<std::string> layouts{"faces", "unfolded"};
 
@@ -105,9 +105,9 @@ void add_compress(CLI::App& app, Session& session) {
         ->type_name("NAME")
         ->capture_default_str();
     command
-        ->add_option(
-            "--transform", method.transform,
-            fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform::transform_names(), ", ")))
+        ->add_option("--transform", method.transform,
+                     fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d",
+                                 fmt::join(transform::transform_names(), ", ")))
         ->type_name("NAME");
     command
         ->add_option("--table", options->table,

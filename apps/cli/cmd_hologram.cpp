@@ -14,7 +14,7 @@ namespace {
 struct Options {
     std::string input, output;
     RenderOptions render;
-    HologramOptions hologram;
+    HologramChoices hologram;
     bool half = false, resume = false;
 
     HologramFileOptions file(const Session& session) const {
@@ -35,15 +35,15 @@ void say_what_was_made(const Options& options, const std::vector<FieldGrid>& gri
 // Said, not refused: it shows only where things are deep.
 void warn_of_parallax(const Session& session, const LightFieldSource& light_field, double pitch) {
     const double parallax = hologram::neighbouring_parallax(light_field, pitch);
-    if (parallax <= hologram::most_parallax) return;
+    if (parallax <= hologram::max_parallax) return;
     const LightFieldGrid& grid = light_field.grid();
     const auto enough = [&](std::size_t count) {
-        return std::ceil(static_cast<double>(count) * parallax / hologram::most_parallax);
+        return std::ceil(static_cast<double>(count) * parallax / hologram::max_parallax);
     };
     session.say(
         fmt::format("neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap "
                     "well up to {:.0f}; {}x{} directions would do",
-                    parallax, hologram::most_parallax, enough(grid.directions_u), enough(grid.directions_v)));
+                    parallax, hologram::max_parallax, enough(grid.directions_u), enough(grid.directions_v)));
 }
 
 // The field of a scene by a method that knows no light fields.
@@ -65,8 +65,8 @@ int straight_from_scene(const Options& options, const SceneMethod& method, const
                          wavelength});
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
     RenderOptions render = options.render;
-    render.light_spacing = 0;  // in parts of a ray's width, and there are no rays
-    const auto scene = lit(session, load_scene(session, options.input, render), render);
+    render.cache_spacing = 0;  // in parts of a ray's width, and there are no rays
+    const auto scene = shade_scene(session, load_scene(session, options.input, render), render);
     const auto sinks = create_hologram(options.output, grids, options.file(session));
     SceneHologramOptions how;
     how.seed = session.seed;

@@ -18,7 +18,7 @@ namespace {
 struct Options {
     std::string scene, output;
     RenderOptions render;
-    HologramOptions hologram;
+    HologramChoices hologram;
     double eye_distance = defaults.eye_distance;
     double pupil = defaults.pupil;
     std::size_t resolution = defaults.resolution;

@@ -18,7 +18,7 @@ namespace {
 struct Options {
     std::string input, output;
     RenderOptions render;
-    HologramOptions hologram;
+    HologramChoices hologram;
     FieldOptions field;
     CameraOptions view;
     std::size_t looks = defaults.looks;
@@ -33,7 +33,8 @@ struct Options {
     std::optional<FullCameraOptions> full() const {
         if (camera != "full") return {};
         return FullCameraOptions{
-            {.memory = Scratch().memory, .folder = std::filesystem::absolute(output).parent_path()}, film_distance};
+            {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
+            film_distance};
     }
 };
 
@@ -102,7 +103,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
 
 int photo(const Options& options, const Session& session) {
     const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
-    const bool foreign = is_foreign(options.input, options.field);
+    const bool foreign = is_external(options.input, options.field);
     const InputKind kind = foreign ? InputKind::hologram : input_kind(options.input);
     const bool movie = options.view.frames > 1;
     movie ? require_movie(options.output) : require_picture_name(options.output);

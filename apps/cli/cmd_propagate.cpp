@@ -59,7 +59,7 @@ int propagate_fields(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a picture takes one or three",
                                                       options.input, file.fields.size()));
     // What does not fit into memory lies beside the output.
-    const Scratch scratch{Scratch().memory, std::filesystem::absolute(options.output).parent_path()};
+    const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
     Metadata metadata = describe_run(session);
     std::vector<FieldGrid> grids;
     for (const auto& field : file.fields) grids.push_back(field->grid());

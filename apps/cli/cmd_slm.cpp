@@ -35,7 +35,7 @@ int slm(const Options& options, const Session& session) {
     pattern_options.encoding = encodings().at(options.encoding);
     pattern_options.modulator = modulator_of(options);
     pattern_options.seed = session.seed;
-    require_levels_name(options.output);
+    require_raw_pixels_name(options.output);
     require_writable(options.output);
     if (input_kind(options.input) != InputKind::hologram)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
@@ -63,7 +63,7 @@ int slm(const Options& options, const Session& session) {
         session.say(line);
         metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
     }
-    write_levels(options.output, levels, metadata);
+    write_raw_pixels(options.output, levels, metadata);
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
                             format_length(modulator.pitch)));
     return 0;

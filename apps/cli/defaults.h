@@ -16,7 +16,7 @@ struct Defaults {
     std::string_view algorithm = "epi";
     std::string_view shading = "vertex";
     std::size_t shadow_map = 512;  ///< texels along a side of each of the six faces around a lamp
-    double light_spacing = 0.25;   ///< of points where light is worked out, in parts of a ray's width on the surface
+    double cache_spacing = 0.25;   ///< of points where light is worked out, in parts of a ray's width on the surface
     double size = 20_mm;           ///< side of the hologram
     std::size_t hogels = 400, directions = 32;
     double field_of_view = 16_deg;  ///< full angle, 2θ

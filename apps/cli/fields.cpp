@@ -28,10 +28,10 @@ void add_field_options(CLI::App* command, FieldOptions& options) {
     command->add_flag("--conjugate", options.conjugate, "Its waves go as e^(+iwt)")->group(group);
 }
 
-bool is_foreign(const std::string& name, const FieldOptions& options) {
+bool is_external(const std::string& name, const FieldOptions& options) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(name, status)) return false;
-    if (is_foreign_array(name)) return true;
+    if (is_external_array(name)) return true;
     return (!options.values.empty() || !options.imaginary.empty()) && file_kind(name) == FileKind::picture;
 }
 
@@ -39,7 +39,7 @@ HologramFile open_fields(const std::string& name, const FieldOptions& options, c
                          const std::vector<double>& wavelengths) {
     const bool pitch_given = command->get_option("--pitch")->count() > 0,
                wavelength_given = command->get_option("--wavelength")->count() > 0;
-    if (!is_foreign(name, options)) {
+    if (!is_external(name, options)) {
         if (pitch_given || wavelength_given)
             throw Error(ErrorCode::usage, fmt::format("{}: {} comes from the file itself", name,
                                                       pitch_given ? "--pitch" : "--wavelength"));
@@ -48,17 +48,17 @@ HologramFile open_fields(const std::string& name, const FieldOptions& options, c
     if (!pitch_given || !wavelength_given || wavelengths.size() != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("{}: does not say how it is sampled; give --pitch and one --wavelength", name));
-    ForeignField what;
+    ExternalField what;
     what.pitch_x = what.pitch_y = pitch;
     what.wavelength = wavelengths.front();
-    what.values = options.values == "phase"       ? ForeignField::Values::phase
-                  : options.values == "amplitude" ? ForeignField::Values::amplitude
-                                                  : ForeignField::Values::complex;
+    what.values = options.values == "phase"       ? ExternalField::RayValues::phase
+                  : options.values == "amplitude" ? ExternalField::RayValues::amplitude
+                                                  : ExternalField::RayValues::complex;
     what.imaginary = options.imaginary;
     what.variable = options.variable;
     what.conjugate = options.conjugate;
     HologramFile file;
-    file.fields.push_back(open_foreign_field(name, what));
+    file.fields.push_back(open_external_field(name, what));
     return file;
 }
 

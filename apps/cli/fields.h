@@ -13,7 +13,7 @@ struct FieldOptions {
 void add_field_options(CLI::App* command, FieldOptions& options);
 
 /// Whether a name is that of another program's field: an array, or a picture that was said to be one.
-bool is_foreign(const std::string& name, const FieldOptions& options);
+bool is_external(const std::string& name, const FieldOptions& options);
 
 /// A hologram, or another program's field with the --pitch and the one --wavelength that `command` was given. Throws
 /// Error(usage) where they are missing, or given for a hologram, which has its own.

@@ -48,21 +48,22 @@ Tangents tangents(double field_of_view, double toward) {
 // What the user calls a method or its phases, and the library's word for it.
 const std::map<std::string, Method> methods{
     {"fourier", Method::fourier}, {"basis", Method::basis}, {"olas", Method::overlap_add}};
-const std::map<std::string, Average> averages{{"radiance", Average::radiance}, {"amplitude", Average::amplitude}};
+const std::map<std::string, LobeAverage> averages{{"radiance", LobeAverage::radiance},
+                                                  {"amplitude", LobeAverage::amplitude}};
 const std::map<std::string, Phases> phases{{"random", Phases::random},
                                            {"fixed", Phases::fixed},
                                            {"designed", Phases::designed},
-                                           {"phase-added", Phases::added},
-                                           {"phase-added-exact", Phases::added_exactly}};
+                                           {"phase-added", Phases::phase_added},
+                                           {"phase-added-exact", Phases::phase_added_exact}};
 
-Phases phases_of(const HologramOptions& options) {
+Phases phases_of(const HologramChoices& options) {
     if (!options.phase.empty()) return phases.at(options.phase);
     return methods.at(options.method) == Method::basis ? Phases::fixed : Phases::random;
 }
 
-StereogramOptions stereogram_options(const LightFieldGrid& light_field, const HologramOptions& options,
-                                     double wavelength) {
-    StereogramOptions stereogram;
+HologramOptions stereogram_options(const LightFieldGrid& light_field, const HologramChoices& options,
+                                   double wavelength) {
+    HologramOptions stereogram;
     stereogram.wavelength = wavelength;
     stereogram.pitch = options.pitch;
     stereogram.channel = light_field.channels == 1 ? 0 : colour_of(wavelength);
@@ -126,7 +127,7 @@ void add_render_options(CLI::App* command, RenderOptions& options) {
               ->capture_default_str());
     group(add_count(command, "--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map"));
     group(command
-              ->add_option("--light-spacing", options.light_spacing,
+              ->add_option("--cache-spacing", options.cache_spacing,
                            "Of the points of a surface at which light is worked out, in parts of the width of a ray "
                            "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
               ->type_name("F")
@@ -179,11 +180,11 @@ void add_frequencies_option(CLI::App* command, RenderOptions& options) {
         ->excludes("--toward");
 }
 
-void add_hologram_options(CLI::App* command, HologramOptions& options) {
+void add_hologram_options(CLI::App* command, HologramChoices& options) {
     const auto group = [](CLI::Option* option) { option->group("Hologram"); };
     group(add_wavelengths(command, options.wavelengths));
     group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
-    group(add_length(command, "--lines", options.lines,
+    group(add_length(command, "--line-pitch", options.lines,
                      "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions"));
     group(command
               ->add_option("--method", options.method,
@@ -224,7 +225,7 @@ void add_hologram_options(CLI::App* command, HologramOptions& options) {
               ->capture_default_str());
 }
 
-void add_scene_hologram_options(CLI::App* command, HologramOptions& options) {
+void add_scene_hologram_options(CLI::App* command, HologramChoices& options) {
     std::string names;
     std::vector<std::string> known;
     for (const auto& [name, method] : methods) known.push_back(name);
@@ -283,18 +284,19 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
     return scene;
 }
 
-std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options) {
+std::shared_ptr<const ShadedScene> shade_scene(const Session& session, const Scene& scene,
+                                               const RenderOptions& options) {
     ShadingOptions shading;
     shading.model = shading_model(options.shading);
     shading.shadow_map = options.shadow_map;
     if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     Stage stage(session, "lighting");
-    auto shaded = std::make_shared<ShadedScene>(shade(scene, shading, stage.progress()));
+    auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, shading, stage.progress()));
     shaded->fronts_only = options.fronts_only;
-    if (options.light_spacing > 0)
-        shading::cache_light(*shaded,
-                    render::light_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.light_spacing));
+    if (options.cache_spacing > 0)
+        shading::cache_light(*shaded, render::cache_spacing(*shaded, finer(options.grid(), options.samples_per_ray()),
+                                                            options.cache_spacing));
     if (const auto& cache = shaded->light_cache)
         session.detail(fmt::format("light on surfaces: at most {}; no room for that of {} of {} triangles",
                                    format_bytes(cache->bytes()), cache->triangles_without_room(),
@@ -304,12 +306,13 @@ std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scen
 
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
                                                    const RenderOptions& options) {
-    return make_renderer(options.algorithm, lit(session, scene, options), options.grid(), options.samples_per_ray());
+    return make_renderer(options.algorithm, shade_scene(session, scene, options), options.grid(),
+                         options.samples_per_ray());
 }
 
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
                                                                       const RenderOptions& options) {
-    const std::shared_ptr<const ShadedScene> shaded = lit(session, scene, options);
+    const std::shared_ptr<const ShadedScene> shaded = shade_scene(session, scene, options);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
     for (const LightFieldGrid& grid : options.grids())
         faces.push_back(make_renderer(options.algorithm, shaded, grid, options.samples_per_ray()));
@@ -322,7 +325,7 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
     return render_on_demand(session, load_scene(session, name, options), options);
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramOptions& hologram) {
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramChoices& hologram) {
     if (methods.at(hologram.method) == Method::basis && is_stream(name)) {
         const StreamInfo info = read_stream_info(name);
         const codec::CodingMethod& stored = info.method;
@@ -344,8 +347,8 @@ std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Sessio
     return render_faces_on_demand(session, load_scene(session, name, options), options);
 }
 
-bool needs_depth(const HologramOptions& options) {
-    StereogramOptions stereogram;
+bool needs_depth(const HologramChoices& options) {
+    HologramOptions stereogram;
     stereogram.method = methods.at(options.method);
     stereogram.phases = phases_of(options);
     return needs_depth(stereogram);
@@ -358,12 +361,12 @@ std::vector<std::unique_ptr<LightFieldSource>> render_for_reading(const Session&
     for (const auto& face : faces) samples += face->grid().samples();
     if (times == 1 || samples * sizeof(float) > kept_bytes) {
         for (auto& face : faces)
-            face = keep_tiles(std::move(face), kept_tile_bytes / static_cast<double>(faces.size()), with_depth);
+            face = cached_tiles(std::move(face), kept_tile_bytes / static_cast<double>(faces.size()), with_depth);
         return faces;
     }
     Stage stage(session, "rendering");
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        auto light_field = std::make_unique<LightField>(faces[i]->grid(), with_depth);
+        auto light_field = std::make_unique<LightFieldBuffer>(faces[i]->grid(), with_depth);
         copy(*faces[i], *light_field, stage.progress(i, faces.size()));
         faces[i] = std::move(light_field);
     }
@@ -376,27 +379,27 @@ std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldS
     return grids;
 }
 
-void require_holograms(std::span<const LightFieldGrid> faces, const HologramOptions& options,
+void require_holograms(std::span<const LightFieldGrid> faces, const HologramChoices& options,
                        std::span<const Camera> cameras) {
     // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
     const double shortest = *std::ranges::min_element(options.wavelengths);
-    const FieldGrid hologram = stereogram_grid(faces, stereogram_options(faces.front(), options, shortest));
+    const FieldGrid hologram = hologram_grid(faces, stereogram_options(faces.front(), options, shortest));
     require_photographs(hologram, cameras);
     for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
 
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
                                                          std::span<const std::unique_ptr<LightFieldSource>> faces,
-                                                         const HologramOptions& options, std::size_t looks) {
+                                                         const HologramChoices& options, std::size_t looks) {
     std::vector<const LightFieldSource*> sources;
     for (const auto& face : faces) sources.push_back(face.get());
     std::vector<std::unique_ptr<FieldSource>> holograms;
     for (const double wavelength : options.wavelengths) {
-        StereogramOptions stereogram = stereogram_options(faces.front()->grid(), options, wavelength);
+        HologramOptions stereogram = stereogram_options(faces.front()->grid(), options, wavelength);
         stereogram.looks = looks;
         stereogram.seed = session.seed;
-        holograms.push_back(options.coefficients ? make_stereogram_of_coefficients(*sources.front(), stereogram)
-                                                 : make_stereogram(sources, stereogram));
+        holograms.push_back(options.coefficients ? make_hologram_of_coefficients(*sources.front(), stereogram)
+                                                 : make_hologram(sources, stereogram));
     }
     return holograms;
 }

@@ -26,7 +26,7 @@ struct RenderOptions {
     std::string algorithm{defaults.algorithm};
     std::string shading{defaults.shading};
     std::size_t shadow_map = defaults.shadow_map;
-    double light_spacing = defaults.light_spacing;
+    double cache_spacing = defaults.cache_spacing;
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
     Counts samples{1, 1};  ///< of a ray: along a hogel, along a direction's cell
@@ -52,7 +52,7 @@ void add_hemicube_option(CLI::App* command, RenderOptions& options);
 void add_frequencies_option(CLI::App* command, RenderOptions& options);
 
 /// How a light field becomes a hologram.
-struct HologramOptions {
+struct HologramChoices {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
     std::string method = "fourier";
@@ -65,9 +65,9 @@ struct HologramOptions {
     double lines = 0;           ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
     bool coefficients = false;  ///< whether the light field holds coefficients of `basis` instead of radiances
 };
-void add_hologram_options(CLI::App* command, HologramOptions& options);
+void add_hologram_options(CLI::App* command, HologramChoices& options);
 /// More of them, for methods that make the hologram of a scene without a light field.
-void add_scene_hologram_options(CLI::App* command, HologramOptions& options);
+void add_scene_hologram_options(CLI::App* command, HologramChoices& options);
 
 /// What the user may name as the input of a command: a light field, a hologram, or a scene (a built-in one or a mesh
 /// file). Throws Error(usage) for an unknown scene and Error(bad_input) for a file that is missing or none of these.
@@ -77,9 +77,10 @@ InputKind input_kind(const std::string& name);
 /// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), lit.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
 
-/// A scene with its light, which unless light_spacing is 0 is kept on the surfaces for rays of the options' light
+/// A scene with its light, which unless cache_spacing is 0 is kept on the surfaces for rays of the options' light
 /// field.
-std::shared_ptr<const ShadedScene> lit(const Session& session, const Scene& scene, const RenderOptions& options);
+std::shared_ptr<const ShadedScene> shade_scene(const Session& session, const Scene& scene,
+                                               const RenderOptions& options);
 
 /// The light field of a scene, rendered where it is read.
 std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
@@ -91,7 +92,7 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
 
 /// All faces of a light field in a file, or coefficients instead where a compressed one has those of the basis fringes
 /// that are asked for, which the options then say.
-std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramOptions& hologram);
+std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramChoices& hologram);
 
 /// All faces of a light field that is rendered where it is read, the front first; or those of either kind.
 std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
@@ -100,7 +101,7 @@ std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Sessio
                                                                     const RenderOptions& options);
 
 /// Whether holograms like this need the depth of every ray.
-bool needs_depth(const HologramOptions& options);
+bool needs_depth(const HologramChoices& options);
 
 /// Faces of a light field that will be read so many times in tiles that suit the reader, such as holograms, which read
 /// it once a colour: rendered in tiles that suit the renderer, and kept, whole and before, where there are several
@@ -113,13 +114,13 @@ std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldS
 
 /// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
 /// photograph them: too coarse a pitch, say. To be asked before the work begins.
-void require_holograms(std::span<const LightFieldGrid> faces, const HologramOptions& options,
+void require_holograms(std::span<const LightFieldGrid> faces, const HologramChoices& options,
                        std::span<const Camera> cameras = {});
 
 /// One hologram a wavelength, made from the light field where it is read.
 std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
                                                          std::span<const std::unique_ptr<LightFieldSource>> faces,
-                                                         const HologramOptions& options, std::size_t looks);
+                                                         const HologramChoices& options, std::size_t looks);
 
 /// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With options for it by the
 /// full chain of plane waves, otherwise by the narrow band.

@@ -6,9 +6,9 @@
 
 #include "commands.h"
 #include "help.h"
-#include "hogel/version.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/version.h"
 #include "session.h"
 
 namespace {

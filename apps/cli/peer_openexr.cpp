@@ -23,7 +23,7 @@ constexpr const char* file_name = "a.exr";  // of a file in memory
 // room.
 class Sheet {
   public:
-    explicit Sheet(const LightField& field)
+    explicit Sheet(const LightFieldBuffer& field)
         : spec_(static_cast<int>(field.grid().hogels_s * field.grid().directions_u),
                 static_cast<int>(field.grid().hogels_t * field.grid().directions_v), channels, OIIO::TypeDesc::FLOAT) {
         spec_.channelnames = {"Y", "A"};
@@ -66,7 +66,7 @@ class Sheet {
 
 }  // namespace
 
-std::optional<RateCurve> measure_openexr(const LightField& field, const std::string& compression,
+std::optional<RateCurve> measure_openexr(const LightFieldBuffer& field, const std::string& compression,
                                          const QualityRange& range, const Progress& go_on) {
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);

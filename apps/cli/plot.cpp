@@ -41,7 +41,7 @@ struct Range {
     }
 };
 
-// Values to pixels.
+// RayValues to pixels.
 struct Axes {
     PlotText::Scale scale;
     Range x, y;  // log2; log10 or tens

@@ -26,7 +26,7 @@ double kilobytes(const char* path, const std::string& name) {
 
 double memory_held() { return kilobytes("/proc/self/status", "VmRSS"); }
 
-double most_memory_held() { return kilobytes("/proc/self/status", "VmHWM"); }
+double max_memory_held() { return kilobytes("/proc/self/status", "VmHWM"); }
 
 double forget_most_memory() {
     malloc_trim(0);

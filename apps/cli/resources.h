@@ -5,7 +5,7 @@ namespace hogel::cli {
 /// How much memory the program holds at present, and has held at most since it began or was last asked to forget; in
 /// bytes.
 double memory_held();
-double most_memory_held();
+double max_memory_held();
 /// Counts the most anew from now on, and returns what is held. Memory that is free goes back to the system first.
 double forget_most_memory();
 

@@ -24,7 +24,7 @@ struct BakeOptions {
 /// surface, so it is worked out before the triangles are cut, and direct light after.
 ///
 /// The same bytes for any number of threads. Cost: vertices × rays × (1 + bounces/8) rays, and a shadow ray a light for
-/// each vertex of the cut triangles. Throws what shade() throws, and Error(usage) for zero rays or parts.
-Scene bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
+/// each vertex of the cut triangles. Throws what shade_scene() throws, and Error(usage) for zero rays or parts.
+Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
 }  // namespace hogel

@@ -47,8 +47,8 @@ struct CompressionResult {
     double depth_error = 0;         ///< metres
 };
 
-/// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads; memory: some tiles a thread.
-/// The step that meets the target is found by coding, first some of the tiles and then all, until
+/// RawPixels a light field into a .hgl stream (docs/format.md), tile by tile on all threads; memory: some tiles a
+/// thread. The step that meets the target is found by coding, first some of the tiles and then all, until
 ///   an SQNR is met or exceeded by at most 0.1 dB,
 ///   or the rate is met: what is missing to it to the byte, less than half a per cent but for light fields of few
 ///   samples, is filled up with what says nothing, or cut off where the coder is embedded.
@@ -66,7 +66,6 @@ CompressionResult compress(const LightFieldSource& source, const std::filesystem
 CompressionResult compress(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});
 
-
 /// What the header of a compressed light field (.hgl, docs/format.md) says.
 struct StreamInfo {
     LightFieldGrid grid;
@@ -75,9 +74,9 @@ struct StreamInfo {
     Metadata metadata;
     std::vector<LightFieldGrid> sides = {};  ///< further faces of a hemicube, whose front is `grid`
     codec::format::StreamLayout layout = codec::format::StreamLayout::faces;
-    codec::format::RadianceMapping mapping = {};            ///< of what is coded
+    codec::format::Companding mapping = {};         ///< of what is coded
     std::uint32_t version = codec::latest_version;  ///< of the format
-    std::uint64_t filler = 0;                ///< bytes that say nothing, so that the file is as long as was asked for
+    std::uint64_t filler = 0;  ///< bytes that say nothing, so that the file is as long as was asked for
     /// How often the file gets finer: where each layer of all tiles ends in it, the last one at its end. Older versions
     /// have a single one.
     std::vector<std::uint64_t> layer_ends = {};

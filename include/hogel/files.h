@@ -41,7 +41,7 @@ struct LightFieldFileOptions {
 
 /// The file gets its own name when finish() is called; before that it is a temporary beside it, removed when the sink
 /// is destroyed unfinished. Room on the disk is taken at once, so a disk that is too small shows before the work.
-/// Values beyond 65504 are infinite in half floats. Throws Error(cannot_write).
+/// RayValues beyond 65504 are infinite in half floats. Throws Error(cannot_write).
 std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
                                                    const LightFieldFileOptions& options = {});
 
@@ -87,16 +87,15 @@ struct FileSummary {
 };
 FileSummary summarize(const std::filesystem::path& path);
 
-
 /// What a file from another program does not say of the field that is in it.
-struct ForeignField {
+struct ExternalField {
     double pitch_x = 0, pitch_y = 0;  ///< metres between samples
     double wavelength = 0;            ///< metres
 
     /// What its numbers are: complex values; amplitudes of phase zero; or phases of amplitude one, radians where they
     /// are floating point numbers and 2π·code/levels where they are whole ones.
-    enum class Values { complex, amplitude, phase };
-    Values values = Values::complex;
+    enum class RayValues { complex, amplitude, phase };
+    RayValues values = RayValues::complex;
 
     std::filesystem::path imaginary;  ///< a picture of the imaginary parts, for pictures of real parts
     std::string variable;             ///< which array of a MAT file; may be empty where it holds one alone
@@ -108,10 +107,10 @@ struct ForeignField {
 /// middle of the array lies at x = y = 0. NPY files are read where they are asked for; others are read whole. Throws
 /// Error(bad_input) for anything damaged or of another kind, and Error(usage) where it was not said what its numbers
 /// are.
-std::unique_ptr<FieldSource> open_foreign_field(const std::filesystem::path& path, const ForeignField& what);
+std::unique_ptr<FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what);
 
-/// Whether a file is an array that open_foreign_field() reads, by its first bytes.
-bool is_foreign_array(const std::filesystem::path& path);
+/// Whether a file is an array that open_external_field() reads, by its first bytes.
+bool is_external_array(const std::filesystem::path& path);
 
 /// Writes samples[y][x] as an array of complex64 in NumPy's format. The file gets its name when it is complete. Throws
 /// Error(cannot_write).

@@ -34,7 +34,6 @@ struct Rgb {
     friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-
 /// The samples of a plane parallel to the hologram, as a picture seen by the viewer: column 0 at the left, row 0 at the
 /// top. Count, pitch and position travel together.
 struct Grid {

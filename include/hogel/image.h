@@ -51,12 +51,12 @@ Image decode_image(std::span<const unsigned char> bytes, const std::string& name
                    std::size_t max_pixels = std::size_t{1} << 28);
 
 /// What a picture says as numbers and not as light, a number a pixel: values[y][x] as they stand in the file.
-struct Codes {
+struct RawPixels {
     Array<float, 2> values;
     std::size_t levels = 0;  ///< 256 or 65536 for whole numbers below that, 0 for floating point ones
 };
 /// Throws as read_image() does, and for a picture whose colours differ.
-Codes read_codes(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
+RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// The words that a picture file carries, those of write_image() and of other programs; a TIFF file keeps them as lines
 /// of its "ImageDescription". Throws as read_image() does.
@@ -64,7 +64,6 @@ Metadata read_metadata(const std::filesystem::path& path);
 
 /// The exposure that brings the brightest parts (the 99.5th percentile of the largest channel) to display white.
 double automatic_exposure(const Image& image);
-
 
 /// How alike two pictures are. PSNR and SSIM are taken on display values: sRGB of the linear values times the exposure,
 /// clamped to 0..1, because that is what an eye compares.
@@ -78,13 +77,13 @@ struct ImageComparison {
 /// Throws Error(bad_input) for pictures of different size.
 ImageComparison compare(const Image& a, const Image& b, double exposure = 1);
 
-
 /// Writes levels[y][x][c] of 8 bits as they are, with no transfer curve between: what a device is to show. One channel
 /// or three; .png, .bmp or .tif by the name. Written to a temporary name and renamed. Throws Error(cannot_write), or
 /// Error(usage) for another extension.
-void write_levels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels, const Metadata& metadata = {});
+void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels,
+                      const Metadata& metadata = {});
 
-/// Throws Error(usage) for a name that write_levels() would refuse.
-void require_levels_name(const std::filesystem::path& path);
+/// Throws Error(usage) for a name that write_raw_pixels() would refuse.
+void require_raw_pixels_name(const std::filesystem::path& path);
 
 }  // namespace hogel

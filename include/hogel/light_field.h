@@ -60,7 +60,6 @@ constexpr Vec3 from_face(Face face, Vec3 q) {
     return q;
 }
 
-
 /// In what a light field's directions are uniform.
 enum class Spacing {
     tangents,  ///< U and V, as in a picture in perspective
@@ -94,9 +93,9 @@ struct LightFieldGrid {
     double row(double V) const { return (0.5 * static_cast<double>(directions_v) - 0.5) - (V - center_v) / step_v(); }
     /// The way along the ray (U, V) as (x, y, ζ), one step forward as the face looks: (U, V, 1) for the front;
     /// nought where sines are those of no ray.
-    Vec3 along(double U, double V) const;
+    Vec3 direction_of(double U, double V) const;
     /// Whether the way (x, y, ζ) from a hogel is one of the directions, or in the cell around one.
-    bool sees(Vec3 way) const;
+    bool covers(Vec3 way) const;
     std::size_t directions() const { return directions_u * directions_v; }
     std::size_t hogels() const { return hogels_s * hogels_t; }
     double samples() const { return static_cast<double>(channels * directions()) * static_cast<double>(hogels()); }
@@ -178,9 +177,9 @@ class LightFieldSink {
 };
 
 /// A light field that is whole in memory: source and sink.
-class LightField final : public LightFieldSource, public LightFieldSink {
+class LightFieldBuffer final : public LightFieldSource, public LightFieldSink {
   public:
-    explicit LightField(const LightFieldGrid& grid, bool with_depth = false);
+    explicit LightFieldBuffer(const LightFieldGrid& grid, bool with_depth = false);
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return depth.size() > 0; }
     View<const float, 5> in_memory() const override { return radiance.view(); }
@@ -199,12 +198,11 @@ class LightField final : public LightFieldSource, public LightFieldSink {
 /// thread. Calls finish().
 void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
 
-
 /// The same light field, for readers whose tiles suit the source badly, such as narrow ones of a renderer that is fast
 /// in long rows: it is read in tiles that suit, and those used last are kept, `bytes` of them at most. Where the tiles
 /// that a reader asks for would not fit, it reads from the source itself. Depths are kept if `with_depth`, else read
 /// from the source.
-std::unique_ptr<LightFieldSource> keep_tiles(std::unique_ptr<LightFieldSource> source, double bytes,
-                                             bool with_depth = false);
+std::unique_ptr<LightFieldSource> cached_tiles(std::unique_ptr<LightFieldSource> source, double bytes,
+                                               bool with_depth = false);
 
 }  // namespace hogel

@@ -7,9 +7,9 @@
 
 #include "hogel/array.h"
 #include "hogel/camera.h"
-#include "hogel/resources.h"
 #include "hogel/field.h"
 #include "hogel/image.h"
+#include "hogel/resources.h"
 
 namespace hogel {
 
@@ -40,7 +40,7 @@ void require_light_towards(const FieldGrid& hologram, const Camera& camera);
 
 /// What the full camera can be told besides its cameras.
 struct FullCameraOptions {
-    Scratch scratch;
+    ScratchOptions scratch;
     /// Metres from a thin lens ([K] 6.12) to a film parallel to it, with the focal length that the lens equation asks
     /// for: what spherical aberration, coma and astigmatism such a lens has, the picture shows. 0: a perfect lens.
     double film_distance = 0;

@@ -9,8 +9,8 @@
 
 namespace hogel {
 
-/// How a caller follows and stops long work: the last argument of every verb. Work asks often, inside its parallel loops
-/// too, whether it is to stop, and then throws Error(cancelled) within a second.
+/// How a caller follows and stops long work: the last argument of every verb. Work asks often, inside its parallel
+/// loops too, whether it is to stop, and then throws Error(cancelled) within a second.
 class Progress {
   public:
     /// Receives the fraction done, 0..1, now and then, on one thread at a time. Returns false to stop the work.
@@ -38,9 +38,7 @@ class Progress {
     const std::stop_token& stop() const { return stop_; }
 
     /// Tells the callback, and returns whether to go on.
-    bool operator()(double fraction) const {
-        return !stop_.stop_requested() && (!callback_ || callback_(fraction));
-    }
+    bool operator()(double fraction) const { return !stop_.stop_requested() && (!callback_ || callback_(fraction)); }
     /// The same, but throws Error(cancelled) where the work is to stop.
     void report(double fraction) const {
         if (!(*this)(fraction)) throw Error(ErrorCode::cancelled, "stopped on request");
@@ -54,7 +52,8 @@ class Progress {
     }
     /// For part i of n equal ones.
     Progress part(std::size_t i, std::size_t n) const {
-        return part(static_cast<double>(i) / static_cast<double>(n), static_cast<double>(i + 1) / static_cast<double>(n));
+        return part(static_cast<double>(i) / static_cast<double>(n),
+                    static_cast<double>(i + 1) / static_cast<double>(n));
     }
 
   private:

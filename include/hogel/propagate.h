@@ -12,7 +12,7 @@ namespace hogel {
 Field propagate(const FieldSource& field, double distance, std::size_t look = 0);
 
 /// The same from a source to a sink, with what does not fit into memory in a file.
-void propagate(const FieldSource& field, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
-               const Progress& progress = {});
+void propagate(const FieldSource& field, double distance, FieldSink& sink, std::size_t look,
+               const ScratchOptions& scratch, const Progress& progress = {});
 
 }  // namespace hogel

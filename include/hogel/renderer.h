@@ -11,7 +11,7 @@ namespace hogel {
 struct RendererInfo {
     std::string_view name;
     std::string_view description;  ///< one line
-    bool straddles = true;         ///< whether it renders scenes that are not wholly behind the hologram plane
+    bool crosses_plane = true;     ///< whether it renders scenes that are not wholly behind the hologram plane
 };
 
 /// The renderers that make_renderer knows.
@@ -22,7 +22,6 @@ std::span<const RendererInfo> renderers();
 /// a scene that is not wholly behind the hologram plane where the renderer does not straddle.
 std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                                 const LightFieldGrid& grid);
-
 
 /// So many samples along each side of a hogel, and along each side of the cell around a direction: hogel² · direction²
 /// for each ray, on a regular grid.
@@ -46,9 +45,8 @@ std::unique_ptr<LightFieldSource> average(std::unique_ptr<LightFieldSource> fine
 std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                                 const LightFieldGrid& grid, const SamplesPerRay& samples);
 
-
 /// What a renderer allocates to render a region of hogels at once, besides the tile that takes its values: the depth
-/// buffer of `simplex`, `simplex-strip`, `simplex3d` and `oblique`, in bytes. Nothing for those whose memory does not
+/// buffer of `simplex`, `simploid`, `simplex3d` and `oblique`, in bytes. Nothing for those whose memory does not
 /// grow with the region.
 double depth_buffer_bytes(std::string_view algorithm, const LightFieldGrid& grid, const HogelRange& region);
 

@@ -23,7 +23,7 @@ class ThreadLimit {
 std::size_t thread_count();
 
 /// Where arrays that may not fit into memory are kept.
-struct Scratch {
+struct ScratchOptions {
     std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this lies in a file
     std::filesystem::path folder;               ///< in which the file is made; empty: nowhere, such an array is refused
 };

@@ -22,8 +22,8 @@ struct SceneInfo {
 /// The built-in scenes.
 Table<SceneInfo>& scenes();
 
-/// Makes the scene of that name. Throws Error(usage) for an unknown name, with the names that exist, and for a size that
-/// is not positive.
+/// Makes the scene of that name. Throws Error(usage) for an unknown name, with the names that exist, and for a size
+/// that is not positive.
 Scene make_scene(std::string_view name, double hologram_size, const Progress& progress = {});
 
 /// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
@@ -54,9 +54,9 @@ void add_default_lights(Scene& scene);
 /// vertex is its colour (linear, 32-bit floats, above 1 where it is), the materials are unlit (KHR_materials_unlit),
 /// and a texture that multiplies the radiance travels inside as PNG. import_scene() reads it back. Throws
 /// Error(bad_input) for a mesh without radiance, Error(usage) for another kind of name, Error(cannot_write).
-void write_radiance(const std::filesystem::path& path, const Scene& scene);
+void write_baked_scene(const std::filesystem::path& path, const Scene& scene);
 
-/// Throws Error(usage) for a name that write_radiance() would refuse, before there is a scene to lose.
-void require_radiance_name(const std::filesystem::path& path);
+/// Throws Error(usage) for a name that write_baked_scene() would refuse, before there is a scene to lose.
+void require_baked_scene_name(const std::filesystem::path& path);
 
 }  // namespace hogel

@@ -40,9 +40,9 @@ ShadingModel shading_model(std::string_view name);
 
 struct ShadingOptions {
     ShadingModel model = ShadingModel::vertex;
-    std::size_t shadow_map = 512;    ///< texels along a side of a shadow map (see ShadowMap)
-    double most_shadow_bytes = 8e9;  ///< of all shadow maps together
-    bool filter_textures = true;     ///< average textures over what a sample covers
+    std::size_t shadow_map = 512;   ///< texels along a side of a shadow map (see ShadowMap)
+    double max_shadow_bytes = 8e9;  ///< of all shadow maps together
+    bool filter_textures = true;    ///< average textures over what a sample covers
 };
 
 /// How much memory the shadow maps of a scene take: none where the model has no shadow maps.
@@ -51,15 +51,13 @@ double shadow_map_bytes(const Scene& scene, const ShadingOptions& options);
 /// Makes a scene ready to be rendered. Meshes with given radiance show that in every model. Throws what
 /// validate(Scene) throws; Error(bad_input) for a mesh without normals where there are lights, and, for `given`, for
 /// one without radiance; Error(usage) where the shadow maps would take more memory than allowed.
-ShadedScene shade(const Scene& scene, const ShadingOptions& options, const Progress& progress = {});
+ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options, const Progress& progress = {});
 
 /// Lights a scene at its vertices (Gouraud): radiance = emission + colour · (ambient + Σ E · max(0, n·l)/π) over the
 /// lights that the vertex sees, E = intensity for a directional light and intensity/r² for a point light. Shadow rays
 /// start a ten-thousandth of the scene's diagonal above the surface. Textures are point sampled. Cost: vertices ×
 /// lights rays.
-ShadedScene shade_vertices(const Scene& scene);
-
-
+ShadedScene shade_scene_vertices(const Scene& scene);
 
 /// A picture on a surface, repeated in both directions, with coarser versions of itself to be seen from afar.
 class Texture {
@@ -80,7 +78,7 @@ class Texture {
 };
 
 /// How a sample looks at a surface.
-struct Sight {
+struct ViewSample {
     Vec3 to_viewer{0, 0, 1};  ///< unit length
     double footprint = 0;     ///< how wide the sample is on the surface, metres: textures are averaged over about that
 };
@@ -109,7 +107,7 @@ class SampleLighting {
     /// The radiance towards the viewer of the point under that light, on a mesh on which there is some. `texture`
     /// multiplies the base colour and the emission.
     virtual Rgb radiance(const ShadedScene& /*scene*/, std::size_t /*index*/, const std::array<float, 3>& /*weights*/,
-                         std::span<const float> light, Rgb texture, const Sight& /*sight*/) const {
+                         std::span<const float> light, Rgb texture, const ViewSample& /*sight*/) const {
         return texture * Rgb{light[0], light[1], light[2]};
     }
 };
@@ -134,9 +132,9 @@ struct ShadedScene {
     /// Whether a triangle is seen from its front alone, where its corners go round counterclockwise. Light falls on
     /// both sides and is kept off by both.
     bool fronts_only = false;
-    std::shared_ptr<const SampleLighting> lighting;  ///< null where `radiance` says it all
-    std::shared_ptr<shading::LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null: worked out
-                                              ///< for each ray
+    std::shared_ptr<const SampleLighting> lighting;    ///< null where `radiance` says it all
+    std::shared_ptr<shading::LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null:
+                                                       ///< worked out for each ray
 
     /// Whether light is worked out for the samples of this triangle, and its vertices have none.
     bool is_lit(std::size_t index) const {
@@ -147,6 +145,7 @@ struct ShadedScene {
 };
 
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).
-Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const Sight& sight = {});
+Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2,
+                const ViewSample& sight = {});
 
 }  // namespace hogel

@@ -10,8 +10,8 @@
 
 namespace hogel {
 
-/// The one of `words` that a mistyped word was meant to be: the nearest by insertions, deletions, replacements and swaps of
-/// letters, if it is near enough to be meant; otherwise an empty text.
+/// The one of `words` that a mistyped word was meant to be: the nearest by insertions, deletions, replacements and
+/// swaps of letters, if it is near enough to be meant; otherwise an empty text.
 std::string nearest_word(std::string_view word, std::span<const std::string> words);
 
 /// Throws Error(usage): there is no such `kind` ("renderer"); which one may have been meant, and which ones exist.
@@ -20,8 +20,8 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
 /// Throws Error(usage): the name is in the table already.
 [[noreturn]] void throw_known(std::string_view kind, std::string_view name);
 
-/// All that exists of a kind, by name: renderers, coders, scenes. The library fills each table; a program may add rows while
-/// it runs, from any thread. A row has a member `name`, and rows stay where they are.
+/// All that exists of a kind, by name: renderers, coders, scenes. The library fills each table; a program may add rows
+/// while it runs, from any thread. A row has a member `name`, and rows stay where they are.
 template <class Row>
 class Table {
   public:

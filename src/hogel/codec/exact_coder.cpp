@@ -115,7 +115,7 @@ class Bounded {
 };
 
 // Bytes of a hogel from which on a code of its own costs less than half a per cent.
-constexpr std::size_t least_own_code = 16384;
+constexpr std::size_t min_own_code = 16384;
 
 // What the coder of the prediction can work with.
 float tamed(float value) { return std::isfinite(value) ? std::clamp(value, -0x1p60f, 0x1p60f) : 0; }
@@ -249,7 +249,7 @@ class ExactCoder final : public TileCoder {
           max_error_(max_error) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override { return predictor_->preferred_tile(grid); }
-    std::size_t most_at_once() const override { return predictor_->most_at_once(); }
+    std::size_t max_at_once() const override { return predictor_->max_at_once(); }
     bool takes_any_value() const override { return true; }
     // Those of the prediction, and what is left.
     std::size_t layers(const HogelRange& tile) const override {
@@ -273,7 +273,7 @@ class ExactCoder final : public TileCoder {
         predictor_->decode(exact.prediction, tile);
         const std::size_t across = exact.hogels_apart ? tile.range.ns : 1;
         core::parallel_for(exact.codes.size(),
-                     [&](std::size_t k) { exact.decode(k, tile, k / across, k % across, counted_); });
+                           [&](std::size_t k) { exact.decode(k, tile, k / across, k % across, counted_); });
     }
 
     std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
@@ -315,7 +315,7 @@ class ExactCoder final : public TileCoder {
         core::parallel_for(bytes.size(), [&](std::size_t s) {
             bytes[s] = encode_code(tile, rule, prediction, tile.range.nt / 2, s, s + 1, nullptr).size();
         });
-        return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= least_own_code * bytes.size();
+        return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= min_own_code * bytes.size();
     }
 
     // Hogels of a row from one to another. Where `decoded` is given, which may be the prediction, it gets their

@@ -29,16 +29,17 @@ CompressionOptions within(double error) {
     return options;
 }
 
-LightField through(const LightField& field, const CompressionOptions& options, CompressionResult* result = nullptr) {
+LightFieldBuffer through(const LightFieldBuffer& field, const CompressionOptions& options,
+                         CompressionResult* result = nullptr) {
     const TestFolder folder;
     const CompressionResult found = compress(field, folder / "a.hgl", options);
     if (result) *result = found;
-    LightField decoded(field.grid());
+    LightFieldBuffer decoded(field.grid());
     copy(*open_stream(folder / "a.hgl"), decoded);
     return decoded;
 }
 
-void expect_same_bits(const LightField& a, const LightField& b) {
+void expect_same_bits(const LightFieldBuffer& a, const LightFieldBuffer& b) {
     for (std::size_t i = 0; i < a.radiance.size(); ++i)
         ASSERT_EQ(std::bit_cast<std::uint32_t>(a.radiance.data()[i]),
                   std::bit_cast<std::uint32_t>(b.radiance.data()[i]))
@@ -46,8 +47,8 @@ void expect_same_bits(const LightField& a, const LightField& b) {
 }
 
 // Some samples are what no light is.
-LightField with_oddities(std::size_t channels) {
-    LightField field = textured_planes(5, 4, 13, 11, channels);
+LightFieldBuffer with_oddities(std::size_t channels) {
+    LightFieldBuffer field = textured_planes(5, 4, 13, 11, channels);
     const float odd[] = {
         infinity, -infinity, std::bit_cast<float>(0x7FC12345u), std::bit_cast<float>(0xFF800001u),    -0.0f, 0.0f,
         1e-45f,   -1e-40f,   std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest(), -0.7f, 1e-30f};
@@ -60,23 +61,24 @@ float ten_bits(float value) { return std::bit_cast<float>((std::bit_cast<std::ui
 
 TEST(Lossless, every_bit_comes_back) {
     for (const std::size_t channels : {1, 3}) {
-        const LightField field = with_oddities(channels);
+        const LightFieldBuffer field = with_oddities(channels);
         CompressionResult result;
         expect_same_bits(field, through(field, lossless(), &result));
         EXPECT_EQ(result.sqnr, infinity);
-        LightField rough = textured_planes(3, 5, 10, 9, channels);
+        LightFieldBuffer rough = textured_planes(3, 5, 10, 9, channels);
         for (float& value : rough.radiance.elements()) value = ten_bits(value);
         expect_same_bits(rough, through(rough, lossless()));
     }
-    const LightField dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
+    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
     expect_same_bits(dark, through(dark, lossless()));
 }
 
 // Noise of any bits at all cannot become smaller, but not much larger either.
 TEST(Lossless, noise_takes_little_more_than_it_is) {
-    LightField field = textured_planes(6, 6, 32, 24, 1);
+    LightFieldBuffer field = textured_planes(6, 6, 32, 24, 1);
     std::uint32_t k = 0;
-    for (float& value : field.radiance.elements()) value = std::bit_cast<float>(core::philox({k++, 7, 7, 7}, {1, 2})[0]);
+    for (float& value : field.radiance.elements())
+        value = std::bit_cast<float>(core::philox({k++, 7, 7, 7}, {1, 2})[0]);
     CompressionResult result;
     expect_same_bits(field, through(field, lossless(), &result));
     EXPECT_LT(double(result.bytes), 1.1 * 4 * 6 * 6 * 32 * 24);
@@ -84,7 +86,7 @@ TEST(Lossless, noise_takes_little_more_than_it_is) {
 
 // What half floats hold takes fewer bits than their 16, as it is predicted, and the other 16 of a float none.
 TEST(Lossless, half_floats_cost_no_more_than_half_floats) {
-    LightField field = textured_planes(8, 8, 32, 32, 1);
+    LightFieldBuffer field = textured_planes(8, 8, 32, 32, 1);
     for (float& value : field.radiance.elements()) value = ten_bits(value);
     CompressionResult result;
     through(field, lossless(), &result);
@@ -92,11 +94,11 @@ TEST(Lossless, half_floats_cost_no_more_than_half_floats) {
 }
 
 TEST(Bounded, no_sample_is_farther_off_than_asked) {
-    const LightField field = with_oddities(3);
+    const LightFieldBuffer field = with_oddities(3);
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
     for (const double error : {1e-9, 1e-6, 1e-3, 0.01, 0.2}) {
         CompressionResult result;
-        const LightField decoded = through(field, within(error), &result);
+        const LightFieldBuffer decoded = through(field, within(error), &result);
         double largest = 0;
         for (std::size_t i = 0; i < field.radiance.size(); ++i) {
             const float truth = field.radiance.data()[i], found = decoded.radiance.data()[i];
@@ -112,16 +114,16 @@ TEST(Bounded, no_sample_is_farther_off_than_asked) {
 }
 
 TEST(Bounded, says_the_sqnr_that_it_has) {
-    const LightField field = textured_planes(6, 5, 20, 16, 1);
+    const LightFieldBuffer field = textured_planes(6, 5, 20, 16, 1);
     CompressionResult result;
-    const LightField decoded = through(field, within(0.01), &result);
+    const LightFieldBuffer decoded = through(field, within(0.01), &result);
     EXPECT_NEAR(sqnr_of(field, decoded), result.sqnr, 1e-6);
     EXPECT_GT(result.sqnr, 35);
 }
 
 TEST(Exact, bytes_do_not_depend_on_threads) {
     const TestFolder folder;
-    const LightField field = with_oddities(3);
+    const LightFieldBuffer field = with_oddities(3);
     for (const CompressionOptions& options : {lossless(), within(0.01)}) {
         std::vector<std::vector<std::uint8_t>> files;
         for (const std::size_t threads : {1, 3}) {
@@ -135,7 +137,7 @@ TEST(Exact, bytes_do_not_depend_on_threads) {
 
 TEST(Exact, other_coders_are_refused) {
     const TestFolder folder;
-    const LightField field = textured_planes(2, 2, 4, 4, 1);
+    const LightFieldBuffer field = textured_planes(2, 2, 4, 4, 1);
     CompressionOptions options = lossless();
     options.method = {"ezw", "haar"};
     EXPECT_THROW(compress(field, folder / "a.hgl", options), Error);
@@ -149,7 +151,7 @@ TEST(Exact, other_coders_are_refused) {
 TEST(Exact, reads_any_hogels_the_same) {
     const TestFolder folder;
     for (const std::size_t directions : {std::size_t{16}, std::size_t{128}}) {
-        const LightField field = textured_planes(5, 4, directions, directions, 1);
+        const LightFieldBuffer field = textured_planes(5, 4, directions, directions, 1);
         compress(field, folder / "a.hgl", lossless());
         for (const HogelRange& range : {HogelRange{3, 2, 1, 1}, {1, 0, 3, 3}, {0, 3, 5, 1}, {4, 1, 1, 2}}) {
             const auto source = open_stream(folder / "a.hgl");
@@ -166,7 +168,7 @@ TEST(Exact, reads_any_hogels_the_same) {
 
 // Whatever the bytes are, decoding ends, in an Error(bad_input) or with a tile.
 TEST(Exact, bytes_of_any_kind_do_no_harm) {
-    const LightField field = with_oddities(1);
+    const LightFieldBuffer field = with_oddities(1);
     LightFieldTile tile(field.grid(), {0, 0, 2, 1}, false);
     field.read(tile);
     const auto try_coder = [&](const TileCoder& coder) {
@@ -175,7 +177,7 @@ TEST(Exact, bytes_of_any_kind_do_no_harm) {
     try_coder(*make_lossless_coder(field.grid(), {}));
     try_coder(*make_bounded_coder(field.grid(), {}, 0.01));
     // A hogel with a code of its own.
-    LightField noise(LightFieldGrid{1, 1, 1e-3, 72, 64, 0.3, 0.3, 1});
+    LightFieldBuffer noise(LightFieldGrid{1, 1, 1e-3, 72, 64, 0.3, 0.3, 1});
     std::uint32_t k = 0;
     for (float& value : noise.radiance.elements()) value = static_cast<float>(core::philox({k++, 7, 7, 7}, {1, 2})[0]);
     LightFieldTile one(noise.grid(), {0, 0, 1, 1}, false);

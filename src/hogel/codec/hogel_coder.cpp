@@ -36,7 +36,7 @@ float growth_for(float shared, bool single_row) {
 }
 // References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
 // direction the nearest ones serve best; otherwise it takes more to choose from.
-constexpr std::uint8_t most_references = 3;
+constexpr std::uint8_t max_references = 3;
 constexpr std::size_t counted_hogels = 48;    // of a level, for the states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
@@ -56,7 +56,7 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Pictu
 constexpr std::size_t first_hogels = 9;
 using Estimates = std::array<encode::Estimate, first_hogels>;
 
-// Codes a tile level by level: decides on all hogels of a level, and then writes their codes, each by itself.
+// RawPixels a tile level by level: decides on all hogels of a level, and then writes their codes, each by itself.
 class TileEncoder {
   public:
     // @param tile   is used up
@@ -123,7 +123,7 @@ class TileEncoder {
         pictures_[k] = setup_.whole_blocks() ? as_in_tile(tile_, setup_, hogel.s, hogel.t) : setup_.blank();
         const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
         coded_[k] = encode::analyse(setup_, k, source, moved, beside(hogel),
-                            k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
+                                    k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
         BlockRecorder recorder;
         BlockModelNumbers numbers = numbers_;
         code_hogel(recorder, numbers, setup_.grid, hogel, moved, beside(hogel), coded_[k]);
@@ -232,11 +232,11 @@ std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& g
     ReferencesTrial trial(tile, grid, std::exp2(std::round(2 * std::log2(step)) / 2));
     // What costs so much more, or a bit more than that, is farther from the best than what lies between.
     constexpr double far = 1.1, rounding = 1e-9;
-    const double many = trial.cost(most_references), one = trial.cost(1, far * many);
-    std::uint8_t best = many < one ? most_references : 1;
+    const double many = trial.cost(max_references), one = trial.cost(1, far * many);
+    std::uint8_t best = many < one ? max_references : 1;
     double least = std::min(many, one);
     if (std::max(many, one) > far * least) return best;
-    for (std::uint8_t between = 2; between < most_references; ++between) {
+    for (std::uint8_t between = 2; between < max_references; ++between) {
         const double cost = trial.cost(between, least * (1 + rounding));
         if (!(cost < least)) continue;
         least = cost;
@@ -261,19 +261,20 @@ class HogelCoder final : public TileCoder {
         return {0, 0, even(grid.hogels_s), even(grid.hogels_t)};
     }
 
-    std::size_t most_at_once() const override { return 2; }
+    std::size_t max_at_once() const override { return 2; }
 
     std::size_t layers(const HogelRange& tile) const override {
-        return version_ < 3 ? 1
-                            : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, decode::begin_of_order(version_)));
+        return version_ < 3
+                   ? 1
+                   : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, decode::begin_of_order(version_)));
     }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
         if (!decode::hogel_tile_fits(grid_, tile.range))
             throw Error(ErrorCode::usage, fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
                                                       "{} and {} samples in whole blocks",
-                                                      tile.range.ns, tile.range.nt, decode::most_hogel_tile_side,
-                                                      decode::most_hogel_tile_side, decode::most_hogel_tile_samples));
+                                                      tile.range.ns, tile.range.nt, decode::max_hogel_tile_side,
+                                                      decode::max_hogel_tile_side, decode::max_hogel_tile_samples));
         TileEncoder encoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step));
         return *encoder.run(encoder.estimate());
     }

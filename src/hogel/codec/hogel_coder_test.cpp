@@ -18,16 +18,16 @@ using namespace format;
 
 namespace {
 
-LightFieldTile whole(const LightField& field) {
+LightFieldTile whole(const LightFieldBuffer& field) {
     LightFieldTile tile(field.grid(), {0, 0, field.grid().hogels_s, field.grid().hogels_t}, false);
     field.read(tile);
     return tile;
 }
 
 // A plane with a picture of waves that directions sample well, `disparity` directions away from hogel to hogel.
-LightField plane_at(double disparity, std::size_t hogels, std::size_t directions, std::size_t directions_v) {
+LightFieldBuffer plane_at(double disparity, std::size_t hogels, std::size_t directions, std::size_t directions_v) {
     LightFieldGrid grid{hogels, hogels, 1e-3, directions, directions_v, 0.3, 0.25, 1};
-    LightField field(grid);
+    LightFieldBuffer field(grid);
     const double depth = grid.pitch / grid.step_u() / disparity, period = 14 * grid.step_u() * depth;
     for (std::size_t j = 0; j < hogels; ++j)
         for (std::size_t i = 0; i < hogels; ++i)
@@ -181,7 +181,7 @@ TEST(Blocks, transform_is_the_orthonormal_cosine_transform) {
 // What stands out alone takes a level in a basis of samples, and most of the block's in one of cosines.
 TEST(HogelCoder, single_samples_and_lines_take_few_bits) {
     constexpr std::size_t side = 256;
-    LightField field({1, 1, 1e-3, side, side, 0.3, 0.3, 1});
+    LightFieldBuffer field({1, 1, 1e-3, side, side, 0.3, 0.3, 1});
     const auto bits_of_a_block = [&](auto&& value) {
         for (std::size_t v = 0; v < side; ++v)
             for (std::size_t u = 0; u < side; ++u) field.radiance(0, 0, 0, v, u) = value(v, u);
@@ -242,7 +242,7 @@ TEST(Blocks, levels_of_all_bases_come_back) {
 
 // What one hogel shows, the others show moved: a plane takes nearly no more bytes seen by 64 hogels than by one.
 TEST(HogelCoder, views_of_a_plane_come_nearly_free) {
-    const LightField field = plane_at(0.6, 8, 96, 64);
+    const LightFieldBuffer field = plane_at(0.6, 8, 96, 64);
     const auto coder = make_hogel_coder(field.grid());
     LightFieldTile one(field.grid(), {0, 0, 1, 1}, false);
     field.read(one);
@@ -257,7 +257,7 @@ TEST(HogelCoder, views_of_a_plane_come_nearly_free) {
 TEST(HogelCoder, error_is_what_decoding_gives) {
     for (const auto& [width, height, channels] :
          {std::array<std::size_t, 3>{21, 19, 3}, {24, 16, 3}, {24, 16, 1}, {17, 8, 1}}) {
-        const LightField field = textured_planes(6, 5, width, height, channels);
+        const LightFieldBuffer field = textured_planes(6, 5, width, height, channels);
         const auto coder = make_hogel_coder(field.grid());
         const LightFieldTile tile = whole(field);
         LightFieldTile used_up = tile;
@@ -276,7 +276,7 @@ TEST(HogelCoder, error_is_what_decoding_gives) {
 
 // Whatever the bytes are, decoding ends, in an Error(bad_input) or with a tile.
 TEST(HogelCoder, bytes_of_any_kind_do_no_harm) {
-    const LightField field = textured_planes(5, 4, 20, 12, 1);
+    const LightFieldBuffer field = textured_planes(5, 4, 20, 12, 1);
     const auto coder = make_hogel_coder(field.grid());
     LightFieldTile tile = whole(field);
     const std::vector<std::uint8_t> good = coder->encode(tile, 0.05).bytes;

@@ -31,7 +31,7 @@ TEST(Stream, checksum_is_the_one_of_png) {
 
 TEST(Stream, header_says_what_was_written) {
     const TestFolder folder;
-    const LightField field = textured_planes(7, 5, 8, 6, 3);
+    const LightFieldBuffer field = textured_planes(7, 5, 8, 6, 3);
     compress(field, folder / "a.hgl", small_tiles("ezw", "haar"));
     EXPECT_TRUE(is_stream(folder / "a.hgl"));
     const StreamInfo info = read_stream_info(folder / "a.hgl");
@@ -44,9 +44,9 @@ TEST(Stream, header_says_what_was_written) {
 // Any range of hogels, from any thread and with room for one tile or all, gives the same samples.
 TEST(Stream, reads_any_range_the_same) {
     const TestFolder folder;
-    const LightField field = textured_planes(7, 5, 8, 6, 3);
+    const LightFieldBuffer field = textured_planes(7, 5, 8, 6, 3);
     compress(field, folder / "a.hgl", small_tiles("threepass", "cdf97"));
-    LightField whole(field.grid());
+    LightFieldBuffer whole(field.grid());
     copy(*open_stream(folder / "a.hgl"), whole);
     for (const std::size_t memory : {std::size_t{1}, std::size_t{5000}, std::size_t{1} << 30}) {
         const auto source = open_stream(folder / "a.hgl", {.memory = memory});
@@ -70,7 +70,7 @@ TEST(Stream, keeps_the_grid) {
     grid.center_u = 0.5;
     grid.center_v = -0.75;
     grid.face = Face::top;
-    compress(LightField(grid), folder / "a.hgl", small_tiles("threepass", "haar"));
+    compress(LightFieldBuffer(grid), folder / "a.hgl", small_tiles("threepass", "haar"));
     EXPECT_TRUE(open_stream(folder / "a.hgl")->grid() == grid);
 }
 
@@ -78,7 +78,7 @@ TEST(Stream, keeps_the_grid) {
 std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
     try {
         const auto source = open_stream(path);
-        LightField field(source->grid());
+        LightFieldBuffer field(source->grid());
         copy(*source, field);
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
@@ -90,7 +90,7 @@ std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
 
 TEST(Stream, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
-    const LightField field = textured_planes(4, 3, 4, 4, 1);
+    const LightFieldBuffer field = textured_planes(4, 3, 4, 4, 1);
     compress(field, folder / "a.hgl", small_tiles("threepass", "ai13"));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
     ASSERT_EQ(outcome(folder / "a.hgl"), std::nullopt);
@@ -113,7 +113,7 @@ TEST(Stream, every_truncation_and_every_flipped_byte_is_noticed) {
 // A file that was cut off is refused, unless no more is asked for than it has.
 TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
     const TestFolder folder;
-    const LightField field = textured_planes(9, 5, 24, 16, 1);
+    const LightFieldBuffer field = textured_planes(9, 5, 24, 16, 1);
     for (const bool lossless : {false, true}) {
         CompressionOptions options;
         options.target.lossless = lossless;
@@ -133,7 +133,7 @@ TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
                 if (length > good.size()) continue;
                 write_bytes(folder / "b.hgl", {good.begin(), good.begin() + std::ptrdiff_t(length)});
                 EXPECT_EQ(read_stream_info(folder / "b.hgl").layers_there, layer);
-                LightField coarse(field.grid());
+                LightFieldBuffer coarse(field.grid());
                 copy(*open_stream(folder / "b.hgl", {.layers = layer}), coarse);
                 const double sqnr = sqnr_of(field, coarse);
                 EXPECT_GT(sqnr, length == end ? before : before - 1e-9);
@@ -187,9 +187,9 @@ TEST(Stream, other_versions_and_other_files_are_named) {
 }
 
 // Two depths and nothing at all, at which no ray is like its neighbour.
-LightField with_depth(std::size_t hogels) {
-    const LightField textured = textured_planes(hogels, 3, 11, 9, 3);
-    LightField field(textured.grid(), true);
+LightFieldBuffer with_depth(std::size_t hogels) {
+    const LightFieldBuffer textured = textured_planes(hogels, 3, 11, 9, 3);
+    LightFieldBuffer field(textured.grid(), true);
     std::ranges::copy(textured.radiance.elements(), field.radiance.elements().begin());
     std::size_t i = 0;
     for (float& depth : field.depth.elements()) {
@@ -202,7 +202,7 @@ LightField with_depth(std::size_t hogels) {
 
 TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
     const TestFolder folder;
-    const LightField field = with_depth(5);
+    const LightFieldBuffer field = with_depth(5);
     CompressionOptions options;
     options.target.sqnr = 25;
     options.tile = HogelRange{0, 0, 3, 2};
@@ -213,7 +213,7 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
         const double expected = error > 0 ? error : 1e-3 * (21e-3 + 2e-3);
         EXPECT_NEAR(result.depth_error, expected, error > 0 ? 0 : 1e-5);
         EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "d.hgl"));
-        LightField decoded(field.grid(), true);
+        LightFieldBuffer decoded(field.grid(), true);
         copy(*open_stream(folder / "d.hgl"), decoded);
         EXPECT_GE(sqnr_of(field, decoded), 25);
         std::size_t finite = 0;
@@ -236,10 +236,10 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
         if (std::isfinite(same.depth.data()[i])) {
             ASSERT_NEAR(part.depth.data()[i], same.depth.data()[i], 2e-7);
         }
-    LightField empty(field.grid(), true);
+    LightFieldBuffer empty(field.grid(), true);
     std::ranges::fill(empty.depth.elements(), std::numeric_limits<float>::infinity());
     compress(empty, folder / "e.hgl", options);
-    LightField decoded(field.grid(), true);
+    LightFieldBuffer decoded(field.grid(), true);
     copy(*open_stream(folder / "e.hgl"), decoded);
     for (const float depth : decoded.depth.elements()) ASSERT_EQ(depth, std::numeric_limits<float>::infinity());
     EXPECT_THROW(compress(textured_planes(3, 3, 5, 5, 1), folder / "no.hgl", options), Error);
@@ -251,7 +251,7 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
 // Damage in the stream of depths is noticed as any other; who asks for layers of the radiance alone needs none of it.
 TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
     const TestFolder folder;
-    const LightField field = with_depth(2);
+    const LightFieldBuffer field = with_depth(2);
     CompressionOptions options;
     options.target.sqnr = 20;
     options.with_depth = true;

@@ -19,10 +19,10 @@
 namespace hogel::codec {
 
 // Two textured planes at different depths, the nearer one covering the middle, with a little noise.
-inline LightField textured_planes(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u,
-                                  std::size_t directions_v, std::size_t channels) {
+inline LightFieldBuffer textured_planes(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u,
+                                        std::size_t directions_v, std::size_t channels) {
     LightFieldGrid grid{hogels_s, hogels_t, 1e-3, directions_u, directions_v, 0.3, 0.3, channels};
-    LightField field(grid);
+    LightFieldBuffer field(grid);
     const double per_hogel = grid.pitch / grid.step_u();  // depth at which a hogel is a direction
     for (std::size_t j = 0; j < hogels_t; ++j)
         for (std::size_t i = 0; i < hogels_s; ++i)
@@ -36,8 +36,8 @@ inline LightField textured_planes(std::size_t hogels_s, std::size_t hogels_t, st
                     const bool near = std::abs(x) < 0.2 * per_hogel && std::abs(y) < 0.3 * per_hogel;
                     if (!near) std::tie(x, y) = at(4 * per_hogel);
                     const double scale = 20 / per_hogel;
-                    const auto noise =
-                        core::philox({std::uint32_t(i), std::uint32_t(j), std::uint32_t(k), std::uint32_t(l)}, {1, 2})[0];
+                    const auto noise = core::philox(
+                        {std::uint32_t(i), std::uint32_t(j), std::uint32_t(k), std::uint32_t(l)}, {1, 2})[0];
                     for (std::size_t c = 0; c < channels; ++c)
                         field.radiance(c, j, i, l, k) =
                             static_cast<float>(0.6 + 0.2 * std::sin(scale * x + double(c)) * std::cos(1.3 * scale * y) +
@@ -70,7 +70,7 @@ class TestFolder {
     std::filesystem::path path_;
 };
 
-inline double sqnr_of(const LightField& truth, const LightField& other) {
+inline double sqnr_of(const LightFieldBuffer& truth, const LightFieldBuffer& other) {
     double signal = 0, error = 0;
     for (std::size_t i = 0; i < truth.radiance.size(); ++i) {
         const double f = truth.radiance.data()[i], e = f - other.radiance.data()[i];
@@ -80,9 +80,9 @@ inline double sqnr_of(const LightField& truth, const LightField& other) {
     return 10 * std::log10(signal / error);
 }
 
-inline LightField decoded(const std::filesystem::path& path) {
+inline LightFieldBuffer decoded(const std::filesystem::path& path) {
     const auto source = open_stream(path);
-    LightField field(source->grid());
+    LightFieldBuffer field(source->grid());
     copy(*source, field);
     return field;
 }

@@ -39,15 +39,15 @@ class TileCoder {
     /// The size of tile (s0 = t0 = 0) that it works best on.
     virtual HogelRange preferred_tile(const LightFieldGrid& grid) const = 0;
     /// How many tiles to code at once: as many as there are threads, or fewer where a tile keeps all of them busy.
-    virtual std::size_t most_at_once() const { return std::numeric_limits<std::size_t>::max(); }
+    virtual std::size_t max_at_once() const { return std::numeric_limits<std::size_t>::max(); }
     /// True where radiance that is not finite is coded as it is.
     virtual bool takes_any_value() const { return false; }
-    /// What is left of a tile at least, where encode() heeds most_bytes: with more of its bytes it is finer.
-    virtual std::optional<std::size_t> least_bytes(const LightFieldGrid&) const { return std::nullopt; }
+    /// What is left of a tile at least, where encode() heeds max_bytes: with more of its bytes it is finer.
+    virtual std::optional<std::size_t> min_bytes(const LightFieldGrid&) const { return std::nullopt; }
     /// @param step   the quantiser's, in units of radiance: the larger, the coarser. An error is about step/√12 where
     ///               the tile holds detail of that size, and less elsewhere.
     /// @param tile   is used up: its radiance means nothing afterwards
-    virtual Encoded encode(LightFieldTile& tile, double step, std::size_t most_bytes = no_limit) const = 0;
+    virtual Encoded encode(LightFieldTile& tile, double step, std::size_t max_bytes = no_limit) const = 0;
     /// Fills the tile's radiance. Throws Error(bad_input) for bytes that no encode() gives, where that shows.
     virtual void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const = 0;
     /// How many layers a tile has: the first ones alone give a coarser tile.
@@ -66,8 +66,9 @@ class TileCoder {
 /// How the samples of a tile become bytes.
 struct CodingMethod {
     std::string coder = "hogel";
-    std::string transform;                             ///< empty for the coder hogel, which has one of its own
-    coding::QuantisationTable table = coding::QuantisationTable::own;  ///< for jpeg4d to encode with; each tile says which it has
+    std::string transform;  ///< empty for the coder hogel, which has one of its own
+    coding::QuantisationTable table =
+        coding::QuantisationTable::own;  ///< for jpeg4d to encode with; each tile says which it has
     friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
 };
 
@@ -81,7 +82,8 @@ constexpr std::uint32_t latest_version = 6;
 /// @param version   of the format (docs/format.md); only of the latest one anything can be encoded
 /// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
-                                           const format::DirectionCross& counted = {}, std::uint32_t version = latest_version);
+                                           const format::DirectionCross& counted = {},
+                                           std::uint32_t version = latest_version);
 
 /// The transform that a coder is used with where none is named.
 std::string_view default_transform(std::string_view coder);

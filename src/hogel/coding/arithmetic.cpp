@@ -6,7 +6,7 @@
 namespace hogel::coding {
 namespace {
 
-constexpr std::uint32_t most_total = 1u << 16;
+constexpr std::uint32_t max_total = 1u << 16;
 constexpr std::uint32_t increment = 32;  // learns an alphabet of hundreds of symbols from some thousand of them
 
 }  // namespace
@@ -43,7 +43,7 @@ std::size_t SymbolModel::find(std::uint32_t position) const {
 void SymbolModel::learn(std::size_t symbol) {
     frequency_[symbol] += increment;
     total_ += increment;
-    if (total_ > most_total) {
+    if (total_ > max_total) {
         for (std::uint32_t& frequency : frequency_) frequency = (frequency + 1) / 2;
         build();
         return;

@@ -50,7 +50,7 @@ class SymbolModel {
 };
 
 /// Below this range a byte is moved out, or in.
-constexpr std::uint32_t least_coding_range = 1u << 24;
+constexpr std::uint32_t min_coding_range = 1u << 24;
 
 class ArithmeticEncoder {
   public:
@@ -105,7 +105,7 @@ class ArithmeticDecoder {
 inline void ArithmeticEncoder::narrow(std::uint32_t start, std::uint32_t size) {
     low_ += start;
     range_ = size;
-    while (range_ < least_coding_range) {
+    while (range_ < min_coding_range) {
         range_ <<= 8;
         shift();
     }
@@ -131,7 +131,7 @@ inline void ArithmeticDecoder::narrow(std::uint32_t start, std::uint32_t size) {
     range_ = size;
     // With nothing missing, a code beyond the range is one that no encoder makes.
     if (std::uint64_t{code_} + unknown_ >= range_) ended_ = true;
-    while (range_ < least_coding_range) {
+    while (range_ < min_coding_range) {
         range_ <<= 8;
         code_ = code_ << 8 | take();
     }

@@ -129,11 +129,12 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
 
 }  // namespace
 
-std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::span<const float> values, const EzwLimit& limit) {
+std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::span<const float> values,
+                                     const EzwLimit& limit) {
     check_size(pyramid, values.size());
     if (limit.sqnr && !(*limit.sqnr > 0))
         throw Error(ErrorCode::usage, fmt::format("EZW: an SQNR of {} dB, expected more than 0", *limit.sqnr));
-    const float most = largest_magnitude(values);
+    const float most = max_magnitude(values);
     std::vector<std::uint8_t> bytes;
     put_float(bytes, most);
     if (most > 0) {

@@ -31,7 +31,8 @@ struct EzwLimit {
 ///
 /// Throws Error(usage) when a value is not finite, their number is not the pyramid's, or sqnr is not positive.
 /// Cost: a scan of all coefficients for each threshold, nine bytes of memory a coefficient.
-std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::span<const float> values, const EzwLimit& limit = {});
+std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::span<const float> values,
+                                     const EzwLimit& limit = {});
 
 /// Decodes a stream or a prefix of one, even an empty one, each coefficient to the middle of the interval that is known
 /// of it. Throws Error(bad_input) only when the stream's T_max is not a magnitude; changed bytes give other values.

@@ -66,7 +66,9 @@ TEST(Forest, of_powers_of_two_are_binary_and_quad_trees) {
     for (std::size_t i = 1; i < 64; ++i) EXPECT_EQ(children[i], i / 8 < 4 && i % 8 < 4 ? 4 : 0) << i;
 }
 
-TEST(Forest, too_many_dimensions_are_refused) { EXPECT_THROW(Forest(transform::Pyramid::interleaved(Extents(9, 2))), Error); }
+TEST(Forest, too_many_dimensions_are_refused) {
+    EXPECT_THROW(Forest(transform::Pyramid::interleaved(Extents(9, 2))), Error);
+}
 
 }  // namespace
 }  // namespace hogel::coding

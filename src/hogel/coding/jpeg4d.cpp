@@ -35,9 +35,9 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
 }
 
 // Of all values, before rounding.
-double largest_level(const Blocks& blocks, std::span<const float> values, const Quantisation& quantisation) {
+double max_level(const Blocks& blocks, std::span<const float> values, const Quantisation& quantisation) {
     double most = 0;
-    const auto least = least_values(blocks, quantisation);
+    const auto least = min_values(blocks, quantisation);
     for (std::size_t number = 0; number < blocks.count(); ++number) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
@@ -90,7 +90,7 @@ bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, T
 std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::span<const float> values, double scale,
                                         QuantisationTable table) {
     check_size(pyramid, values.size());
-    const float most = largest_magnitude(values), stored_scale = static_cast<float>(scale);
+    const float most = max_magnitude(values), stored_scale = static_cast<float>(scale);
     const auto impossible = [&] {
         throw Error(
             ErrorCode::usage,
@@ -105,12 +105,12 @@ std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::
         exponents.assign(quantisation.steps.size(), 0);
         quantisation = own_quantisation(stored_scale, exponents);
     }
-    double largest = largest_level(blocks, values, quantisation);
+    double largest = max_level(blocks, values, quantisation);
     if (largest >= std::ldexp(1.0, b_limit)) impossible();
     if (own && largest > 0) {
         exponents = choose_exponents(blocks, values, stored_scale);
         quantisation = own_quantisation(stored_scale, exponents);
-        largest = largest_level(blocks, values, quantisation);
+        largest = max_level(blocks, values, quantisation);
     }
     own = own && largest > 0;  // otherwise no table is needed
     const int b_max = std::bit_width(static_cast<std::uint32_t>(largest));
@@ -121,7 +121,7 @@ std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::
     if (own) write_exponents(encoder, blocks, exponents);
     Models models(b_max);
     SparseLevels levels;
-    const auto least = least_values(blocks, quantisation);
+    const auto least = min_values(blocks, quantisation);
     for (std::size_t number = 0; number < blocks.count(); ++number) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);

@@ -29,7 +29,8 @@ std::vector<Frequency> zigzag(std::size_t axes) {
     std::vector<Frequency> order;
     for (std::size_t i = 0; i < count; ++i) {
         Frequency frequency(axes);
-        for (std::size_t axis = axes, rest = i; axis-- > 0; rest /= transform::dct_block) frequency[axis] = rest % transform::dct_block;
+        for (std::size_t axis = axes, rest = i; axis-- > 0; rest /= transform::dct_block)
+            frequency[axis] = rest % transform::dct_block;
         order.push_back(frequency);
     }
     std::sort(order.begin(), order.end(), [](const Frequency& a, const Frequency& b) {
@@ -63,7 +64,7 @@ Quantisation jpegs_quantisation(double scale, std::size_t axes) {
     return quantisation;
 }
 
-std::vector<std::vector<float>> least_values(const Blocks& blocks, const Quantisation& quantisation) {
+std::vector<std::vector<float>> min_values(const Blocks& blocks, const Quantisation& quantisation) {
     std::vector<std::vector<float>> least;
     for (const Blocks::Kind& kind : blocks.kinds()) {
         least.emplace_back();
@@ -82,7 +83,8 @@ void quantise_block(const Blocks::Kind& kind, const float* block, std::span<cons
 }
 
 Blocks::Blocks(const transform::Pyramid& pyramid) : shape_(pyramid.shape()), strides_(pyramid.strides()) {
-    for (const transform::AxisGroup& group : pyramid.groups()) axes_.insert(axes_.end(), group.axes.begin(), group.axes.end());
+    for (const transform::AxisGroup& group : pyramid.groups())
+        axes_.insert(axes_.end(), group.axes.begin(), group.axes.end());
     std::sort(axes_.begin(), axes_.end());
     if (axes_.size() > 4)
         throw Error(ErrorCode::usage, fmt::format("jpeg4d: {} transformed axes, expected at most 4", axes_.size()));

@@ -101,7 +101,7 @@ void for_each_large(const Blocks::Kind& kind, const float* block, std::span<cons
 }
 
 // What Quantisation::least() says of each entry, for each kind of block.
-std::vector<std::vector<float>> least_values(const Blocks& blocks, const Quantisation& quantisation);
+std::vector<std::vector<float>> min_values(const Blocks& blocks, const Quantisation& quantisation);
 
 // The levels of a block that are not zero, by their place in zigzag order.
 class SparseLevels {
@@ -121,7 +121,8 @@ class SparseLevels {
     }
 
   private:
-    static constexpr std::size_t most = transform::dct_block * transform::dct_block * transform::dct_block * transform::dct_block;
+    static constexpr std::size_t most =
+        transform::dct_block * transform::dct_block * transform::dct_block * transform::dct_block;
     std::array<std::uint64_t, most / 64> used_{};
     std::array<std::int32_t, most> levels_;
 };

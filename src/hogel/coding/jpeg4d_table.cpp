@@ -9,10 +9,10 @@ namespace hogel::coding {
 namespace {
 
 constexpr double round_up = 0.6;
-constexpr double bits_worth = 0.12;           // squared scales a bit: what is best for fine steps is ln 2 / 6
-constexpr int candidates = 13;                // 8 times the scale is nearly always too much
-constexpr std::size_t most_looked_at = 4096;  // blocks
-constexpr std::size_t most_bits = 31;
+constexpr double bits_worth = 0.12;          // squared scales a bit: what is best for fine steps is ln 2 / 6
+constexpr int candidates = 13;               // 8 times the scale is nearly always too much
+constexpr std::size_t max_looked_at = 4096;  // blocks
+constexpr std::size_t max_bits = 31;
 
 // What tells an exponent from the ones before it: the mean of those one lower along an axis, rounded down.
 class Prediction {
@@ -38,7 +38,7 @@ class Prediction {
 struct Models {
     std::array<BitModel, 2> differs;
     BitModel sign;
-    std::array<BitModel, largest_exponent + 1> more;
+    std::array<BitModel, max_exponent + 1> more;
 };
 
 // About what that takes.
@@ -47,15 +47,15 @@ double bits_to_tell(int difference) { return difference == 0 ? 0.2 : 4 + std::ab
 std::size_t bits_of(std::uint32_t magnitude) { return static_cast<std::size_t>(std::bit_width(magnitude)); }
 
 // One block of so many is looked at where not all are needed.
-std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + most_looked_at - 1) / most_looked_at; }
+std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + max_looked_at - 1) / max_looked_at; }
 
 // What a level takes, by the number of its bits: the mean of the tuples of such levels, and of what stands for the
 // zeros before them, by how often each is there when all frequencies have the same step; and its own bits.
 class Costs {
   public:
     Costs(const Blocks& blocks, std::span<const float> values, const Quantisation& even) {
-        const auto least = least_values(blocks, even);
-        std::vector<double> seen(Tuple{z_max, most_bits}.symbol() + 1);
+        const auto least = min_values(blocks, even);
+        std::vector<double> seen(Tuple{z_max, max_bits}.symbol() + 1);
         double all = 0;
         SparseLevels levels;
         for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
@@ -68,7 +68,7 @@ class Costs {
         }
         const double zeros = seen[Tuple{z_max, 0}.symbol()];
         double levels_seen = 0;
-        for (int bits = 1; bits <= static_cast<int>(most_bits); ++bits) {
+        for (int bits = 1; bits <= static_cast<int>(max_bits); ++bits) {
             double count = 0, sum = 0;
             for (int before = 0; before <= z_max; ++before) {
                 const double n = seen[Tuple{before, bits}.symbol()];
@@ -84,7 +84,7 @@ class Costs {
     double operator()(std::uint32_t magnitude) const { return of_bits_[bits_of(magnitude)]; }
 
   private:
-    std::array<double, most_bits + 1> of_bits_{};
+    std::array<double, max_bits + 1> of_bits_{};
 };
 
 // Of each frequency of a whole block, and each candidate, distortion + λ · bits of its levels.
@@ -94,7 +94,7 @@ Prices prices(const Blocks& blocks, std::span<const float> values, double scale,
     std::array<double, candidates> steps;
     for (std::size_t e = 0; e < candidates; ++e) steps[e] = scale * std::exp2(static_cast<double>(e) / 4);
     const Quantisation finest = own_quantisation(scale, Exponents(zigzag(blocks.axes()).size(), 0));
-    const auto least = least_values(blocks, finest);
+    const auto least = min_values(blocks, finest);
     const double price = bits_worth * scale * scale, part = 1 / static_cast<double>(stride_of(blocks));
     Prices result(finest.steps.size(), std::array<double, candidates>{});
     // What is zero with all candidates has the same distortion with all of them, which is left out.
@@ -152,7 +152,7 @@ void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exp
         differed = difference != 0;
         if (!differed) continue;
         encoder.bit(models.sign, difference < 0);
-        for (int size = 1; size <= std::abs(difference) && size < largest_exponent; ++size)
+        for (int size = 1; size <= std::abs(difference) && size < max_exponent; ++size)
             encoder.bit(models.more[static_cast<std::size_t>(size)], size < std::abs(difference));
     }
 }
@@ -168,10 +168,10 @@ bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents&
         if (differed) {
             const bool below = decoder.bit(models.sign);
             int size = 1;
-            while (size < largest_exponent && decoder.bit(models.more[static_cast<std::size_t>(size)])) ++size;
+            while (size < max_exponent && decoder.bit(models.more[static_cast<std::size_t>(size)])) ++size;
             exponent += below ? -size : size;
         }
-        if (decoder.ended() || exponent < 0 || exponent > largest_exponent) return false;
+        if (decoder.ended() || exponent < 0 || exponent > max_exponent) return false;
         exponents[place_in_block(frequency)] = static_cast<std::uint8_t>(exponent);
     }
     return true;

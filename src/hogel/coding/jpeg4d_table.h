@@ -12,7 +12,7 @@ namespace hogel::coding {
 // A table of a stream's own: for each frequency of a whole block, by place_in_block(), an exponent e; its step is
 // scale · 2^(e/4).
 using Exponents = std::vector<std::uint8_t>;
-constexpr int largest_exponent = 24;
+constexpr int max_exponent = 24;
 
 Quantisation own_quantisation(double scale, const Exponents& exponents);
 

@@ -36,7 +36,8 @@ double squared_error(const transform::Pyramid& pyramid, const std::vector<float>
 }
 
 // Bytes for an SQNR, between the codes of the scales around it.
-double bytes_at(const transform::Pyramid& pyramid, const std::vector<float>& values, double sqnr, QuantisationTable table) {
+double bytes_at(const transform::Pyramid& pyramid, const std::vector<float>& values, double sqnr,
+                QuantisationTable table) {
     double before = 0, before_bytes = 0;
     for (double scale = 2; scale > 1e-5; scale /= 1.3) {
         const Bytes code = jpeg4d_encode(pyramid, values, scale, table);
@@ -57,7 +58,7 @@ TEST(OwnTable, comes_back) {
         const Blocks blocks(transform::Pyramid::interleaved(shape));
         Exponents exponents(zigzag(shape.size()).size(), 0), read;
         for (const Frequency& frequency : blocks.frequencies())
-            exponents[place_in_block(frequency)] = static_cast<std::uint8_t>(random() % (largest_exponent + 1));
+            exponents[place_in_block(frequency)] = static_cast<std::uint8_t>(random() % (max_exponent + 1));
         ArithmeticEncoder encoder;
         write_exponents(encoder, blocks, exponents);
         const Bytes code = encoder.finish();

@@ -109,7 +109,8 @@ std::vector<transform::Pyramid> pyramids() {
 template <class Visit>
 void for_each_entry(const transform::Pyramid& pyramid, Visit&& visit) {
     std::vector<std::size_t> axes;
-    for (const transform::AxisGroup& group : pyramid.groups()) axes.insert(axes.end(), group.axes.begin(), group.axes.end());
+    for (const transform::AxisGroup& group : pyramid.groups())
+        axes.insert(axes.end(), group.axes.begin(), group.axes.end());
     std::sort(axes.begin(), axes.end());
     const std::vector<std::size_t> strides = pyramid.strides();
     for (std::size_t offset = 0; offset < pyramid.size(); ++offset) {

@@ -24,7 +24,7 @@ double squared_error(std::span<const float> values, double step) {
     return sum;
 }
 
-float largest_magnitude(std::span<const float> values) {
+float max_magnitude(std::span<const float> values) {
     float most = 0;
     bool finite = true;
     for (float value : values) {
@@ -39,7 +39,7 @@ double step_for_sqnr(std::span<const float> values, double sqnr) {
     if (!(sqnr > 0 && sqnr <= 130))
         throw Error(ErrorCode::usage,
                     fmt::format("coding: an SQNR of {} dB, expected more than 0 and at most 130", sqnr));
-    const double most = largest_magnitude(values);
+    const double most = max_magnitude(values);
     if (most == 0) return 1;
     const double allowed = energy(values) * std::pow(10, -sqnr / 10);
     // With this step everything is zero; with 2^-30 of it a float is nearly exact.

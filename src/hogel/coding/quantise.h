@@ -39,6 +39,6 @@ double squared_error(std::span<const float> values, double step);
 double step_for_sqnr(std::span<const float> values, double sqnr);
 
 /// The largest magnitude. Throws Error(usage) when a value is not finite.
-float largest_magnitude(std::span<const float> values);
+float max_magnitude(std::span<const float> values);
 
 }  // namespace hogel::coding

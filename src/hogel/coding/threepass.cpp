@@ -14,20 +14,20 @@
 namespace hogel::coding {
 namespace {
 
-constexpr int most_planes = 30;
+constexpr int max_planes = 30;
 constexpr std::size_t header = 5;
 
 // Models of the bits that symbols are told by.
 struct Models {
-    using Unary = std::array<BitModel, most_planes>;
+    using Unary = std::array<BitModel, max_planes>;
     static constexpr std::size_t contexts = 6;  // what was told of the two coefficients before
     // By bits of the parent's subtree, leaf, context.
-    std::array<std::array<std::array<BitModel, contexts>, 2>, most_planes + 1> tree_found;
-    std::array<std::array<std::array<Unary, contexts>, 2>, most_planes + 1> tree_less;
+    std::array<std::array<std::array<BitModel, contexts>, 2>, max_planes + 1> tree_found;
+    std::array<std::array<std::array<Unary, contexts>, 2>, max_planes + 1> tree_less;
     // By bits of the subtree, context.
-    std::array<std::array<BitModel, contexts>, most_planes + 1> node_found;
-    std::array<Unary, most_planes + 1> node_less;
-    std::array<Unary, most_planes + 1> magnitude;  // [bits of the level][which bit]
+    std::array<std::array<BitModel, contexts>, max_planes + 1> node_found;
+    std::array<Unary, max_planes + 1> node_less;
+    std::array<Unary, max_planes + 1> magnitude;  // [bits of the level][which bit]
 };
 
 // The symbols of the third pass as bits, told to an encoder or by a decoder: the one description of both. Its
@@ -154,7 +154,7 @@ class AlphabetDecoding {
     std::array<std::array<std::vector<SymbolModel>, 2>, 2>
         trees_;                       // [leaf][after_zerotree][bits of the parent's subtree]
     std::vector<SymbolModel> nodes_;  // by bits of the subtree
-    std::array<std::array<BitModel, most_planes>, most_planes + 1> magnitudes_;
+    std::array<std::array<BitModel, max_planes>, max_planes + 1> magnitudes_;
 };
 
 [[noreturn]] void damaged(const char* what) {
@@ -202,10 +202,11 @@ class Histogram {
 
 }  // namespace
 
-std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values, double step) {
+std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values,
+                                            double step) {
     check_size(pyramid, values.size());
-    const float most = largest_magnitude(values), stored_step = static_cast<float>(step);
-    if (!(stored_step > 0) || !std::isfinite(stored_step) || most / stored_step > std::ldexp(1.0f, most_planes))
+    const float most = max_magnitude(values), stored_step = static_cast<float>(step);
+    if (!(stored_step > 0) || !std::isfinite(stored_step) || most / stored_step > std::ldexp(1.0f, max_planes))
         throw Error(
             ErrorCode::usage,
             fmt::format("three-pass coder: a step of {} for magnitudes up to {}, expected one from 2^-30 of that", step,
@@ -229,7 +230,7 @@ void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::u
     const float step = get_float(bytes);
     const int planes = bytes[4];
     if (!(step > 0) || !std::isfinite(step)) damaged("its step is not a positive number");
-    if (planes > most_planes) damaged("it has more than 30 bit planes");
+    if (planes > max_planes) damaged("it has more than 30 bit planes");
     const std::span<const std::uint8_t> rest = bytes.subspan(header);
     if (code == ThreePassCode::bits)
         read_all(pyramid, step, planes, Decoding(rest), values);
@@ -246,7 +247,7 @@ void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> valu
 }
 
 double three_pass_step(std::span<const float> values, double bits, double c) {
-    const float most = largest_magnitude(values);
+    const float most = max_magnitude(values);
     if (most == 0) return 1;
     const Histogram histogram(values);
     double coarse = most, fine = most * 0x1p-29;
@@ -259,9 +260,9 @@ double three_pass_step(std::span<const float> values, double bits, double c) {
 
 std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values,
                                                     double bits) {
-    const double most = largest_magnitude(values);
+    const double most = max_magnitude(values);
     // Steps known to fit and to give too much; their logarithms, as those of sizes over steps are nearly straight.
-    double fits = most > 0 ? std::log2(most) : 0, too_fine = fits - most_planes;
+    double fits = most > 0 ? std::log2(most) : 0, too_fine = fits - max_planes;
     std::vector<std::uint8_t> best = three_pass_encode(pyramid, values, std::exp2(fits));
     const auto log_size = [](const std::vector<std::uint8_t>& bytes) {
         return std::log2(8 * static_cast<double>(bytes.size()));

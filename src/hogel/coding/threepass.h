@@ -26,7 +26,8 @@ namespace hogel::coding {
 ///
 /// Throws Error(usage) when a value is not finite, their number is not the pyramid's, or the step is not positive or is
 /// less than 2⁻³⁰ of the largest magnitude. Cost: O(size), two bytes of memory a coefficient.
-std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values, double step);
+std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values,
+                                            double step);
 
 /// How symbols are coded: bit by bit, or as they once were, from alphabets.
 enum class ThreePassCode { bits, alphabets };
@@ -46,6 +47,7 @@ double three_pass_step(std::span<const float> values, double bits, double c = 4.
 
 /// Encodes in `bits` or up to 2% less where that is possible, by correcting the rule's step with what it gave: a few
 /// times the cost of three_pass_encode. Fewer bits than the shortest stream has throw Error(usage).
-std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values, double bits);
+std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values,
+                                                    double bits);
 
 }  // namespace hogel::coding

@@ -7,7 +7,6 @@
 
 namespace hogel {
 
-
 void* allocate_lines(std::size_t bytes) {
     constexpr std::size_t line = 64, huge_page = std::size_t{2} << 20;
     const bool large = bytes >= 2 * huge_page;

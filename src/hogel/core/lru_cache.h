@@ -14,10 +14,10 @@ namespace hogel::core {
 /// The results that were asked for last, by a key. Several threads may ask at once; who asks first for a result makes
 /// it while others who want the same wait.
 template <class Key, class Result>
-class RecentResults {
+class LruCache {
   public:
     /// @param kept  results to keep, at least one
-    explicit RecentResults(std::size_t kept) : kept_(std::max<std::size_t>(kept, 1)) {}
+    explicit LruCache(std::size_t kept) : kept_(std::max<std::size_t>(kept, 1)) {}
 
     std::size_t kept() const { return kept_; }
 

@@ -10,15 +10,15 @@ namespace hogel::core {
 /// Things that many tasks need, one after the other, such as arrays of a few megabytes: made when none is free, and
 /// kept for whoever comes next, because fresh memory has to be cleared page by page first. For any number of threads.
 template <class T>
-class Reused {
+class ObjectPool {
   public:
     /// One of them, given back when this goes.
-    class Loan {
+    class Lease {
       public:
-        Loan(Reused& from, std::unique_ptr<T> thing) : from_(from), thing_(std::move(thing)) {}
-        Loan(const Loan&) = delete;
-        Loan& operator=(const Loan&) = delete;
-        ~Loan() {
+        Lease(ObjectPool& from, std::unique_ptr<T> thing) : from_(from), thing_(std::move(thing)) {}
+        Lease(const Lease&) = delete;
+        Lease& operator=(const Lease&) = delete;
+        ~Lease() {
             const std::lock_guard lock(from_.mutex_);
             from_.free_.push_back(std::move(thing_));
         }
@@ -26,12 +26,12 @@ class Reused {
         T* operator->() { return thing_.get(); }
 
       private:
-        Reused& from_;
+        ObjectPool& from_;
         std::unique_ptr<T> thing_;
     };
 
     /// What it holds is what the last who had it left there.
-    Loan take() {
+    Lease take() {
         std::unique_ptr<T> thing;
         {
             const std::lock_guard lock(mutex_);

@@ -9,8 +9,8 @@
 namespace hogel::core {
 namespace {
 
-TEST(Reused, what_is_given_back_is_taken_next) {
-    Reused<std::vector<int>> rooms;
+TEST(ObjectPool, what_is_given_back_is_taken_next) {
+    ObjectPool<std::vector<int>> rooms;
     const int* first = nullptr;
     {
         auto room = rooms.take();
@@ -23,11 +23,11 @@ TEST(Reused, what_is_given_back_is_taken_next) {
     EXPECT_TRUE(other->empty()) << "two at once are two";
 }
 
-TEST(Reused, nobody_has_what_another_has) {
+TEST(ObjectPool, nobody_has_what_another_has) {
     struct Room {
         std::atomic<int> guests{0};
     };
-    Reused<Room> rooms;
+    ObjectPool<Room> rooms;
     std::atomic<int> shared{0};
     parallel_for(1000, [&](std::size_t) {
         auto room = rooms.take();

@@ -40,14 +40,14 @@ Complex* map_file(std::size_t bytes, const std::filesystem::path& folder) {
 
 }  // namespace
 
-void LargeArray::Release::operator()(Complex* data) const {
+void PagedArray::Release::operator()(Complex* data) const {
     if (mapped_bytes > 0)
         munmap(data, mapped_bytes);
     else
         CacheLineAllocator<Complex>().deallocate(data, 0);
 }
 
-LargeArray::LargeArray(const Shape<2>& shape, const Scratch& scratch) : shape_(shape) {
+PagedArray::PagedArray(const Shape<2>& shape, const ScratchOptions& scratch) : shape_(shape) {
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / (4 * sizeof(Complex));
     if (shape[0] == 0 || shape[1] == 0 || shape[0] > most / shape[1])
         throw Error(ErrorCode::usage, fmt::format("an array of {}x{} samples cannot be made", shape[1], shape[0]));

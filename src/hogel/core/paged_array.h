@@ -11,12 +11,12 @@ namespace hogel::core {
 
 /// An array of complex values, all zero at first, in memory or in a file without a name that the system pages in and
 /// out and that is gone with the array. Work on it goes by rows, or by blocks of neighbouring columns.
-class LargeArray {
+class PagedArray {
   public:
-    LargeArray() = default;
+    PagedArray() = default;
     /// Throws Error(usage) for an array that is too large for the memory when no folder is given, and
     /// Error(cannot_write) when the file cannot be made or the disk has no room for it.
-    LargeArray(const Shape<2>& shape, const Scratch& scratch);
+    PagedArray(const Shape<2>& shape, const ScratchOptions& scratch);
 
     View<std::complex<float>, 2> view() { return {data_.get(), shape_}; }
     View<const std::complex<float>, 2> view() const { return {data_.get(), shape_}; }

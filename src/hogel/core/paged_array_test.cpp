@@ -7,23 +7,23 @@
 namespace hogel::core {
 namespace {
 
-TEST(LargeArray, is_zero_and_keeps_values_in_memory_and_in_a_file_that_nobody_sees) {
+TEST(PagedArray, is_zero_and_keeps_values_in_memory_and_in_a_file_that_nobody_sees) {
     const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "large_array";
     std::filesystem::create_directories(folder);
     for (const std::size_t memory : {std::size_t{1} << 20, std::size_t{0}}) {
-        LargeArray array({30, 70}, {memory, folder});
+        PagedArray array({30, 70}, {memory, folder});
         for (const auto& value : array.view().elements()) EXPECT_EQ(value, std::complex<float>(0));
         array.view()(29, 69) = {1, 2};
-        LargeArray moved = std::move(array);
+        PagedArray moved = std::move(array);
         EXPECT_EQ(moved.view()(29, 69), std::complex<float>(1, 2));
         EXPECT_TRUE(std::filesystem::is_empty(folder));
     }
 }
 
-TEST(LargeArray, that_has_no_place_is_refused) {
-    const auto code = [](const Shape<2>& shape, const Scratch& scratch) {
+TEST(PagedArray, that_has_no_place_is_refused) {
+    const auto code = [](const Shape<2>& shape, const ScratchOptions& scratch) {
         try {
-            LargeArray array(shape, scratch);
+            PagedArray array(shape, scratch);
         } catch (const Error& error) {
             return error.code();
         }

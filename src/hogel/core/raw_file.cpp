@@ -15,8 +15,8 @@
 namespace hogel::core {
 namespace {
 
-constexpr std::uint64_t most_bytes = std::numeric_limits<std::int64_t>::max();
-constexpr std::size_t most_at_once = std::size_t{1} << 30;  // the system moves a little less than 2 GiB in one call
+constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
+constexpr std::size_t max_at_once = std::size_t{1} << 30;  // the system moves a little less than 2 GiB in one call
 
 int flags(RawFile::Mode mode) {
     switch (mode) {
@@ -62,7 +62,7 @@ std::uint64_t RawFile::size() const {
 void RawFile::read(std::uint64_t offset, void* to, std::size_t bytes) const {
     auto* place = static_cast<char*>(to);
     while (bytes > 0) {
-        const ssize_t got = ::pread(file_, place, std::min(bytes, most_at_once), static_cast<off_t>(offset));
+        const ssize_t got = ::pread(file_, place, std::min(bytes, max_at_once), static_cast<off_t>(offset));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) fail(errno);
         if (got == 0)
@@ -77,7 +77,7 @@ void RawFile::read(std::uint64_t offset, void* to, std::size_t bytes) const {
 void RawFile::write(std::uint64_t offset, const void* from, std::size_t bytes) {
     const auto* place = static_cast<const char*>(from);
     while (bytes > 0) {
-        const ssize_t put = ::pwrite(file_, place, std::min(bytes, most_at_once), static_cast<off_t>(offset));
+        const ssize_t put = ::pwrite(file_, place, std::min(bytes, max_at_once), static_cast<off_t>(offset));
         if (put < 0 && errno == EINTR) continue;
         if (put <= 0) fail(put < 0 ? errno : ENOSPC);
         place += put;
@@ -88,7 +88,7 @@ void RawFile::write(std::uint64_t offset, const void* from, std::size_t bytes) {
 
 void RawFile::reserve(std::uint64_t bytes) {
 #ifdef __linux__
-    if (bytes > most_bytes) fail(EFBIG);
+    if (bytes > max_bytes) fail(EFBIG);
     if (::fallocate(file_, 0, 0, static_cast<off_t>(bytes)) == 0) return;
     if (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINTR) fail(errno);
 #endif
@@ -96,7 +96,7 @@ void RawFile::reserve(std::uint64_t bytes) {
 }
 
 void RawFile::resize(std::uint64_t bytes) {
-    if (bytes > most_bytes) fail(EFBIG);
+    if (bytes > max_bytes) fail(EFBIG);
     if (::ftruncate(file_, static_cast<off_t>(bytes)) != 0) fail(errno);
 }
 

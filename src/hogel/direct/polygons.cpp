@@ -105,9 +105,11 @@ class PolygonLight {
         const optics::Wave surface = paint(polygon, origin, x, y);
         const Grid& own = surface.grid().plane;
         const optics::Band around{surface.carrier_x - 0.5 / own.pitch_x, surface.carrier_x + 0.5 / own.pitch_x,
-                          surface.carrier_y - 0.5 / own.pitch_y, surface.carrier_y + 0.5 / own.pitch_y};
-        const optics::Spectrum own_waves = optics::spectrum_of(surface, optics::padded(own, own.size_x(), own.size_y()), around, anything_);
-        optics::Spectrum waves = optics::tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, optics::Band::of(plane), anything_);
+                                  surface.carrier_y - 0.5 / own.pitch_y, surface.carrier_y + 0.5 / own.pitch_y};
+        const optics::Spectrum own_waves =
+            optics::spectrum_of(surface, optics::padded(own, own.size_x(), own.size_y()), around, anything_);
+        optics::Spectrum waves =
+            optics::tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, optics::Band::of(plane), anything_);
         waves.window.center_x = origin.x;
         waves.window.center_y = origin.y;
         optics::propagate(waves, {-depth - origin.z, 0, 0, size_x, size_y, 0.5 * size_x, 0.5 * size_y});
@@ -172,7 +174,7 @@ class PolygonLight {
     const ShadedScene& scene_;
     FieldGrid grid_;
     SceneHologramOptions options_;
-    Scratch anything_{SIZE_MAX, {}};
+    ScratchOptions anything_{SIZE_MAX, {}};
 };
 
 }  // namespace

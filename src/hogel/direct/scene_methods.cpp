@@ -7,7 +7,6 @@ namespace hogel {
 
 using namespace direct;
 
-
 std::span<const SceneMethod> scene_methods() {
     static constexpr std::array<SceneMethod, 11> methods{{
         {"points", "spherical waves of points on all surfaces, exact, without occlusion", exact_points},

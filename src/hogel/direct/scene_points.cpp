@@ -35,14 +35,14 @@ double nearest_depth(const FieldGrid& grid) { return 8 * grid.plane.pitch_x * gr
 
 double random_turns(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return core::philox({a, b, c, static_cast<std::uint32_t>(options.channel)},
-                  {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)})[0] /
+                        {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)})[0] /
            4294967296.0;
 }
 
 std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid& grid,
                                        const SceneHologramOptions& options) {
     std::vector<ScenePoint> points;
-    const Sight sight{{0, 0, 1}, options.spacing};
+    const ViewSample sight{{0, 0, 1}, options.spacing};
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const auto [a, b, c] = corners(scene, scene.triangles[i]);
         const Vec3 across = cross(b - a, c - a);

@@ -11,7 +11,7 @@ namespace hogel::direct {
 namespace {
 
 constexpr std::size_t side = tile_side;
-constexpr double most_turns_wrong = 0.01;  // a quarter of a degree in the mean
+constexpr double max_turns_wrong = 0.01;  // a quarter of a degree in the mean
 
 // How much of a tile a point's light reaches.
 enum class Zone { dark, edge, lit };
@@ -63,7 +63,7 @@ class Tile {
                              std::abs(path);
         const double fourth =
             std::pow(reach_x_ * reach_x_ + reach_y_ * reach_y_, 2) / (8 * std::pow(std::abs(path), 3));
-        if (k * (mixed + third + fourth) > most_turns_wrong) return add_exactly(point);
+        if (k * (mixed + third + fourth) > max_turns_wrong) return add_exactly(point);
         const Chirp x(roots_, k * gx, k * curve_x, region_.width, grid_.plane.pitch_x);
         // Rows run down.
         const Chirp y(roots_, -k * gy, k * curve_y, region_.height, grid_.plane.pitch_y);

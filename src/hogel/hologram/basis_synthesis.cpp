@@ -19,31 +19,32 @@ namespace {
 
 using Complex = std::complex<float>;
 
-constexpr double most_bytes = 4.0 * (std::size_t{1} << 30);
+constexpr double max_bytes = 4.0 * (std::size_t{1} << 30);
 
 // Each hogel is a sum of fringes, one for each basis function of a transform of the directions, weighted with the
 // coefficients of its amplitudes √L. Sources: [K] (3.24) and 4.2; with the samples as coefficients and a piecewise
 // constant basis, Lucente 1994.
 class BasisSynthesis final : public HogelSynthesis {
   public:
-    BasisSynthesis(const LightFieldGrid& light_field, std::size_t samples, const StereogramOptions& options,
-                   Values values)
+    BasisSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
+                   RayValues values)
         : light_field_(light_field),
           values_(values),
           pieces_(options.transform == "pieces"),
           tolerance_(options.tolerance),
           transform_(hogel::transform::transform(pieces_ ? "haar" : options.transform)),
-          frequencies_(light_field, samples, options.wavelength, pieces_ ? Between::constant : Between::linear),
+          frequencies_(light_field, samples, options.wavelength,
+                       pieces_ ? Interpolation::constant : Interpolation::linear),
           fft_(samples, samples),
           phases_(direction_phases(frequencies_, fft_, options)) {
         const double bytes =
             static_cast<double>(light_field.directions() * samples * samples * options.looks) * sizeof(Complex);
-        if (bytes > most_bytes)
+        if (bytes > max_bytes)
             throw Error(ErrorCode::usage,
                         fmt::format("basis fringes of {0}x{0} samples for {1}x{2} directions take {3}, more than {4}; "
                                     "expected fewer directions or smaller hogels",
                                     samples, light_field.directions_u, light_field.directions_v, format_bytes(bytes),
-                                    format_bytes(most_bytes)));
+                                    format_bytes(max_bytes)));
         for (std::size_t look = 0; look < options.looks; ++look)
             fringes_.emplace_back(light_field.directions(), samples * samples,
                                   [this, look, samples](std::size_t number, std::span<Complex> fringe) {
@@ -63,7 +64,7 @@ class BasisSynthesis final : public HogelSynthesis {
     std::size_t prepared_size() const override { return light_field_.directions(); }
 
     void prepare(View<const float, 2> values, View<const float, 2>, View<float, 2> prepared) const override {
-        if (values_ == Values::coefficients) {
+        if (values_ == RayValues::coefficients) {
             std::copy_n(values.data(), values.size(), prepared.data());
         } else {
             for (std::size_t i = 0; i < values.size(); ++i)
@@ -117,7 +118,7 @@ class BasisSynthesis final : public HogelSynthesis {
     }
 
     LightFieldGrid light_field_;
-    Values values_;
+    RayValues values_;
     bool pieces_;
     double tolerance_;
     transform::Transform transform_;
@@ -131,7 +132,7 @@ class BasisSynthesis final : public HogelSynthesis {
 }  // namespace
 
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                     const StereogramOptions& options, Values values) {
+                                                     const HologramOptions& options, RayValues values) {
     return std::make_unique<BasisSynthesis>(light_field, samples, options, values);
 }
 

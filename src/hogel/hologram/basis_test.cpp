@@ -17,8 +17,8 @@ namespace {
 using namespace literals;
 using Complex = std::complex<float>;
 
-LightField smooth_light_field() {
-    LightField light_field({3, 2, 48_um, 20, 18, 0.14, 0.13, 1});
+LightFieldBuffer smooth_light_field() {
+    LightFieldBuffer light_field({3, 2, 48_um, 20, 18, 0.14, 0.13, 1});
     for (std::size_t t = 0; t < 2; ++t)
         for (std::size_t s = 0; s < 3; ++s)
             for (std::size_t l = 0; l < 18; ++l)
@@ -28,11 +28,11 @@ LightField smooth_light_field() {
     return light_field;
 }
 
-StereogramOptions options_for(Method method, const std::string& transform) {
-    StereogramOptions options;
+HologramOptions options_for(Method method, const std::string& transform) {
+    HologramOptions options;
     options.method = method;
     options.phases = Phases::fixed;
-    options.average = Average::amplitude;
+    options.average = LobeAverage::amplitude;
     options.pitch = 2_um;
     options.transform = transform;
     options.looks = 2;
@@ -56,16 +56,16 @@ double difference(const Array<Complex, 2>& a, const Array<Complex, 2>& b) {
 }
 
 TEST(Basis, gives_what_one_transform_a_hogel_gives_whatever_the_transform_of_the_directions) {
-    const LightField light_field = smooth_light_field();
+    const LightFieldBuffer light_field = smooth_light_field();
     for (const Phases phases : {Phases::fixed, Phases::designed}) {
-        StereogramOptions fourier = options_for(Method::fourier, "");
+        HologramOptions fourier = options_for(Method::fourier, "");
         fourier.phases = phases;
-        const auto expected = make_stereogram(light_field, fourier);
+        const auto expected = make_hologram(light_field, fourier);
         for (const std::string_view name : transform::transform_names()) {
             if (phases == Phases::designed && name != "ai33") continue;
-            StereogramOptions options = options_for(Method::basis, std::string(name));
+            HologramOptions options = options_for(Method::basis, std::string(name));
             options.phases = phases;
-            const auto basis = make_stereogram(light_field, options);
+            const auto basis = make_hologram(light_field, options);
             for (std::size_t look : {0, 1})
                 EXPECT_LT(difference(whole(*expected, look), whole(*basis, look)), 1e-5) << name << " " << look;
         }
@@ -74,35 +74,36 @@ TEST(Basis, gives_what_one_transform_a_hogel_gives_whatever_the_transform_of_the
 
 // What carries a share of the amplitude is left out, and the fringes differ by no more than about that.
 TEST(Basis, leaves_out_what_does_not_matter) {
-    const LightField light_field = smooth_light_field();
-    const Array<Complex, 2> all = whole(*make_stereogram(light_field, options_for(Method::basis, "cdf97")), 0);
+    const LightFieldBuffer light_field = smooth_light_field();
+    const Array<Complex, 2> all = whole(*make_hologram(light_field, options_for(Method::basis, "cdf97")), 0);
     for (const double tolerance : {0.3, 0.05, 0.01}) {
-        StereogramOptions options = options_for(Method::basis, "cdf97");
+        HologramOptions options = options_for(Method::basis, "cdf97");
         options.tolerance = tolerance;
-        const double error = difference(all, whole(*make_stereogram(light_field, options), 0));
+        const double error = difference(all, whole(*make_hologram(light_field, options), 0));
         EXPECT_LT(error, 1.2 * tolerance);
         EXPECT_GT(error, 0.05 * tolerance);
     }
 }
 
 TEST(Basis, takes_coefficients_as_they_are) {
-    const LightField light_field = smooth_light_field();
-    LightField coefficients = light_field;
+    const LightFieldBuffer light_field = smooth_light_field();
+    LightFieldBuffer coefficients = light_field;
     for (float& value : coefficients.radiance.elements()) value = std::sqrt(value);
-    transform::transform("cdf42").forward(transform::Pyramid::separate({6, 18, 20}, {{1, 2}}), coefficients.radiance.elements());
-    const StereogramOptions options = options_for(Method::basis, "cdf42");
-    const auto expected = make_stereogram(light_field, options);
-    EXPECT_LT(difference(whole(*expected, 1), whole(*make_stereogram_of_coefficients(coefficients, options), 1)), 1e-6);
+    transform::transform("cdf42").forward(transform::Pyramid::separate({6, 18, 20}, {{1, 2}}),
+                                          coefficients.radiance.elements());
+    const HologramOptions options = options_for(Method::basis, "cdf42");
+    const auto expected = make_hologram(light_field, options);
+    EXPECT_LT(difference(whole(*expected, 1), whole(*make_hologram_of_coefficients(coefficients, options), 1)), 1e-6);
 }
 
 // Lucente's basis: a direction's fringe is the transform of the part of each lobe that its cell covers. The cells cover
 // all lobes within the field of view, so the fringes of a uniform hogel add up to that of linear interpolation.
 TEST(Basis, of_pieces_is_one_cell_of_directions_each) {
     const LightFieldGrid grid{1, 1, 48_um, 20, 18, 0.14, 0.13, 1};
-    LightField uniform(grid), one(grid);
+    LightFieldBuffer uniform(grid), one(grid);
     std::ranges::fill(uniform.radiance.elements(), 2.0f);
-    const auto of = [&](const LightField& light_field, Method method) {
-        return whole(*make_stereogram(light_field, options_for(method, "pieces")), 0);
+    const auto of = [&](const LightFieldBuffer& light_field, Method method) {
+        return whole(*make_hologram(light_field, options_for(method, "pieces")), 0);
     };
     EXPECT_LT(difference(of(uniform, Method::fourier), of(uniform, Method::basis)), 1e-5);
     one.radiance(0, 0, 0, 9, 4) = 1;
@@ -121,13 +122,13 @@ TEST(Basis, of_pieces_is_one_cell_of_directions_each) {
 }
 
 TEST(Basis, refuses_what_cannot_be) {
-    const LightField light_field = smooth_light_field();
-    StereogramOptions options = options_for(Method::basis, "cdf97");
+    const LightFieldBuffer light_field = smooth_light_field();
+    HologramOptions options = options_for(Method::basis, "cdf97");
     options.phases = Phases::random;
-    EXPECT_THROW(make_stereogram(light_field, options), Error);
-    EXPECT_THROW(make_stereogram(light_field, options_for(Method::basis, "wavy")), Error);
-    const LightField fine({1, 1, 512_um, 256, 256, 0.14, 0.13, 1});
-    EXPECT_THROW(make_stereogram(fine, options_for(Method::basis, "cdf97")), Error);
+    EXPECT_THROW(make_hologram(light_field, options), Error);
+    EXPECT_THROW(make_hologram(light_field, options_for(Method::basis, "wavy")), Error);
+    const LightFieldBuffer fine({1, 1, 512_um, 256, 256, 0.14, 0.13, 1});
+    EXPECT_THROW(make_hologram(fine, options_for(Method::basis, "cdf97")), Error);
 }
 
 TEST(Fringes, sum_alike_plainly_and_fast) {

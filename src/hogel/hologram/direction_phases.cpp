@@ -1,15 +1,16 @@
-#include "hogel/hologram/designed_phase.h"
 #include "hogel/hologram/direction_phases.h"
+#include "hogel/hologram/designed_phase.h"
 
 namespace hogel::hologram {
 
-PhaseSeries phase_series(const StereogramOptions& options, std::size_t s, std::size_t t, std::size_t look) {
+PhaseSeries phase_series(const HologramOptions& options, std::size_t s, std::size_t t, std::size_t look) {
     return {{static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)},
             {static_cast<std::uint32_t>(look * 4 + options.channel), static_cast<std::uint32_t>(s),
              static_cast<std::uint32_t>(t)}};
 }
 
-DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft, const StereogramOptions& options) {
+DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft,
+                                 const HologramOptions& options) {
     const Shape<2> shape{frequencies.rows(), frequencies.columns()};
     Array<float, 2> moduli(shape);
     const std::vector<float> uniform(frequencies.rays(), 1.0f), ones(moduli.size(), 1.0f);

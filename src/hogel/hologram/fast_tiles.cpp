@@ -6,9 +6,9 @@
 
 namespace hogel::hologram {
 
-bool FastSquares::can(std::size_t side) { return side >= rows_at_once && math::ColumnFft::can(side, side); }
+bool FastTiles::can(std::size_t side) { return side >= rows_at_once && math::ColumnFft::can(side, side); }
 
-FastSquares::FastSquares(std::size_t side, const DirectionPhases& phases) : side_(side), fft_(side) {
+FastTiles::FastTiles(std::size_t side, const DirectionPhases& phases) : side_(side), fft_(side) {
     for (const Array<std::complex<float>, 2>& look : phases) {
         Array<float, 1>& own = phases_.emplace_back(Shape<1>{2 * side * side});
         for (std::size_t row = 0; row < side; ++row)
@@ -20,8 +20,8 @@ FastSquares::FastSquares(std::size_t side, const DirectionPhases& phases) : side
     }
 }
 
-void FastSquares::prepare(const FrequencyGrid& frequencies, View<const float, 2> values, bool of_roots,
-                          View<float, 2> moduli) const {
+void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> values, bool of_roots,
+                        View<float, 2> moduli) const {
     auto sixteen = sixteens_.take();
     const std::size_t line = side_ * hogels_at_once, blocks = side_ / rows_at_once;
     if (sixteen->size() == 0) *sixteen = Array<float, 1>({rows_at_once * line});
@@ -34,7 +34,7 @@ void FastSquares::prepare(const FrequencyGrid& frequencies, View<const float, 2>
             if (current == blocks) return;
             for (std::size_t row = 0; row < rows_at_once; ++row)
                 if (!lit[current * rows_at_once + row]) std::fill_n(sixteen->data() + row * line, line, 0.0f);
-            turn_hogels(sixteen->data(), side_, hogels, &moduli(first, current * line), side_ * side_);
+            transpose_hogels(sixteen->data(), side_, hogels, &moduli(first, current * line), side_ * side_);
             done[current] = true;
         };
         const auto place = [&](std::size_t row) {
@@ -51,8 +51,8 @@ void FastSquares::prepare(const FrequencyGrid& frequencies, View<const float, 2>
     }
 }
 
-void FastSquares::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
-                             std::complex<float>* to, std::size_t to_row) const {
+void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
+                           std::complex<float>* to, std::size_t to_row) const {
     // One square after the other in the same room, sixteen rows and then the square.
     thread_local Array<float, 1> room;
     const std::size_t columns = side_ * square_column;  // floats of sixteen columns, or rows

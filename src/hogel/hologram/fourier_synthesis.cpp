@@ -14,19 +14,19 @@ using Complex = std::complex<float>;
 class FourierSynthesis final : public HogelSynthesis {
   public:
     /// @param lines  lines of each hogel, with horizontal parallax only; 0: a square with both
-    FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const StereogramOptions& options)
+    FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options)
         : options_(options),
           frequencies_(std::move(frequencies)),
           lines_(lines),
           fft_(frequencies_.rows(), frequencies_.columns()) {
         if (options.phases != Phases::random) directions_ = direction_phases(frequencies_, fft_, options);
-        if (lines == 0 && FastSquares::can(frequencies_.columns())) fast_.emplace(frequencies_.columns(), directions_);
+        if (lines == 0 && FastTiles::can(frequencies_.columns())) fast_.emplace(frequencies_.columns(), directions_);
     }
 
     std::size_t prepared_size() const override { return frequencies_.coefficients(); }
 
     void prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const override {
-        if (options_.average == Average::radiance) return prepare(radiances, false, prepared);
+        if (options_.average == LobeAverage::radiance) return prepare(radiances, false, prepared);
         Array<float, 2> roots(radiances.shape());
         for (std::size_t i = 0; i < roots.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
         prepare(roots, true, prepared);
@@ -79,18 +79,18 @@ class FourierSynthesis final : public HogelSynthesis {
         return phase;
     }
 
-    StereogramOptions options_;
+    HologramOptions options_;
     FrequencyGrid frequencies_;
     std::size_t lines_;
     math::Fft2 fft_;
-    DirectionPhases directions_;       // empty where every hogel has phases of its own
-    std::optional<FastSquares> fast_;  // where a hogel's side is one of its own
+    DirectionPhases directions_;     // empty where every hogel has phases of its own
+    std::optional<FastTiles> fast_;  // where a hogel's side is one of its own
 };
 
 }  // namespace
 
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                       const StereogramOptions& options) {
+                                                       const HologramOptions& options) {
     return std::make_unique<FourierSynthesis>(faces.size() == 1
                                                   ? FrequencyGrid(faces.front(), samples, options.wavelength)
                                                   : FrequencyGrid(faces, samples, options.wavelength),
@@ -98,7 +98,7 @@ std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFiel
 }
 
 std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                    std::size_t lines, const StereogramOptions& options) {
+                                                    std::size_t lines, const HologramOptions& options) {
     return std::make_unique<FourierSynthesis>(
         FrequencyGrid::of_line(faces, samples, faces.front().pitch / static_cast<double>(lines), options.wavelength),
         lines, options);

@@ -10,7 +10,7 @@ namespace hogel::hologram {
 namespace {
 
 // Rays and lobes of a band, sixteen hogels of each: 128 KiB.
-constexpr std::size_t most_of_band = 2048;
+constexpr std::size_t max_of_band = 2048;
 
 // Integral from −∞ to x of the hat function max(0, 1 − |x|).
 double hat_integral(double x) {
@@ -19,17 +19,17 @@ double hat_integral(double x) {
     return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
 }
 
-struct Average {
+struct LobeAverage {
     std::size_t first = 0;
     std::vector<float> weights;  // empty: outside
 };
 
 // The weights with which the mean over [low, high] of the piecewise linear function through samples 0..count−1 is made
 // of these samples. The end samples hold to the ends of their cells; beyond them the function is zero.
-Average average_of_lines(double low, double high, std::size_t count) {
+LobeAverage average_of_lines(double low, double high, std::size_t count) {
     const double begin = -0.5, end = static_cast<double>(count) - 0.5;
     const double inside_low = std::max(low, begin), inside_high = std::min(high, end);
-    Average result;
+    LobeAverage result;
     if (!(inside_low < inside_high)) return result;
     const double last = static_cast<double>(count) - 1;
     const double first = std::clamp(std::floor(inside_low), 0.0, last),
@@ -51,9 +51,9 @@ Average average_of_lines(double low, double high, std::size_t count) {
 }
 
 // The same of the function that has each sample's value over its cell.
-Average average_of_pieces(double low, double high, std::size_t count) {
+LobeAverage average_of_pieces(double low, double high, std::size_t count) {
     const double begin = std::max(low, -0.5), end = std::min(high, static_cast<double>(count) - 0.5);
-    Average result;
+    LobeAverage result;
     if (!(begin < end)) return result;
     const double first = std::floor(begin + 0.5),
                  final = std::min(std::floor(end + 0.5), static_cast<double>(count) - 1);
@@ -65,7 +65,7 @@ Average average_of_pieces(double low, double high, std::size_t count) {
 }
 
 // As many weights in every lobe, some of them nought: a loop that is always as long is one that processors foresee.
-void widen(Average& average, std::size_t weights, std::size_t count) {
+void widen(LobeAverage& average, std::size_t weights, std::size_t count) {
     const std::size_t first = std::min(average.first, count - weights);
     average.weights.insert(average.weights.begin(), average.first - first, 0.0f);
     average.weights.resize(weights);
@@ -74,7 +74,8 @@ void widen(Average& average, std::size_t weights, std::size_t count) {
 
 }  // namespace
 
-FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength, Between between)
+FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength,
+                             Interpolation between)
     : FrequencyGrid(light_field, samples, samples, wavelength / light_field.pitch, wavelength, between) {}
 
 FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength)
@@ -84,32 +85,33 @@ FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t 
                              double step_up, double wavelength)
     : rows_(rows), columns_(columns), rays_(0), row_length_(0) {
     for (const LightFieldGrid& face : faces) rays_ += face.directions();
-    scattered_ = scatter_lobes(faces, columns, step_up, rows == 1, wavelength);
-    bands_ = {{0, scattered_.lobes.size(), 0, rays_}};
+    resampling_ = scatter_lobes(faces, columns, step_up, rows == 1, wavelength);
+    bands_ = {{0, resampling_.lobes.size(), 0, rays_}};
     list_runs();
 }
 
 FrequencyGrid FrequencyGrid::of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                      double wavelength) {
     if (faces.size() > 1) return {faces, 1, samples, wavelength / line_pitch, wavelength};
-    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, Between::linear};
+    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, Interpolation::linear};
 }
 
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
-                             double wavelength, Between between)
+                             double wavelength, Interpolation between)
     : rows_(rows), columns_(columns), rays_(light_field.directions()), row_length_(light_field.directions_u) {
     const double step = wavelength / light_field.pitch;  // between frequencies, as direction sines
     const auto width = static_cast<std::ptrdiff_t>(columns), height = static_cast<std::ptrdiff_t>(rows);
     const bool sines = light_field.spacing == Spacing::sines;
-    const auto mean = between == Between::constant || is_frequency_grid(light_field, wavelength) ? average_of_pieces
-                                                                                                 : average_of_lines;
+    const auto mean = between == Interpolation::constant || is_frequency_grid(light_field, wavelength)
+                          ? average_of_pieces
+                          : average_of_lines;
     struct Averages {
-        Average u, v;
+        LobeAverage u, v;
         std::uint32_t coefficient;
         float scale;
     };
     std::vector<Averages> all;
-    std::size_t most_u = 0, most_v = 0;
+    std::size_t max_u = 0, max_v = 0;
     // The sine −n/2 of an even grid would be its own mirror image, so the grid ends one before it.
     const std::ptrdiff_t reach_x = (width - 1) / 2, reach_y = (height - 1) / 2;
     for (std::ptrdiff_t jy = -reach_y; jy <= reach_y; ++jy)
@@ -122,26 +124,27 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
             // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
             const double wu = 0.5 * step * (sines ? 1 : (1 + U * U) / cosine);
             const double wv = 0.5 * step * (sines ? 1 : (1 + V * V) / cosine);
-            const Average u = mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
+            const LobeAverage u =
+                mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
             // A line has one row of directions, whatever is above and below.
-            const Average v = rows == 1
-                                  ? Average{0, {1.0f}}
-                                  : mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
+            const LobeAverage v =
+                rows == 1 ? LobeAverage{0, {1.0f}}
+                          : mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
             if (u.weights.empty() || v.weights.empty()) continue;
             // Rows run down while y runs up, so a row of the DFT is −j_y.
             const auto row = static_cast<std::size_t>((height - jy) % height),
                        column = static_cast<std::size_t>((width + jx) % width);
-            most_u = std::max(most_u, u.weights.size());
-            most_v = std::max(most_v, v.weights.size());
+            max_u = std::max(max_u, u.weights.size());
+            max_v = std::max(max_v, v.weights.size());
             all.push_back({u, v, static_cast<std::uint32_t>(row * columns + column),
                            static_cast<float>(step * step_up / cosine)});
         }
     for (Averages& lobe : all) {
-        widen(lobe.u, most_u, light_field.directions_u);
-        widen(lobe.v, most_v, rows == 1 ? 1 : light_field.directions_v);
+        widen(lobe.u, max_u, light_field.directions_u);
+        widen(lobe.v, max_v, rows == 1 ? 1 : light_field.directions_v);
         lobes_.push_back({lobe.coefficient, static_cast<std::uint32_t>(lobe.u.first),
-                          static_cast<std::uint32_t>(lobe.v.first), static_cast<std::uint32_t>(most_u),
-                          static_cast<std::uint32_t>(most_v), static_cast<std::uint32_t>(weights_.size()), lobe.scale});
+                          static_cast<std::uint32_t>(lobe.v.first), static_cast<std::uint32_t>(max_u),
+                          static_cast<std::uint32_t>(max_v), static_cast<std::uint32_t>(weights_.size()), lobe.scale});
         weights_.insert(weights_.end(), lobe.u.weights.begin(), lobe.u.weights.end());
         weights_.insert(weights_.end(), lobe.v.weights.begin(), lobe.v.weights.end());
     }
@@ -161,7 +164,7 @@ void FrequencyGrid::list_bands() {
         if (!bands_.empty()) {
             Band& last = bands_.back();
             const std::size_t from = std::min(last.ray0, low), to = std::max(last.ray0 + last.rays, high);
-            if (to - from + end - last.lobe0 <= most_of_band) {
+            if (to - from + end - last.lobe0 <= max_of_band) {
                 last = {last.lobe0, end - last.lobe0, from, to - from};
                 continue;
             }
@@ -234,7 +237,7 @@ void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<flo
 void FrequencyGrid::average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots,
                                 float* out) const {
     if (lobes_.empty())
-        average_scattered(scattered_, lobe, count, beside, of_roots, out);
+        average_scattered(resampling_, lobe, count, beside, of_roots, out);
     else
         average_lobes(std::span(lobes_).subspan(lobe, count), weights_.data(), beside.data(), row_length_, of_roots,
                       out);
@@ -242,11 +245,11 @@ void FrequencyGrid::average_run(std::size_t lobe, std::size_t count, View<const 
 
 // Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
 void FrequencyGrid::amplitudes_by_rows(View<const float, 2> values, bool of_roots, const PlaceOfRow& place) const {
-    std::size_t most_rays = 0;
-    for (const Band& band : bands_) most_rays = std::max(most_rays, band.rays);
+    std::size_t max_rays = 0;
+    for (const Band& band : bands_) max_rays = std::max(max_rays, band.rays);
     thread_local Array<float, 1> room;
-    if (room.size() < most_rays * hogels_at_once) room = Array<float, 1>({most_rays * hogels_at_once});
-    const View<float, 2> beside(room.data(), {most_rays, hogels_at_once});
+    if (room.size() < max_rays * hogels_at_once) room = Array<float, 1>({max_rays * hogels_at_once});
+    const View<float, 2> beside(room.data(), {max_rays, hogels_at_once});
     for (const Band& band : bands_) {
         transpose(&values(0, band.ray0), rays_, values.extent(0), band.rays, beside.data(), hogels_at_once);
         const std::span runs = std::span(runs_).subspan(band.run0, band.runs);

@@ -12,7 +12,7 @@
 namespace hogel::hologram {
 
 /// What a light field is between its samples.
-enum class Between {
+enum class Interpolation {
     linear,    ///< linear interpolation
     constant,  ///< the nearest sample: pieces as large as a sample's cell
 };
@@ -28,7 +28,7 @@ class FrequencyGrid {
   public:
     /// @param samples   n_Δ, samples along a side of the hogel and frequencies along a side of the grid
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength,
-                  Between between = Between::linear);
+                  Interpolation between = Interpolation::linear);
 
     /// Of several faces of a hemicube. The rays of a hogel are then those of all faces, one after the other.
     FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
@@ -77,7 +77,7 @@ class FrequencyGrid {
 
   private:
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
-                  double wavelength, Between between);
+                  double wavelength, Interpolation between);
     FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns, double step_up,
                   double wavelength);
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
@@ -96,13 +96,13 @@ class FrequencyGrid {
     void list_bands();
     void list_runs();
     std::uint32_t coefficient(std::size_t lobe) const {
-        return lobes_.empty() ? scattered_.lobes[lobe].coefficient : lobes_[lobe].coefficient;
+        return lobes_.empty() ? resampling_.lobes[lobe].coefficient : lobes_[lobe].coefficient;
     }
 
     std::size_t rows_, columns_;
     std::size_t rays_;
-    std::size_t row_length_;    // n_U
-    ScatteredLobes scattered_;  // where there are several faces, instead of lobes
+    std::size_t row_length_;         // n_U
+    HemicubeResampling resampling_;  // where there are several faces, instead of lobes
     std::vector<Lobe> lobes_;
     std::vector<float> weights_;
     std::vector<Band> bands_;

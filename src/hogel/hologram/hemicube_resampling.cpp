@@ -8,7 +8,7 @@ namespace hogel::hologram {
 namespace {
 
 // More points would follow the side faces' rays closer to the hologram's plane, where they crowd in frequency.
-constexpr double most_points = 12;
+constexpr double max_points = 12;
 
 // How many of a face's directions a cell of direction sines is wide around a way of unit length, by differences.
 double width_in_rays(const LightFieldGrid& face, Vec3 way, double step, bool line) {
@@ -43,12 +43,12 @@ void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 way, double we
 
 }  // namespace
 
-ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
-                             double wavelength) {
+HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
+                                 double wavelength) {
     const double step = wavelength / faces.front().pitch;
     const auto n = static_cast<std::ptrdiff_t>(samples);
     const std::ptrdiff_t reach = (n - 1) / 2;
-    ScatteredLobes result;
+    HemicubeResampling result;
     const std::ptrdiff_t reach_up = line ? 0 : reach;
     for (std::ptrdiff_t jy = -reach_up; jy <= reach_up; ++jy)
         for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
@@ -58,8 +58,8 @@ ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t 
             const Vec3 middle{sx, sy, std::sqrt(cos2)};
             double rays = 1;
             for (const LightFieldGrid& face : faces)
-                if (face.sees(middle)) rays = std::max(rays, width_in_rays(face, middle, step, line));
-            const auto points = static_cast<int>(std::min(most_points, std::ceil(2 * rays)));
+                if (face.covers(middle)) rays = std::max(rays, width_in_rays(face, middle, step, line));
+            const auto points = static_cast<int>(std::min(max_points, std::ceil(2 * rays)));
             const int all = line ? points : points * points;
             std::map<std::uint32_t, double> sum;
             for (int p = 0; p < all; ++p) {
@@ -70,7 +70,7 @@ ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t 
                 const Vec3 way{x, y, std::sqrt(1 - x * x - y * y)};
                 std::size_t first = 0;
                 for (const LightFieldGrid& face : faces) {
-                    if (face.sees(way)) {
+                    if (face.covers(way)) {
                         add_rays(face, first, way, 1.0 / all, sum);
                         break;
                     }
@@ -92,10 +92,10 @@ ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t 
     return result;
 }
 
-void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size_t count, View<const float, 2> values,
-                       bool of_roots, float* out) {
+void average_scattered(const HemicubeResampling& lobes, std::size_t first, std::size_t count,
+                       View<const float, 2> values, bool of_roots, float* out) {
     const std::size_t hogels = values.extent(1);
-    for (const ScatteredLobes::Lobe& lobe : std::span(lobes.lobes).subspan(first, count)) {
+    for (const HemicubeResampling::Lobe& lobe : std::span(lobes.lobes).subspan(first, count)) {
         std::fill_n(out, hogels, 0.0f);
         for (std::uint32_t i = lobe.first; i < lobe.first + lobe.count; ++i) {
             const float* from = &values(lobes.rays[i], 0);

@@ -13,7 +13,7 @@ namespace hogel::hologram {
 /// mean over points of its cell in frequency, two or more for each ray that it covers; each point is looked up, with
 /// bilinear interpolation, in the first face that has its direction. Points of no face, and those where the cell ends
 /// at the plane of the hologram, are dark.
-struct ScatteredLobes {
+struct HemicubeResampling {
     struct Lobe {
         std::uint32_t coefficient;   // of the DFT: [j_y mod n][j_x mod n], rows running down
         std::uint32_t first, count;  // of its rays and weights
@@ -26,12 +26,12 @@ struct ScatteredLobes {
 
 /// @param step_up  the height of a cell as a direction sine; of a line of frequencies its factor in the scale
 /// @param line     frequencies along x alone, of faces with one row of directions
-ScatteredLobes scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
-                             double wavelength);
+HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
+                                 double wavelength);
 
 /// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) of `count` lobes from number `first` on, or where the
 /// values are roots already √scale · Σ.
-void average_scattered(const ScatteredLobes& lobes, std::size_t first, std::size_t count, View<const float, 2> values,
-                       bool of_roots, float* out);
+void average_scattered(const HemicubeResampling& lobes, std::size_t first, std::size_t count,
+                       View<const float, 2> values, bool of_roots, float* out);
 
 }  // namespace hogel::hologram

@@ -41,14 +41,14 @@ class HogelSynthesis {
 /// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2). The rays of a
 /// hogel are those of all faces, one face after the other.
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                       const StereogramOptions& options);
+                                                       const HologramOptions& options);
 
 /// The same with horizontal parallax only: each of a hogel's lines for itself, by one FFT along it, [K] (3.23).
 std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                    std::size_t lines, const StereogramOptions& options);
+                                                    std::size_t lines, const HologramOptions& options);
 
 /// What a synthesis gets as the values of a light field's rays.
-enum class Values {
+enum class RayValues {
     radiance,
     coefficients,  ///< of a transform of each hogel's directions' √L
 };
@@ -56,10 +56,10 @@ enum class Values {
 /// A sum of basis fringes weighted with coefficients: [K] (3.24).
 /// Throws Error(usage) for a transform that does not exist, and where the fringes would not fit into memory.
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                     const StereogramOptions& options, Values values);
+                                                     const HologramOptions& options, RayValues values);
 
 /// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                           const StereogramOptions& options);
+                                                           const HologramOptions& options);
 
 }  // namespace hogel::hologram

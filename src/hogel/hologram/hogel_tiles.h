@@ -31,6 +31,6 @@ void turn_rows(const float* from, std::size_t columns, float* to, std::size_t to
 
 /// The same rows of sixteen hogels turned, [row][columns][hogel]: hogel h becomes [columns][row] at to + h·to_hogel,
 /// for h < hogels.
-void turn_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel);
+void transpose_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel);
 
 }  // namespace hogel::hologram

@@ -1,4 +1,4 @@
-// The vector twins of what square_rows.h declares, compiled for every instruction set and chosen when first called.
+// The vector twins of what hogel_tiles.h declares, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/hogel_tiles_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -125,7 +125,7 @@ void turn_rows(const float* from, std::size_t columns, float* to, std::size_t to
     HWY_DYNAMIC_DISPATCH(TurnRows)(from, columns, to, to_sixteen);
 }
 
-void turn_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
+void transpose_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
     HWY_DYNAMIC_DISPATCH(TurnHogels)(from, columns, hogels, to, to_hogel);
 }
 

@@ -51,7 +51,7 @@ TEST(Turns, put_every_number_in_its_place) {
     for (const std::size_t hogels : {1, 7, 16}) {
         const Array<float, 1> sixteen = noise(16 * columns * 16, 3);
         Array<float, 1> apart({17 * 700}), expected({17 * 700});
-        turn_hogels(sixteen.data(), columns, hogels, apart.data(), 700);
+        transpose_hogels(sixteen.data(), columns, hogels, apart.data(), 700);
         for (std::size_t h = 0; h < hogels; ++h)
             for (std::size_t x = 0; x < columns; ++x)
                 for (std::size_t row = 0; row < 16; ++row)
@@ -61,9 +61,9 @@ TEST(Turns, put_every_number_in_its_place) {
 }
 
 // The plain way: all amplitudes, a phase each, one FFT.
-TEST(FastSquares, make_what_amplitudes_phases_and_one_fft_make) {
+TEST(FastTiles, make_what_amplitudes_phases_and_one_fft_make) {
     for (const std::size_t side : {16, 32, 128}) {
-        if (!FastSquares::can(side)) GTEST_SKIP() << "without vectors there is nothing to test";
+        if (!FastTiles::can(side)) GTEST_SKIP() << "without vectors there is nothing to test";
         // Fields of view that leave rows dark, some of them sixteen side by side.
         const double tangent = side == 128 ? 0.02 : 0.06;
         const LightFieldGrid grid{1, 1, static_cast<double>(side) * 2e-6, 21, 19, tangent, tangent, 1};
@@ -79,7 +79,7 @@ TEST(FastSquares, make_what_amplitudes_phases_and_one_fft_make) {
             Array<Complex, 2> phases({side, side});
             spread_random_phases(series, std::vector<float>(phases.size(), 1.0f), phases.elements());
             if (!random) shared = {Array<Complex, 2>({side, side}), phases};
-            const FastSquares squares(side, shared);
+            const FastTiles squares(side, shared);
             squares.prepare(frequencies, rays, false, blocks);
             for (const std::size_t h : {std::size_t{0}, std::size_t{18}}) {
                 Array<Complex, 2> expected({side, side}), to({side, side + 8});

@@ -19,24 +19,25 @@ using namespace literals;
 using Complex = std::complex<float>;
 using Radiance = std::function<double(Vec3 hogel, Vec3 way)>;  // (x, y, ζ), the way of any length
 
-LightField light_field_of(const LightFieldGrid& grid, const Radiance& radiance) {
-    LightField light_field(grid);
+LightFieldBuffer light_field_of(const LightFieldGrid& grid, const Radiance& radiance) {
+    LightFieldBuffer light_field(grid);
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
             for (std::size_t l = 0; l < grid.directions_v; ++l)
                 for (std::size_t k = 0; k < grid.directions_u; ++k)
-                    light_field.radiance(0, t, s, l, k) = float(radiance(
-                        {grid.s(double(s)), grid.t(double(t)), 0}, grid.along(grid.u(double(k)), grid.v(double(l)))));
+                    light_field.radiance(0, t, s, l, k) =
+                        float(radiance({grid.s(double(s)), grid.t(double(t)), 0},
+                                       grid.direction_of(grid.u(double(k)), grid.v(double(l)))));
     return light_field;
 }
 
 struct Hemicube {
-    std::vector<LightField> faces;
+    std::vector<LightFieldBuffer> faces;
     std::vector<const LightFieldSource*> sources;
 
     Hemicube(const LightFieldGrid& grid, const Radiance& radiance) {
         for (const LightFieldGrid& face : hemicube(grid)) faces.push_back(light_field_of(face, radiance));
-        for (const LightField& face : faces) sources.push_back(&face);
+        for (const LightFieldBuffer& face : faces) sources.push_back(&face);
     }
 };
 
@@ -80,10 +81,10 @@ TEST(HemicubeStereogram, shows_a_point_at_55_degrees_where_geometry_says) {
             const double along = dot(to, way) / dot(way, way);
             return along > 0 && length(to - along * way) < 90_um ? 1.0 : 0.0;
         });
-        StereogramOptions options;
+        HologramOptions options;
         options.pitch = 0.36_um;
         options.looks = 4;
-        const auto hologram = make_stereogram(light.sources, options);
+        const auto hologram = make_hologram(light.sources, options);
         Camera camera;
         camera.eye = {-100_mm * std::sin(angle), -10_mm, 100_mm * std::cos(angle)};
         camera.pupil = 3_mm;
@@ -105,10 +106,10 @@ TEST(HemicubeStereogram, shows_a_point_at_55_degrees_where_geometry_says) {
 TEST(HemicubeStereogram, of_uniform_light_is_as_bright_from_all_sides_and_where_faces_meet) {
     const LightFieldGrid grid{14, 14, 36_um, 32, 32, 1, 1, 1};
     const Hemicube light(grid, [](Vec3, Vec3) { return 0.5; });
-    StereogramOptions options;
+    HologramOptions options;
     options.pitch = 0.36_um;
     options.looks = 6;
-    const auto hologram = make_stereogram(light.sources, options);
+    const auto hologram = make_hologram(light.sources, options);
     for (const Vec3 towards : {Vec3{0, 0, 1}, Vec3{1, 0, 1}, Vec3{-0.3, 1, 1}, Vec3{0, -1.3, 1}}) {
         Camera camera;
         camera.eye = 100_mm * normalize(towards);
@@ -146,12 +147,12 @@ TEST(FrequencyGridLightField, is_taken_as_it_is_and_agrees_with_one_in_perspecti
     const auto light = [](Vec3 hogel, Vec3 way) {
         return 1 + 0.3 * std::sin(9 * way.x / way.z) * std::cos(7 * way.y / way.z) + 2000 * hogel.x;
     };
-    const LightField exact = light_field_of(sines, light);
+    const LightFieldBuffer exact = light_field_of(sines, light);
     const FrequencyGrid frequencies(sines, 64, wavelength);
     std::vector<float> moduli(std::size_t{64} * 64);
     frequencies.amplitudes({&exact.radiance(0, 1, 1, 0, 0), sines.directions()}, moduli);
     const LightFieldGrid tangents{2, 2, pitch, 301, 301, 0.15, 0.15, 1};
-    const LightField seen = light_field_of(tangents, light);
+    const LightFieldBuffer seen = light_field_of(tangents, light);
     std::vector<float> interpolated(std::size_t{64} * 64);
     FrequencyGrid(tangents, 64, wavelength)
         .amplitudes({&seen.radiance(0, 1, 1, 0, 0), tangents.directions()}, interpolated);
@@ -171,13 +172,13 @@ TEST(FrequencyGridLightField, is_photographed_as_what_it_is) {
     const double wavelength = 633_nm, pitch = 50_um, step = wavelength / pitch;
     LightFieldGrid sines{24, 24, pitch, 17, 17, 8.5 * step, 8.5 * step, 1};
     sines.spacing = Spacing::sines;
-    const LightField light = light_field_of(sines, [](Vec3 hogel, Vec3 way) {
+    const LightFieldBuffer light = light_field_of(sines, [](Vec3 hogel, Vec3 way) {
         return hogel.x + 2_mm * way.x / way.z > 0.1_mm ? 1.0 : 0.2;  // an edge behind the hologram
     });
-    StereogramOptions options;
+    HologramOptions options;
     options.pitch = 2_um;
     options.looks = 4;
-    const auto hologram = make_stereogram(light, options);
+    const auto hologram = make_hologram(light, options);
     Camera camera;
     camera.eye = {3_mm, 0, 80_mm};
     camera.pupil = 3_mm;
@@ -193,15 +194,15 @@ TEST(FrequencyGridLightField, is_photographed_as_what_it_is) {
 TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_on_the_hologram) {
     const double depth = 8_mm, half = 64_um;
     const LightFieldGrid grid{24, 24, 64_um, 64, 1, 0.15, 0.01, 1};
-    const LightField light = light_field_of(grid, [&](Vec3 hogel, Vec3 way) {
+    const LightFieldBuffer light = light_field_of(grid, [&](Vec3 hogel, Vec3 way) {
         const double x = hogel.x + depth * way.x / way.z;
         return std::abs(x) < half && std::abs(hogel.y) < half ? 1.0 : 0.0;
     });
-    StereogramOptions options;
+    HologramOptions options;
     options.pitch = 2_um;
     options.line_pitch = 4_um;
     options.looks = 4;
-    const auto hologram = make_stereogram(light, options);
+    const auto hologram = make_hologram(light, options);
     const Grid& plane = hologram->grid().plane;
     ASSERT_EQ(plane.width, 768u);
     ASSERT_EQ(plane.height, 384u);
@@ -242,11 +243,11 @@ TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
             return along > 0 && length(flat - along * way) < 90_um && std::abs(to.y) < 90_um ? 1.0 : 0.0;
         });
         ASSERT_EQ(light.faces.size(), 3u);
-        StereogramOptions options;
+        HologramOptions options;
         options.pitch = 0.36_um;
         options.line_pitch = 4_um;
         options.looks = 4;
-        const auto hologram = make_stereogram(light.sources, options);
+        const auto hologram = make_hologram(light.sources, options);
         Camera camera;
         camera.eye = {-100_mm * std::sin(angle), 0, 100_mm * std::cos(angle)};
         camera.pupil = 3_mm;
@@ -260,11 +261,11 @@ TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
         EXPECT_NEAR(seen.wide, wide, 0.35 * wide);
     }
     const Hemicube even(grid, [](Vec3, Vec3) { return 0.5; });
-    StereogramOptions options;
+    HologramOptions options;
     options.pitch = 0.36_um;
     options.line_pitch = 4_um;
     options.looks = 6;
-    const auto hologram = make_stereogram(even.sources, options);
+    const auto hologram = make_hologram(even.sources, options);
     for (const double angle : {0_deg, 45_deg, -55_deg}) {
         Camera camera;
         camera.eye = {100_mm * std::sin(angle), 0, 100_mm * std::cos(angle)};
@@ -276,12 +277,12 @@ TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
 
 TEST(HorizontalParallax, is_as_bright_as_the_light_field_says_whatever_the_distance_of_lines) {
     const LightFieldGrid grid{8, 8, 160_um, 30, 1, 0.12, 0.01, 1};
-    const LightField light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
+    const LightFieldBuffer light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
     for (const auto& [lines, phases] : {std::pair{4_um, Phases::random},
                                         {10_um, Phases::random},
                                         {10_um, Phases::fixed},
                                         {10_um, Phases::designed}}) {
-        StereogramOptions options;
+        HologramOptions options;
         options.pitch = 2_um;
         options.line_pitch = lines;
         options.phases = phases;
@@ -290,7 +291,7 @@ TEST(HorizontalParallax, is_as_bright_as_the_light_field_says_whatever_the_dista
         camera.eye = {5_mm, 0, 100_mm};
         camera.pupil = 2.5_mm;  // hogels that are alike send light in directions λ/d apart, 0.4 mm there
         camera.picture = {8, 8, 100_um, 100_um, 0, 0};
-        const auto hologram = make_stereogram(light, options);
+        const auto hologram = make_hologram(light, options);
         EXPECT_NEAR(mean_of(photograph(*hologram, std::span(&camera, 1))[0]), 0.7, 0.04) << lines;
     }
 }
@@ -298,13 +299,13 @@ TEST(HorizontalParallax, is_as_bright_as_the_light_field_says_whatever_the_dista
 // What lines share makes their fringe flat; what is their own, a phase, sends light up and down alike.
 TEST(HorizontalParallax, designed_phases_flatten_the_fringe_of_every_line) {
     const LightFieldGrid grid{8, 8, 160_um, 30, 1, 0.12, 0.01, 1};
-    const LightField light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
-    StereogramOptions options;
+    const LightFieldBuffer light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
+    HologramOptions options;
     options.pitch = 2_um;
     options.line_pitch = 10_um;
     const auto peak = [&](Phases phases) {
         options.phases = phases;
-        const auto hologram = make_stereogram(light, options);
+        const auto hologram = make_hologram(light, options);
         Field field(hologram->grid());
         copy(*hologram, field);
         double largest = 0, sum = 0;
@@ -322,7 +323,7 @@ TEST(HorizontalParallax, designed_phases_flatten_the_fringe_of_every_line) {
     above.pupil = 2.5_mm;
     above.picture = {8, 8, 100_um, 100_um, 0, 0};
     options.looks = 6;
-    EXPECT_NEAR(mean_of(photograph(*make_stereogram(light, options), std::span(&above, 1))[0]), 0.7, 0.05);
+    EXPECT_NEAR(mean_of(photograph(*make_hologram(light, options), std::span(&above, 1))[0]), 0.7, 0.05);
 }
 
 // Of every kind the same bytes in any tiling: hogels are keyed by their place, lines by their number.
@@ -330,12 +331,12 @@ TEST(StereogramOfAnyKind, gives_the_same_bytes_in_any_tiling) {
     const auto light = [](Vec3 hogel, Vec3 way) { return 1 + 3000 * hogel.x + way.x / length(way); };
     const LightFieldGrid grid{6, 5, 36_um, 16, 16, 1, 1, 1};
     const Hemicube cube(grid, light);
-    const LightField row = light_field_of({6, 5, 36_um, 16, 1, 0.1, 0.1, 1}, light);
-    StereogramOptions fine, lines;
+    const LightFieldBuffer row = light_field_of({6, 5, 36_um, 16, 1, 0.1, 0.1, 1}, light);
+    HologramOptions fine, lines;
     fine.pitch = 0.36_um;
     lines.pitch = 3_um;
     lines.line_pitch = 9_um;
-    for (const auto& source : {make_stereogram(cube.sources, fine), make_stereogram(row, lines)}) {
+    for (const auto& source : {make_hologram(cube.sources, fine), make_hologram(row, lines)}) {
         const Grid& plane = source->grid().plane;
         Array<Complex, 2> whole({plane.height, plane.width});
         source->read({0, 0, plane.width, plane.height}, 0, whole);
@@ -350,10 +351,10 @@ TEST(StereogramOfAnyKind, gives_the_same_bytes_in_any_tiling) {
     }
 }
 
-void expect_usage(std::span<const LightFieldSource* const> faces, const StereogramOptions& options,
+void expect_usage(std::span<const LightFieldSource* const> faces, const HologramOptions& options,
                   const std::string& part) {
     try {
-        make_stereogram(faces, options);
+        make_hologram(faces, options);
         ADD_FAILURE() << "expected: " << part;
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -364,18 +365,18 @@ void expect_usage(std::span<const LightFieldSource* const> faces, const Stereogr
 TEST(StereogramOfAnyKind, refuses_what_cannot_be_with_what_would_do) {
     const auto light = [](Vec3, Vec3) { return 1.0; };
     const Hemicube cube({2, 2, 36_um, 8, 8, 1, 1, 1}, light);
-    StereogramOptions options;
+    HologramOptions options;
     options.pitch = 0.36_um;
     options.method = Method::basis;
     options.phases = Phases::fixed;
     expect_usage(cube.sources, options, "only the method fourier");
     const LightFieldSource* const left[] = {cube.sources[1]};
     expect_usage(left, {}, "begins with the front face");
-    const LightField other = light_field_of({3, 2, 36_um, 8, 8, 1, 1, 1}, light);
+    const LightFieldBuffer other = light_field_of({3, 2, 36_um, 8, 8, 1, 1, 1}, light);
     const LightFieldSource* const mixed[] = {&other, cube.sources[1]};
     expect_usage(mixed, {}, "other hogels");
 
-    const LightField full = light_field_of({2, 2, 36_um, 8, 6, 0.1, 0.1, 1}, light);
+    const LightFieldBuffer full = light_field_of({2, 2, 36_um, 8, 6, 0.1, 0.1, 1}, light);
     const LightFieldSource* const only[] = {&full};
     options = {};
     options.pitch = 3_um;
@@ -383,19 +384,19 @@ TEST(StereogramOfAnyKind, refuses_what_cannot_be_with_what_would_do) {
     expect_usage(only, options, "8x1 directions would do");
     const Hemicube whole({2, 2, 36_um, 8, 8, 1, 1, 1}, light);
     expect_usage(whole.sources, options, "8x1 directions would do");
-    options.phases = Phases::added;
+    options.phases = Phases::phase_added;
     expect_usage(only, options, "random, fixed or designed phases");
 
     LightFieldGrid sines{2, 2, 36_um, 31, 31, 15.5 * 633e-9 / 36e-6, 15.5 * 633e-9 / 36e-6, 1};
     sines.spacing = Spacing::sines;
-    const LightField exact(sines, true);
+    const LightFieldBuffer exact(sines, true);
     const LightFieldSource* const grid[] = {&exact};
     options = {};
     options.pitch = 1.8_um;  // 20 samples a hogel, of frequencies up to 10
     expect_usage(grid, options, "a pitch of 1.2 um or less would do");
     options.pitch = 1.2_um;
-    EXPECT_NO_THROW(make_stereogram(grid, options));
-    options.phases = Phases::added;
+    EXPECT_NO_THROW(make_hologram(grid, options));
+    options.phases = Phases::phase_added;
     expect_usage(grid, options, "uniform in sines");
 }
 

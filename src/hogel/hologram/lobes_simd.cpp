@@ -33,8 +33,8 @@ HWY_INLINE hn::Vec<D> Mean(D d, std::uint32_t across, std::uint32_t down, const 
 
 // All lobes have as many directions, most often few, and then the compiler knows how many; 0: any number.
 template <std::uint32_t side>
-void Average(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
-             std::size_t row_length, bool of_roots, float* out) {
+void LobeAverage(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
+                 std::size_t row_length, bool of_roots, float* out) {
     const hn::CappedTag<float, hogels_at_once> d;
     const std::size_t row = row_length * hogels_at_once;
     for (const FrequencyGrid::Lobe& lobe : lobes) {
@@ -56,12 +56,12 @@ void AverageLobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weigh
     const std::uint32_t side = lobes.empty() ? 0 : lobes.front().nu;
     const bool square =
         std::ranges::all_of(lobes, [&](const auto& lobe) { return lobe.nu == side && lobe.nv == side; });
-    const auto average = !square     ? Average<0>
-                         : side == 1 ? Average<1>
-                         : side == 2 ? Average<2>
-                         : side == 3 ? Average<3>
-                         : side == 4 ? Average<4>
-                                     : Average<0>;
+    const auto average = !square     ? LobeAverage<0>
+                         : side == 1 ? LobeAverage<1>
+                         : side == 2 ? LobeAverage<2>
+                         : side == 3 ? LobeAverage<3>
+                         : side == 4 ? LobeAverage<4>
+                                     : LobeAverage<0>;
     average(lobes, weights, rays, row_length, of_roots, out);
 }
 

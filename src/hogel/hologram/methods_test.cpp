@@ -25,8 +25,8 @@ struct Card {
     float radiance = 1;
 };
 
-LightField light_field_of(const LightFieldGrid& grid, std::span<const Card> cards) {
-    LightField light_field(grid, true);
+LightFieldBuffer light_field_of(const LightFieldGrid& grid, std::span<const Card> cards) {
+    LightFieldBuffer light_field(grid, true);
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
             for (std::size_t l = 0; l < grid.directions_v; ++l)
@@ -42,8 +42,8 @@ LightField light_field_of(const LightFieldGrid& grid, std::span<const Card> card
     return light_field;
 }
 
-StereogramOptions options_for(Method method, Phases phases, double pitch) {
-    StereogramOptions options;
+HologramOptions options_for(Method method, Phases phases, double pitch) {
+    HologramOptions options;
     options.method = method;
     options.phases = phases;
     options.pitch = pitch;
@@ -129,21 +129,21 @@ class PointFocus : public testing::TestWithParam<double> {
     // One cell of the surface: as wide as neighbouring rays are apart there.
     const double cell = std::abs(depth) * grid.step_u();
     const Card card{depth, 0, cell, 0, cell};
-    const LightField light_field = light_field_of(grid, {&card, 1});
+    const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
 
     const Vec3 point{cell / 2, cell / 2, -depth};
 
     std::unique_ptr<FieldSource> hologram(Phases phases, std::size_t looks = 1) const {
-        StereogramOptions options = options_for(Method::fourier, phases, 2_um);
+        HologramOptions options = options_for(Method::fourier, phases, 2_um);
         options.looks = looks;
-        return make_stereogram(light_field, options);
+        return make_hologram(light_field, options);
     }
 };
 
 // A slit of sine ±s makes sinc², 0.886 λ/2s wide at half maximum.
 TEST_P(PointFocus, is_as_narrow_as_the_whole_fan_of_rays_allows_with_added_phases) {
     const double fan = 0.886 * wavelength / (2 * tan_half / std::hypot(1, tan_half));
-    for (Phases phases : {Phases::added, Phases::added_exactly}) {
+    for (Phases phases : {Phases::phase_added, Phases::phase_added_exact}) {
         const Peak peak = peak_of(focus_of(*hologram(phases), point, 20_um));
         EXPECT_NEAR(peak.width * 20_um / fan, 1, 0.1);
         EXPECT_NEAR(peak.at * 20_um, 0, 0.3_um);
@@ -165,17 +165,17 @@ TEST_P(PointFocus, is_as_wide_as_one_hogel_makes_it_in_a_plain_stereogram) {
                 expected[std::size_t(place)] += sinc * sinc * (1 - std::abs(ray) / 10.0);
             }
     EXPECT_NEAR(inner_half(focus_of(*hologram(Phases::random, 6), point, zero)), inner_half(expected), 0.05);
-    EXPECT_GT(inner_half(focus_of(*hologram(Phases::added_exactly), point, zero)), 0.97);
+    EXPECT_GT(inner_half(focus_of(*hologram(Phases::phase_added_exact), point, zero)), 0.97);
 }
 
 // With frequencies of their own the waves are those of the point, but for what a hogel hides of a sphere's curvature.
 // On the nearest frequencies of the transform they err by a uniform half step along x, and 0.405 of a step in y here.
 TEST_P(PointFocus, is_the_exact_sum_where_each_wave_has_its_own_frequency) {
-    const auto exactly = hologram(Phases::added_exactly);
+    const auto exactly = hologram(Phases::phase_added_exact);
     const PointSource source{point};
     const Field exact = point_hologram({&source, 1}, exactly->grid());
     EXPECT_GT(likeness(*exactly, exact), 0.985);
-    EXPECT_NEAR(likeness(*hologram(Phases::added), exact), std::pow(0.873 * 0.752, 2), 0.03);
+    EXPECT_NEAR(likeness(*hologram(Phases::phase_added), exact), std::pow(0.873 * 0.752, 2), 0.03);
     EXPECT_LT(likeness(*hologram(Phases::random), exact), 0.05);
 }
 
@@ -187,8 +187,8 @@ TEST_P(OverlapAddPoint, is_focused_as_narrowly_as_the_fan_of_rays_allows) {
     const double depth = GetParam(), tan_half = 8.5 * 633_nm / (19 * 4_um);
     const LightFieldGrid grid{201, 39, 4_um, 17, 17, tan_half, tan_half, 1};
     const Card card{depth, -2_um, 2_um, -2_um, 2_um};
-    const LightField light_field = light_field_of(grid, {&card, 1});
-    const auto hologram = make_stereogram(light_field, options_for(Method::overlap_add, Phases::random, 4_um));
+    const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
+    const auto hologram = make_hologram(light_field, options_for(Method::overlap_add, Phases::random, 4_um));
     const Peak peak = peak_of(focus_of(*hologram, {0, 0, -depth}, 30_um));
     // Seventeen directions, 1/W apart, W = 19 samples.
     const double fan = 0.886 / (17 / (19 * 4_um));
@@ -198,22 +198,22 @@ TEST_P(OverlapAddPoint, is_focused_as_narrowly_as_the_fan_of_rays_allows) {
 
 INSTANTIATE_TEST_SUITE_P(Depths, OverlapAddPoint, testing::Values(2e-3, 4e-3, -4e-3));
 
-struct Way {
+struct PropagationOptions {
     Method method;
     Phases phases;
 };
 
-class EveryWay : public testing::TestWithParam<Way> {
+class EveryWay : public testing::TestWithParam<PropagationOptions> {
   protected:
-    StereogramOptions options(double pitch) const { return options_for(GetParam().method, GetParam().phases, pitch); }
+    HologramOptions options(double pitch) const { return options_for(GetParam().method, GetParam().phases, pitch); }
 };
 
 TEST_P(EveryWay, gives_the_same_bytes_in_any_tiling) {
     const LightFieldGrid grid{9, 7, 48_um, 20, 22, 0.12, 0.13, 1};
     const Card cards[] = {{3e-3, 0, 1, -1, 1, 0.5f}, {-2e-3, -1, 1, 0, 0.1e-3, 2}};
-    LightField light_field = light_field_of(grid, cards);
+    LightFieldBuffer light_field = light_field_of(grid, cards);
     light_field.radiance(0, 2, 2, 3, 3) = 7;  // light from nowhere
-    const auto source = make_stereogram(light_field, options(2_um));
+    const auto source = make_hologram(light_field, options(2_um));
     const Array<Complex, 2> all = whole(*source);
     double energy = 0;
     for (const Complex& value : all.elements()) energy += std::norm(value);
@@ -228,12 +228,15 @@ TEST_P(EveryWay, gives_the_same_bytes_in_any_tiling) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, EveryWay,
-                         testing::Values(Way{Method::fourier, Phases::random}, Way{Method::fourier, Phases::fixed},
-                                         Way{Method::fourier, Phases::designed}, Way{Method::fourier, Phases::added},
-                                         Way{Method::fourier, Phases::added_exactly},
-                                         Way{Method::overlap_add, Phases::random},
-                                         Way{Method::overlap_add, Phases::fixed}, Way{Method::basis, Phases::fixed},
-                                         Way{Method::basis, Phases::designed}));
+                         testing::Values(PropagationOptions{Method::fourier, Phases::random},
+                                         PropagationOptions{Method::fourier, Phases::fixed},
+                                         PropagationOptions{Method::fourier, Phases::designed},
+                                         PropagationOptions{Method::fourier, Phases::phase_added},
+                                         PropagationOptions{Method::fourier, Phases::phase_added_exact},
+                                         PropagationOptions{Method::overlap_add, Phases::random},
+                                         PropagationOptions{Method::overlap_add, Phases::fixed},
+                                         PropagationOptions{Method::basis, Phases::fixed},
+                                         PropagationOptions{Method::basis, Phases::designed}));
 
 // Those that send light everywhere, as a diffuse surface does.
 class DiffuseWay : public EveryWay {
@@ -241,10 +244,10 @@ class DiffuseWay : public EveryWay {
     const bool overlapping = GetParam().method == Method::overlap_add;
     const LightFieldGrid grid = overlapping ? LightFieldGrid{120, 120, 8_um, 11, 11, 0.06, 0.06, 1}
                                             : LightFieldGrid{20, 20, 50_um, 20, 20, 0.1, 0.1, 1};
-    std::unique_ptr<FieldSource> hologram(const LightField& light_field, std::size_t looks) const {
-        StereogramOptions chosen = options(overlapping ? 4_um : 2_um);
+    std::unique_ptr<FieldSource> hologram(const LightFieldBuffer& light_field, std::size_t looks) const {
+        HologramOptions chosen = options(overlapping ? 4_um : 2_um);
         chosen.looks = looks;
-        return make_stereogram(light_field, chosen);
+        return make_hologram(light_field, chosen);
     }
 };
 
@@ -252,7 +255,7 @@ class DiffuseWay : public EveryWay {
 TEST_P(DiffuseWay, photographs_a_uniform_plane_as_bright_as_it_is) {
     for (double depth : {0.0, 0.4e-3, 1.5e-3, -3e-3}) {
         const Card card{depth};
-        const LightField light_field = light_field_of(grid, {&card, 1});
+        const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
         Camera camera;
         camera.eye = {0, 0, 50_mm};
         camera.pupil = 3_mm;
@@ -269,7 +272,7 @@ TEST_P(DiffuseWay, photographs_a_uniform_plane_as_bright_as_it_is) {
 // but for speckle and the pixel beside the edge.
 TEST_P(DiffuseWay, photographs_a_card_before_a_plane_as_rays_do) {
     const Card cards[] = {{0.5e-3, -1, 0, -1, 1, 1}, {3e-3, -1, 1, -1, 1, 0.25f}};
-    const LightField light_field = light_field_of(grid, cards);
+    const LightFieldBuffer light_field = light_field_of(grid, cards);
     for (double focus : {0.5e-3, 3e-3}) {
         Camera camera;
         camera.eye = {0, 0, 50_mm};
@@ -287,10 +290,10 @@ TEST_P(DiffuseWay, photographs_a_card_before_a_plane_as_rays_do) {
 TEST(OverlapAdd, parallax_of_neighbouring_directions_is_known_beforehand) {
     const LightFieldGrid grid{40, 30, 6.4_um, 9, 9, 0.045, 0.036, 1};
     const Card cards[] = {{-3e-3, -1, 0, -1, 1}, {2e-3}};
-    const LightField light_field = light_field_of(grid, cards);
+    const LightFieldBuffer light_field = light_field_of(grid, cards);
     // 3 mm · 0.09/9 at 6.4 µm.
     EXPECT_NEAR(neighbouring_parallax(light_field, 6.4_um), 3e-3 * 0.01 / 6.4e-6, 1e-6);
-    EXPECT_EQ(neighbouring_parallax(LightField(grid), 6.4_um), 0);
+    EXPECT_EQ(neighbouring_parallax(LightFieldBuffer(grid), 6.4_um), 0);
 }
 
 // A fan of directions to one side, as of an off-axis camera: as bright as the same fan straight ahead.
@@ -300,14 +303,13 @@ TEST(OverlapAdd, photographs_a_plane_as_bright_as_it_is_along_a_fan_to_one_side)
         grid.center_u = center;
         for (const double depth : {0.3e-3, 0.6e-3}) {
             const Card card{depth};
-            const LightField light_field = light_field_of(grid, {&card, 1});
+            const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
             Camera camera;
             camera.eye = {-center * 50_mm, 0, 50_mm};
             camera.pupil = 3_mm;
             camera.focus_depth = depth;
             camera.picture = {6, 4, 40_um, 40_um, 0, 0};
-            const auto hologram =
-                make_stereogram(light_field, options_for(Method::overlap_add, Phases::random, 0.6_um));
+            const auto hologram = make_hologram(light_field, options_for(Method::overlap_add, Phases::random, 0.6_um));
             const Image image = photograph(*hologram, std::span(&camera, 1))[0];
             double mean = 0;
             for (float value : image.pixels.elements()) mean += value / 24;
@@ -317,10 +319,12 @@ TEST(OverlapAdd, photographs_a_plane_as_bright_as_it_is_along_a_fan_to_one_side)
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, DiffuseWay,
-                         testing::Values(Way{Method::fourier, Phases::random}, Way{Method::fourier, Phases::fixed},
-                                         Way{Method::fourier, Phases::designed}, Way{Method::fourier, Phases::added},
-                                         Way{Method::fourier, Phases::added_exactly},
-                                         Way{Method::overlap_add, Phases::random}));
+                         testing::Values(PropagationOptions{Method::fourier, Phases::random},
+                                         PropagationOptions{Method::fourier, Phases::fixed},
+                                         PropagationOptions{Method::fourier, Phases::designed},
+                                         PropagationOptions{Method::fourier, Phases::phase_added},
+                                         PropagationOptions{Method::fourier, Phases::phase_added_exact},
+                                         PropagationOptions{Method::overlap_add, Phases::random}));
 
 double peak_over_mean(std::span<const Complex> field) {
     double mean = 0, peak = 0;
@@ -334,20 +338,19 @@ double peak_over_mean(std::span<const Complex> field) {
 // The highest of N random sums is about ln N times the mean.
 TEST(Phases, designed_ones_flatten_the_fringe) {
     const LightFieldGrid grid{4, 4, 64_um, 24, 24, 0.12, 0.12, 1};
-    LightField light_field(grid);
+    LightFieldBuffer light_field(grid);
     std::ranges::fill(light_field.radiance.elements(), 1.0f);
     const auto ratio = [&](Phases phases) {
-        const Array<Complex, 2> field =
-            whole(*make_stereogram(light_field, options_for(Method::fourier, phases, 2_um)));
+        const Array<Complex, 2> field = whole(*make_hologram(light_field, options_for(Method::fourier, phases, 2_um)));
         return peak_over_mean(field.elements());
     };
     EXPECT_NEAR(ratio(Phases::random), std::log(16384), 3);
     EXPECT_LT(ratio(Phases::designed), 2);
 }
 
-void expect_usage(const LightFieldSource& light_field, const StereogramOptions& options, const std::string& part) {
+void expect_usage(const LightFieldSource& light_field, const HologramOptions& options, const std::string& part) {
     try {
-        make_stereogram(light_field, options);
+        make_hologram(light_field, options);
         ADD_FAILURE() << "expected: " << part;
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -356,14 +359,14 @@ void expect_usage(const LightFieldSource& light_field, const StereogramOptions& 
 }
 
 TEST(Stereogram, what_a_method_cannot_do_is_refused_with_what_would_do) {
-    const LightField flat({4, 4, 64_um, 25, 25, 0.12, 0.12, 1});
-    expect_usage(flat, options_for(Method::fourier, Phases::added, 2_um), "needs the depth of every ray");
+    const LightFieldBuffer flat({4, 4, 64_um, 25, 25, 0.12, 0.12, 1});
+    expect_usage(flat, options_for(Method::fourier, Phases::phase_added, 2_um), "needs the depth of every ray");
     expect_usage(flat, options_for(Method::overlap_add, Phases::random, 2_um), "needs the depth of every ray");
-    const LightField coarse({4, 4, 64_um, 24, 12, 0.12, 0.12, 1}, true);
-    expect_usage(coarse, options_for(Method::fourier, Phases::added, 2_um), "need 25x25 directions or more");
-    const LightField deep({4, 4, 64_um, 25, 25, 0.12, 0.12, 1}, true);
+    const LightFieldBuffer coarse({4, 4, 64_um, 24, 12, 0.12, 0.12, 1}, true);
+    expect_usage(coarse, options_for(Method::fourier, Phases::phase_added, 2_um), "need 25x25 directions or more");
+    const LightFieldBuffer deep({4, 4, 64_um, 25, 25, 0.12, 0.12, 1}, true);
     expect_usage(deep, options_for(Method::overlap_add, Phases::designed, 2_um), "random or fixed");
-    EXPECT_NO_THROW(make_stereogram(deep, options_for(Method::fourier, Phases::added, 2_um)));
+    EXPECT_NO_THROW(make_hologram(deep, options_for(Method::fourier, Phases::phase_added, 2_um)));
 }
 
 }  // namespace

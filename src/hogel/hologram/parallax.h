@@ -6,7 +6,7 @@ namespace hogel::hologram {
 
 /// More than about this many samples of parallax between neighbouring directions is more than overlapping windows bear:
 /// the windows that show one point no longer touch, and its focus gets side lobes.
-inline constexpr double most_parallax = 4;
+inline constexpr double max_parallax = 4;
 
 /// How far, in samples of a hologram of this pitch, neighbouring directions see the same surface apart: |ζ|ΔU/Δ for the
 /// largest depth that some hogels spread over the light field meet. Nought without depth.

@@ -18,14 +18,14 @@ using Complex = std::complex<float>;
 // is what the frequency grid sums over its lobes (docs/notation.md, section 3).
 class PhaseAddedSynthesis final : public HogelSynthesis {
   public:
-    PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const StereogramOptions& options)
+    PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options)
         : light_field_(light_field),
           options_(options),
           samples_(samples),
           pitch_(light_field.pitch / static_cast<double>(samples)),
           cells_(light_field.step_u(), light_field.step_v(), options.seed, options.channel),
           fft_(samples, samples) {
-        if (options.phases == Phases::added_exactly) waves_.emplace(samples);
+        if (options.phases == Phases::phase_added_exact) waves_.emplace(samples);
         for (std::size_t l = 0; l < light_field.directions_v; ++l)
             for (std::size_t k = 0; k < light_field.directions_u; ++k) {
                 const double U = light_field.u(static_cast<double>(k)), V = light_field.v(static_cast<double>(l));
@@ -119,7 +119,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
     }
 
     LightFieldGrid light_field_;
-    StereogramOptions options_;
+    HologramOptions options_;
     std::size_t samples_;
     double pitch_;
     SurfaceCells cells_;
@@ -131,7 +131,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
 }  // namespace
 
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                           const StereogramOptions& options) {
+                                                           const HologramOptions& options) {
     return std::make_unique<PhaseAddedSynthesis>(light_field, samples, options);
 }
 

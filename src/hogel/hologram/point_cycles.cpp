@@ -1,5 +1,5 @@
-#include "hogel/core/random.h"
 #include "hogel/hologram/point_cycles.h"
+#include "hogel/core/random.h"
 
 namespace hogel::hologram {
 namespace {
@@ -12,7 +12,7 @@ double TurnSeries::operator()(std::uint32_t column, std::uint32_t row, std::uint
     return core::philox({column, row, direction, series}, key)[0] / 4294967296.0;
 }
 
-PointTurns::PointTurns(const TurnSeries& series, const HogelRange& hogels)
+PointCycles::PointCycles(const TurnSeries& series, const HogelRange& hogels)
     : series_(series),
       column0_(static_cast<std::int64_t>(hogels.s0) - margin),
       row0_(static_cast<std::int64_t>(hogels.t0) - margin),

@@ -18,9 +18,9 @@ struct TurnSeries {
 
 /// The phases of a surface's points, one a hogel. Those around the hogels that a region needs are kept, because many
 /// hogels see each.
-class PointTurns {
+class PointCycles {
   public:
-    PointTurns(const TurnSeries& series, const HogelRange& hogels);
+    PointCycles(const TurnSeries& series, const HogelRange& hogels);
 
     double operator()(std::int64_t column, std::int64_t row) const {
         const auto x = static_cast<std::size_t>(column - column0_), y = static_cast<std::size_t>(row - row0_);

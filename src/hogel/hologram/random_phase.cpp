@@ -24,8 +24,8 @@ const std::array<std::complex<float>, 256>& roots_of_unity() {
 void random_bytes_plain(const PhaseSeries& series, std::uint32_t first_draw, std::span<std::uint8_t> bytes) {
     for (std::size_t i = 0; i < bytes.size(); i += 16) {
         const auto words = core::philox({first_draw + static_cast<std::uint32_t>(i / 16), series.position[0],
-                                   series.position[1], series.position[2]},
-                                  series.key);
+                                         series.position[1], series.position[2]},
+                                        series.key);
         for (std::size_t j = 0; j < std::min<std::size_t>(16, bytes.size() - i); ++j)
             bytes[i + j] = static_cast<std::uint8_t>(words[j / 4] >> (8 * (j % 4)));
     }

@@ -22,13 +22,13 @@ namespace {
 
 using Complex = std::complex<float>;
 
-std::size_t samples_per_hogel(const LightFieldGrid& light_field, const StereogramOptions& options) {
+std::size_t samples_per_hogel(const LightFieldGrid& light_field, const HologramOptions& options) {
     return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / options.pitch)));
 }
 
 // Whether each ray is a wave with a phase of its own.
-bool by_ray(const StereogramOptions& options) {
-    return options.phases == Phases::added || options.phases == Phases::added_exactly;
+bool by_ray(const HologramOptions& options) {
+    return options.phases == Phases::phase_added || options.phases == Phases::phase_added_exact;
 }
 
 // What the looks of a range of hogels share, [hogel][...], row by row.
@@ -46,8 +46,8 @@ std::vector<LightFieldGrid> grids_of(std::span<const LightFieldSource* const> fa
 // Hogels side by side.
 class Stereogram final : public FieldSource {
   public:
-    Stereogram(std::span<const LightFieldSource* const> faces, const FieldGrid& grid, const StereogramOptions& options,
-               Values values)
+    Stereogram(std::span<const LightFieldSource* const> faces, const FieldGrid& grid, const HologramOptions& options,
+               RayValues values)
         : faces_(faces.begin(), faces.end()),
           options_(options),
           grid_(grid),
@@ -98,7 +98,7 @@ class Stereogram final : public FieldSource {
   private:
     static constexpr std::size_t hogels_together = 16;
     // A region has hundreds of hogels, whose rays may be gigabytes: so many are read at a time, or one row of hogels.
-    static constexpr std::size_t most_ray_bytes = std::size_t{1} << 27;
+    static constexpr std::size_t max_ray_bytes = std::size_t{1} << 27;
 
     const LightFieldGrid& front() const { return faces_.front()->grid(); }
 
@@ -120,7 +120,7 @@ class Stereogram final : public FieldSource {
     void for_each_band(const HogelRange& hogels, const Use& use) const {
         const std::size_t values = front().channels + (needs_depth(options_) ? 1 : 0);
         const std::size_t row_bytes = hogels.ns * rays_ * values * sizeof(float);
-        const std::size_t most = std::max<std::size_t>(1, most_ray_bytes / row_bytes);
+        const std::size_t most = std::max<std::size_t>(1, max_ray_bytes / row_bytes);
         const std::size_t bands = (hogels.nt + most - 1) / most, rows = (hogels.nt + bands - 1) / bands;
         for (std::size_t t = 0; t < hogels.nt; t += rows)
             use(HogelRange{hogels.s0, hogels.t0 + t, hogels.ns, std::min(rows, hogels.nt - t)});
@@ -196,26 +196,26 @@ class Stereogram final : public FieldSource {
         });
         const std::lock_guard lock(recent_mutex_);
         recent_.push_front(prepared);
-        if (recent_.size() > most_recent) recent_.pop_back();
+        if (recent_.size() > max_recent) recent_.pop_back();
         return prepared;
     }
 
     // Readers take the looks of a region one after the other, each in a thread of its own.
-    static constexpr std::size_t most_recent = 64;
+    static constexpr std::size_t max_recent = 64;
 
     std::vector<const LightFieldSource*> faces_;  // the front first
-    StereogramOptions options_;
+    HologramOptions options_;
     FieldGrid grid_;
     std::size_t columns_, rows_;  // samples of a hogel
     std::size_t rays_ = 0;        // of a hogel, of all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
-    mutable core::Reused<Room> rooms_;
+    mutable core::ObjectPool<Room> rooms_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;
 };
 
 // Added phases give every ray one wave, so rays farther apart than a hogel's lobes would leave gaps between them.
-void require_enough_directions(const LightFieldGrid& light_field, const StereogramOptions& options) {
+void require_enough_directions(const LightFieldGrid& light_field, const HologramOptions& options) {
     const double step = options.wavelength / light_field.pitch;
     if (std::max(light_field.step_u(), light_field.step_v()) <= step) return;
     const auto enough = [&](double half) { return std::ceil(2 * half / step); };
@@ -228,7 +228,7 @@ void require_enough_directions(const LightFieldGrid& light_field, const Stereogr
                     enough(light_field.tan_half_v)));
 }
 
-void require_diffraction(const LightFieldGrid& light_field, const StereogramOptions& options, double pitch) {
+void require_diffraction(const LightFieldGrid& light_field, const HologramOptions& options, double pitch) {
     // The steepest frequencies on the axes; the corners of the field of view are cut by the light field's own square.
     const double edge = std::max(std::abs(light_field.center_u) + light_field.tan_half_u,
                                  std::abs(light_field.center_v) + light_field.tan_half_v);
@@ -248,7 +248,7 @@ void require_diffraction(const LightFieldGrid& light_field, const StereogramOpti
 }
 
 // How many lines a hogel holds of a hologram with horizontal parallax only.
-std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const StereogramOptions& options) {
+std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const HologramOptions& options) {
     if (options.method != Method::fourier || by_ray(options))
         throw Error(ErrorCode::usage,
                     "lines of a hologram with horizontal parallax only know nothing of each other; expected the method "
@@ -269,11 +269,11 @@ std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const Stereog
 
 }  // namespace
 
-FieldGrid stereogram_grid(const LightFieldGrid& light_field, const StereogramOptions& options) {
-    return stereogram_grid(std::span(&light_field, 1), options);
+FieldGrid hologram_grid(const LightFieldGrid& light_field, const HologramOptions& options) {
+    return hologram_grid(std::span(&light_field, 1), options);
 }
 
-FieldGrid stereogram_grid(std::span<const LightFieldGrid> faces, const StereogramOptions& options) {
+FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOptions& options) {
     const LightFieldGrid& front = faces.front();
     for (const LightFieldGrid& face : faces) {
         validate(face, ErrorCode::usage, "light field");
@@ -314,29 +314,29 @@ FieldGrid stereogram_grid(std::span<const LightFieldGrid> faces, const Stereogra
     return grid;
 }
 
-bool needs_depth(const StereogramOptions& options) { return options.method == Method::overlap_add || by_ray(options); }
+bool needs_depth(const HologramOptions& options) { return options.method == Method::overlap_add || by_ray(options); }
 
-std::unique_ptr<FieldSource> make_stereogram(const LightFieldSource& light_field, const StereogramOptions& options) {
+std::unique_ptr<FieldSource> make_hologram(const LightFieldSource& light_field, const HologramOptions& options) {
     const LightFieldSource* const only = &light_field;
-    return make_stereogram({&only, 1}, options);
+    return make_hologram({&only, 1}, options);
 }
 
-std::unique_ptr<FieldSource> make_stereogram(std::span<const LightFieldSource* const> faces,
-                                             const StereogramOptions& options) {
-    const FieldGrid grid = stereogram_grid(grids_of(faces), options);
+std::unique_ptr<FieldSource> make_hologram(std::span<const LightFieldSource* const> faces,
+                                           const HologramOptions& options) {
+    const FieldGrid grid = hologram_grid(grids_of(faces), options);
     if (needs_depth(options) && !faces.front()->has_depth())
         throw Error(ErrorCode::usage,
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
     if (options.method == Method::overlap_add) return windows::make_overlap_add(*faces.front(), grid, options);
-    return std::make_unique<Stereogram>(faces, grid, options, Values::radiance);
+    return std::make_unique<Stereogram>(faces, grid, options, RayValues::radiance);
 }
 
-std::unique_ptr<FieldSource> make_stereogram_of_coefficients(const LightFieldSource& coefficients,
-                                                             const StereogramOptions& options) {
-    const FieldGrid grid = stereogram_grid(coefficients.grid(), options);
+std::unique_ptr<FieldSource> make_hologram_of_coefficients(const LightFieldSource& coefficients,
+                                                           const HologramOptions& options) {
+    const FieldGrid grid = hologram_grid(coefficients.grid(), options);
     if (options.method != Method::basis) throw Error(ErrorCode::usage, "only basis fringes are made of coefficients");
     const LightFieldSource* const only = &coefficients;
-    return std::make_unique<Stereogram>(std::span(&only, 1), grid, options, Values::coefficients);
+    return std::make_unique<Stereogram>(std::span(&only, 1), grid, options, RayValues::coefficients);
 }
 
 }  // namespace hogel

@@ -19,8 +19,8 @@ namespace {
 using namespace literals;
 using Complex = std::complex<float>;
 
-LightField uniform(const LightFieldGrid& grid, float radiance) {
-    LightField light_field(grid);
+LightFieldBuffer uniform(const LightFieldGrid& grid, float radiance) {
+    LightFieldBuffer light_field(grid);
     std::ranges::fill(light_field.radiance.elements(), radiance);
     return light_field;
 }
@@ -30,7 +30,7 @@ const LightFieldGrid small{8, 6, 64_um, 24, 24, 0.15, 0.15, 1};
 // One direction alone makes one plane wave, which runs the way the ray does: e^{2πi (f_x x + f_y y)} with
 // f = −(U,V)/(λ√(1+U²+V²)), over every hogel, with |F|² = L (λ/d)²/cos θ.
 TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) {
-    StereogramOptions options;
+    HologramOptions options;
     options.wavelength = 633_nm;
     options.pitch = 2_um;
     // Radiance only at the sample nearest to frequency (+3, −2)/d: U and V have the opposite signs.
@@ -39,13 +39,13 @@ TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) 
     LightFieldGrid grid = small;
     // A grid of directions so fine that one sample lies within one lobe.
     grid.directions_u = grid.directions_v = 151;
-    LightField light_field(grid);
+    LightFieldBuffer light_field(grid);
     const double U = -sx / cosine, V = -sy / cosine;
     const auto k = static_cast<std::size_t>(std::lround(U / grid.step_u() + 75)),
                l = static_cast<std::size_t>(std::lround(75 - V / grid.step_v()));
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s) light_field.radiance(0, t, s, l, k) = 1;
-    const auto stereogram = make_stereogram(light_field, options);
+    const auto stereogram = make_hologram(light_field, options);
     const Grid& plane = stereogram->grid().plane;
     Array<Complex, 2> field({plane.height, plane.width});
     stereogram->read({0, 0, plane.width, plane.height}, 0, field);
@@ -67,10 +67,10 @@ TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) 
 
 // Parseval: the mean of |F|² over a hogel is Σ_j L (λ/d)²/cos θ_j.
 TEST(Stereogram, carries_the_energy_of_its_light_field) {
-    const LightField light_field = uniform(small, 0.7f);
-    StereogramOptions options;
+    const LightFieldBuffer light_field = uniform(small, 0.7f);
+    HologramOptions options;
     options.pitch = 1.6_um;  // 40 samples a hogel
-    const auto stereogram = make_stereogram(light_field, options);
+    const auto stereogram = make_hologram(light_field, options);
     const double step = options.wavelength / small.pitch;
     double expected = 0;
     for (int j = -19; j <= 19; ++j)
@@ -91,12 +91,12 @@ TEST(Stereogram, carries_the_energy_of_its_light_field) {
 }
 
 TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_look_or_seed) {
-    LightField light_field(small);
+    LightFieldBuffer light_field(small);
     for (std::size_t i = 0; i < light_field.radiance.size(); ++i) light_field.radiance.data()[i] = float(i % 97) / 97;
-    StereogramOptions options;
+    HologramOptions options;
     options.pitch = 1.6_um;
     options.looks = 2;
-    const auto stereogram = make_stereogram(light_field, options);
+    const auto stereogram = make_hologram(light_field, options);
     const Grid& plane = stereogram->grid().plane;
     Array<Complex, 2> whole({plane.height, plane.width});
     stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
@@ -123,13 +123,13 @@ TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_
     EXPECT_NEAR(correlation(*stereogram, 0), 1, 1e-6);
     EXPECT_LT(correlation(*stereogram, 1), 0.03);
     options.seed = 2;
-    EXPECT_LT(correlation(*make_stereogram(light_field, options), 0), 0.03);
+    EXPECT_LT(correlation(*make_hologram(light_field, options), 0), 0.03);
 }
 
 // Rays that are made where they are asked for, and notes of how many were asked for at once.
 struct CountingSource final : LightFieldSource {
     LightFieldGrid sampled;
-    mutable std::size_t most_bytes = 0, hogels = 0;
+    mutable std::size_t max_bytes = 0, hogels = 0;
 
     explicit CountingSource(const LightFieldGrid& grid) : sampled(grid) {}
     const LightFieldGrid& grid() const override { return sampled; }
@@ -137,7 +137,7 @@ struct CountingSource final : LightFieldSource {
     HogelRange preferred_tile() const override { return {0, 0, sampled.hogels_s, 1}; }
     void read(LightFieldTile& tile) const override {
         const HogelRange& r = tile.range;
-        most_bytes = std::max(most_bytes, tile.radiance.size() * sizeof(float));
+        max_bytes = std::max(max_bytes, tile.radiance.size() * sizeof(float));
         hogels += r.hogels();
         float* to = tile.radiance.data();
         for (std::size_t hogel = 0; hogel < r.hogels(); ++hogel) {
@@ -152,15 +152,15 @@ TEST(Stereogram, reads_no_more_rays_at_once_than_fit) {
     const CountingSource source({16, 10, 64_um, 512, 512, 0.1, 0.1, 1});
     ASSERT_GT(source.grid().samples() * sizeof(float), 1.2 * (1 << 27));
     for (const std::size_t looks : {1, 2}) {
-        StereogramOptions options;
+        HologramOptions options;
         options.pitch = 2_um;
         options.looks = looks;
-        const auto stereogram = make_stereogram(source, options);
+        const auto stereogram = make_hologram(source, options);
         const Grid& plane = stereogram->grid().plane;
         Array<Complex, 2> whole({plane.height, plane.width}), row({32, plane.width});
-        source.most_bytes = source.hogels = 0;
+        source.max_bytes = source.hogels = 0;
         stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
-        EXPECT_LE(source.most_bytes, std::size_t{1} << 27) << looks;
+        EXPECT_LE(source.max_bytes, std::size_t{1} << 27) << looks;
         EXPECT_EQ(source.hogels, source.grid().hogels()) << looks;
         for (const std::size_t t : {0, 4, 5, 9}) {
             stereogram->read({0, 32 * t, plane.width, 32}, 0, row);
@@ -173,11 +173,11 @@ TEST(Stereogram, reads_no_more_rays_at_once_than_fit) {
 // A surface of uniform radiance is as bright from everywhere, and as bright as the light field says: no free factor.
 TEST(Stereogram, a_uniform_light_field_photographs_as_its_radiance_from_every_side) {
     const LightFieldGrid grid{24, 24, 64_um, 30, 30, 0.3, 0.3, 1};
-    const LightField light_field = uniform(grid, 0.5f);
-    StereogramOptions options;
+    const LightFieldBuffer light_field = uniform(grid, 0.5f);
+    HologramOptions options;
     options.pitch = 1_um;
     options.looks = 4;
-    const auto stereogram = make_stereogram(light_field, options);
+    const auto stereogram = make_hologram(light_field, options);
     for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.025, 0, 0.1}, Vec3{-0.01, 0.02, 0.1}}) {
         Camera camera;
         camera.eye = eye;
@@ -191,11 +191,11 @@ TEST(Stereogram, a_uniform_light_field_photographs_as_its_radiance_from_every_si
 }
 
 TEST(Stereogram, a_pitch_too_coarse_for_the_field_of_view_is_refused_with_one_that_would_do) {
-    const LightField light_field = uniform(small, 1);
-    StereogramOptions options;
+    const LightFieldBuffer light_field = uniform(small, 1);
+    HologramOptions options;
     options.pitch = 4_um;  // diffracts to asin(633/8000) = 4.5 degrees, the light field reaches 8.5
     try {
-        make_stereogram(light_field, options);
+        make_hologram(light_field, options);
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -203,7 +203,7 @@ TEST(Stereogram, a_pitch_too_coarse_for_the_field_of_view_is_refused_with_one_th
     }
     options.pitch = 2_um;
     options.channel = 1;
-    EXPECT_THROW(make_stereogram(light_field, options), Error);
+    EXPECT_THROW(make_hologram(light_field, options), Error);
 }
 
 // The resampling keeps constants and, away from borders, the means of linear functions.

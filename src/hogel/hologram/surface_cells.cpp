@@ -23,8 +23,8 @@ SurfacePoint SurfaceCells::find(double x, double y, double depth, std::size_t lo
     const double column = std::floor(x / width), row = std::floor(y / height);
     const bool in_front = depth < 0;
     const auto bits = core::philox({word(column), word(row), word(2 * level + (in_front ? 1 : 0)),
-                              static_cast<std::uint32_t>(look * 4 + channel_)},
-                             {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+                                    static_cast<std::uint32_t>(look * 4 + channel_)},
+                                   {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
     return {(column + 0.5) * width, (row + 0.5) * height, in_front ? -distance : distance, bits[0] / 4294967296.0};
 }
 

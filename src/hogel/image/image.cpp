@@ -6,7 +6,6 @@
 
 namespace hogel {
 
-
 // IEC 61966-2-1, with the constants as published there.
 float srgb_encode(float linear) {
     if (!(linear > 0)) return 0;  // NaN too

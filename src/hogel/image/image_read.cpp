@@ -22,7 +22,7 @@ namespace {
 
 // A picture that claims more than this many bytes a byte of its file (and some for the smallest) is damaged: deflate
 // reaches 1032. Checked so that a few bytes cannot ask for gigabytes.
-constexpr std::uint64_t most_expansion = 4096;
+constexpr std::uint64_t max_expansion = 4096;
 constexpr std::uint64_t always_allowed = std::uint64_t{16} << 20;
 
 [[noreturn]] void fail_read(const std::string& name, const std::string& why) {
@@ -50,7 +50,7 @@ void check_size(const OIIO::ImageSpec& spec, const std::string& name, std::size_
         fail_read(name, fmt::format("its tiles of {}x{} pixels do not suit {}x{} pixels", spec.tile_width,
                                     spec.tile_height, width, height));
     const std::uint64_t claimed = width * height * static_cast<std::uint64_t>(spec.nchannels) * spec.format.size();
-    if (claimed > always_allowed && claimed / most_expansion > file_bytes)
+    if (claimed > always_allowed && claimed / max_expansion > file_bytes)
         fail_read(name, fmt::format("{} bytes are too few for {}x{} pixels", file_bytes, width, height));
 }
 
@@ -169,7 +169,7 @@ Image decode_image(std::span<const unsigned char> bytes, const std::string& name
     });
 }
 
-Codes read_codes(const std::filesystem::path& path, std::size_t max_pixels) {
+RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels) {
     const std::string name = path.string();
     return guarded(name, [&] {
         std::uint64_t file_bytes = 0;
@@ -180,7 +180,7 @@ Codes read_codes(const std::filesystem::path& path, std::size_t max_pixels) {
         const std::size_t channels = spec.nchannels >= 3 ? 3 : 1;
         std::vector<float> values(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                                   channels);
-        Codes codes;
+        RawPixels codes;
         const bool whole = !spec.format.is_floating_point() && spec.format.size() <= 2;
         // As floats, whole numbers are read as fractions of the largest.
         if (whole) codes.levels = spec.format.size() == 1 ? 256 : 65536;

@@ -26,7 +26,7 @@ class ImageFile : public testing::Test {
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_image_" + std::to_string(::getpid()));
 };
 
-// Values of every size that half floats keep exactly.
+// RayValues of every size that half floats keep exactly.
 Image ramp(std::size_t width, std::size_t height, std::size_t channels) {
     Image image(width, height, channels);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels.data()[i] = static_cast<float>(i % 1024) / 512;

@@ -66,9 +66,9 @@ std::vector<unsigned char> encode_bmp(View<const std::uint8_t, 3> levels) {
 
 }  // namespace
 
-void require_levels_name(const std::filesystem::path& path) { format_of(path); }
+void require_raw_pixels_name(const std::filesystem::path& path) { format_of(path); }
 
-void write_levels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels, const Metadata& metadata) {
+void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels, const Metadata& metadata) {
     const std::string format = format_of(path);
     const std::size_t channels = levels.extent(2);
     if (levels.size() == 0 || (channels != 1 && channels != 3))

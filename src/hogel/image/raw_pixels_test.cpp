@@ -18,7 +18,7 @@ TEST_P(Levels, are_read_back_as_they_were_written) {
     Array<std::uint8_t, 3> levels({7, 37, channels});
     for (std::size_t i = 0; i < levels.size(); ++i) levels.data()[i] = static_cast<std::uint8_t>(i * 151);
     const auto path = std::filesystem::path(testing::TempDir()) / ("levels" + std::to_string(channels) + extension);
-    write_levels(path, levels, {{"encoding", "phase"}});
+    write_raw_pixels(path, levels, {{"encoding", "phase"}});
     const Image image = read_image(path);
     ASSERT_EQ(image.width(), 37u);
     ASSERT_EQ(image.height(), 7u);
@@ -37,10 +37,10 @@ INSTANTIATE_TEST_SUITE_P(Formats, Levels,
 
 TEST(LevelsFile, is_refused_by_name_and_place) {
     const Array<std::uint8_t, 3> levels({2, 2, 1});
-    EXPECT_THROW(write_levels("pattern.exr", levels), Error);
-    EXPECT_THROW(require_levels_name("pattern"), Error);
-    EXPECT_THROW(write_levels("/nonexistent/pattern.bmp", levels), Error);
-    EXPECT_THROW(write_levels("/nonexistent/pattern.png", levels), Error);
+    EXPECT_THROW(write_raw_pixels("pattern.exr", levels), Error);
+    EXPECT_THROW(require_raw_pixels_name("pattern"), Error);
+    EXPECT_THROW(write_raw_pixels("/nonexistent/pattern.bmp", levels), Error);
+    EXPECT_THROW(write_raw_pixels("/nonexistent/pattern.png", levels), Error);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ FieldGrid plane_of(std::size_t width, std::size_t height) {
 }
 
 // Random values that half floats keep exactly, of all sizes and with infinities.
-LightField random_light_field(const LightFieldGrid& grid, bool with_depth) {
-    LightField field(grid, with_depth);
+LightFieldBuffer random_light_field(const LightFieldGrid& grid, bool with_depth) {
+    LightFieldBuffer field(grid, with_depth);
     std::mt19937 random(1);
     for (float& value : field.radiance.elements())
         value = std::ldexp(static_cast<float>(static_cast<int>(random() % 4096) - 2047),
@@ -76,7 +76,7 @@ Field random_field(const FieldGrid& grid) {
 }
 
 // Writes by tiles of a size, in random order and from several threads.
-void write_tiles(const LightField& from, LightFieldSink& sink, std::size_t ns, std::size_t nt) {
+void write_tiles(const LightFieldBuffer& from, LightFieldSink& sink, std::size_t ns, std::size_t nt) {
     const LightFieldGrid& g = from.grid();
     std::vector<HogelRange> ranges;
     for (std::size_t t = 0; t < g.hogels_t; t += nt)
@@ -126,14 +126,14 @@ TEST_F(Files, a_light_field_of_any_size_comes_back_from_any_tiling) {
         for (const SampleType type : {SampleType::half, SampleType::single})
             for (const bool with_depth : {false, true})
                 for (const auto& [ns, nt] : {std::pair{1, 1}, {3, 2}, {2, 5}, {100, 1}, {100, 100}}) {
-                    const LightField from = random_light_field(grid, with_depth);
+                    const LightFieldBuffer from = random_light_field(grid, with_depth);
                     const auto tile_s = std::min(static_cast<std::size_t>(ns), grid.hogels_s);
                     const auto tile_t = std::min(static_cast<std::size_t>(nt), grid.hogels_t);
                     write_tiles(from, *create_light_field(path_, grid, {type, with_depth, {}}), tile_s, tile_t);
                     const auto source = open_light_field(path_);
                     ASSERT_EQ(source->grid(), grid);
                     ASSERT_EQ(source->has_depth(), with_depth);
-                    LightField to(grid, with_depth);
+                    LightFieldBuffer to(grid, with_depth);
                     write_tiles(from, to, tile_t, tile_s);
                     copy(*source, to);
                     ASSERT_TRUE(same_bits(from.radiance, to.radiance));
@@ -144,7 +144,7 @@ TEST_F(Files, a_light_field_of_any_size_comes_back_from_any_tiling) {
 
 TEST_F(Files, every_range_of_a_light_field_file_is_the_slice) {
     const LightFieldGrid g = grid_of(5, 4, 3, 2, 3);
-    const LightField field = random_light_field(g, true);
+    const LightFieldBuffer field = random_light_field(g, true);
     for (const SampleType type : {SampleType::half, SampleType::single}) {
         copy(field, *create_light_field(path_, g, {type, true, {}}));
         const auto source = open_light_field(path_);
@@ -170,7 +170,7 @@ TEST_F(Files, directions_spaced_by_sines_come_back_as_such) {
     LightFieldGrid tangents = grid;
     tangents.spacing = Spacing::tangents;
     for (const LightFieldGrid& one : {grid, tangents}) {
-        const LightField field = random_light_field(one, false);
+        const LightFieldBuffer field = random_light_field(one, false);
         copy(field, *create_light_field(path_, one, {SampleType::single, false, {}}));
         EXPECT_EQ(open_light_field(path_)->grid(), one);
     }
@@ -181,7 +181,7 @@ TEST_F(Files, the_faces_of_a_hemicube_come_back_from_one_file) {
     for (const bool with_depth : {false, true}) {
         auto sinks = create_light_field_faces(path_, grids, {SampleType::half, with_depth, {{"hogel_note", "cube"}}});
         ASSERT_EQ(sinks.size(), 5u);
-        std::vector<LightField> faces;
+        std::vector<LightFieldBuffer> faces;
         for (const LightFieldGrid& grid : grids) faces.push_back(random_light_field(grid, with_depth));
         for (std::size_t i = 0; i < 5; ++i) {
             EXPECT_EQ(fs::exists(path_), with_depth) << "has its name before the last face";
@@ -192,7 +192,7 @@ TEST_F(Files, the_faces_of_a_hemicube_come_back_from_one_file) {
         for (std::size_t i = 0; i < 5; ++i) {
             ASSERT_EQ(sources[i]->grid(), grids[i]);
             ASSERT_EQ(sources[i]->has_depth(), with_depth);
-            LightField back(grids[i], with_depth);
+            LightFieldBuffer back(grids[i], with_depth);
             copy(*sources[i], back);
             EXPECT_TRUE(same_bits(back.radiance, faces[i].radiance));
             EXPECT_TRUE(same_bits(back.depth, faces[i].depth));
@@ -320,7 +320,7 @@ TEST_F(Files, tell_what_they_are) {
 
 TEST_F(Files, unfinished_files_leave_nothing_and_keep_the_old_one) {
     const LightFieldGrid grid = grid_of(3, 2, 5, 4, 3);
-    const LightField field = random_light_field(grid, false);
+    const LightFieldBuffer field = random_light_field(grid, false);
     copy(field, *create_light_field(path_, grid));
     const std::string old = text_of(path_);
     {
@@ -454,12 +454,12 @@ void damage_every_byte(const fs::path& path, const Samples& samples, const Read&
 
 TEST_F(Files, a_light_field_damaged_in_any_byte_of_its_header_is_refused_or_unchanged) {
     const LightFieldGrid grid = grid_of(2, 3, 4, 5, 3);
-    const LightField field = random_light_field(grid, false);
+    const LightFieldBuffer field = random_light_field(grid, false);
     copy(field, *create_light_field(path_, grid, {SampleType::single, false, {{"hogel_command", "x"}}}));
     damage_every_byte(path_, field.radiance.elements(), [&] {
         const auto source = open_light_field(path_);
         EXPECT_EQ(source->grid(), grid);
-        LightField back(grid);
+        LightFieldBuffer back(grid);
         copy(*source, back);
         EXPECT_TRUE(same_bits(back.radiance, field.radiance));
         summarize(path_);
@@ -470,14 +470,14 @@ TEST_F(Files, a_side_face_damaged_in_any_byte_of_its_header_is_refused_or_unchan
     std::vector<LightFieldGrid> grids = hemicube(grid_of(1, 1, 2, 2, 1));
     grids.resize(2);
     auto sinks = create_light_field_faces(path_, grids, {SampleType::single, false, {}});
-    const LightField front = random_light_field(grids[0], false), left = random_light_field(grids[1], false);
+    const LightFieldBuffer front = random_light_field(grids[0], false), left = random_light_field(grids[1], false);
     copy(front, *sinks[0]);
     copy(left, *sinks[1]);
     damage_every_byte(path_, front.radiance.elements(), [&] {
         const auto faces = open_light_field_faces(path_);
         ASSERT_EQ(faces.size(), 2u);
         for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(faces[i]->grid(), grids[i]);
-        LightField back(grids[0]);
+        LightFieldBuffer back(grids[0]);
         copy(*faces[0], back);
         EXPECT_TRUE(same_bits(back.radiance, front.radiance));
     });
@@ -509,12 +509,12 @@ TEST_F(Files, a_hologram_damaged_in_any_byte_of_its_header_is_refused_or_unchang
 
 TEST_F(Files, many_threads_open_read_and_write_at_once) {
     const LightFieldGrid grid = grid_of(7, 5, 3, 2, 3);
-    const LightField field = random_light_field(grid, true);
+    const LightFieldBuffer field = random_light_field(grid, true);
     std::atomic<int> good{0};
     core::parallel_for(40, [&](std::size_t i) {
         const fs::path path = directory_ / (std::to_string(i) + ".h5");
         copy(field, *create_light_field(path, grid, {SampleType::half, true, {}}));
-        LightField back(grid, true);
+        LightFieldBuffer back(grid, true);
         copy(*open_light_field(path), back);
         good += same_bits(back.radiance, field.radiance) && same_bits(back.depth, field.depth);
         // The same target from all threads: each write is whole.

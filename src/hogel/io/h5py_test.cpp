@@ -62,8 +62,8 @@ LightFieldGrid small_grid() {
 }
 
 // Whole numbers below 2048, which half floats keep.
-LightField numbered(const LightFieldGrid& grid) {
-    LightField field(grid, true);
+LightFieldBuffer numbered(const LightFieldGrid& grid) {
+    LightFieldBuffer field(grid, true);
     for (std::size_t i = 0; i < field.radiance.size(); ++i) field.radiance.data()[i] = static_cast<float>(i);
     for (std::size_t i = 0; i < field.depth.size(); ++i) field.depth.data()[i] = -0.5f * static_cast<float>(i);
     return field;
@@ -178,7 +178,7 @@ TEST_F(H5py, reads_every_value_and_attribute) {
 
 // The same light field as h5py users may store it: compressed, chunked, in another type.
 TEST_F(H5py, writes_light_fields_that_are_read) {
-    const LightField expected = numbered(small_grid());
+    const LightFieldBuffer expected = numbered(small_grid());
     for (const char* storage :
          {"dtype='f2'", "dtype='f4'", "dtype='f8'", "dtype='>f4'",
           "dtype='f2', chunks=(1, 3, 2, 2, 3), compression='gzip'",
@@ -197,7 +197,7 @@ TEST_F(H5py, writes_light_fields_that_are_read) {
             directory_ / "l.h5");
         const auto source = open_light_field(directory_ / "l.h5");
         EXPECT_EQ(source->grid(), small_grid());
-        LightField back(small_grid(), true);
+        LightFieldBuffer back(small_grid(), true);
         copy(*source, back);
         EXPECT_TRUE(std::ranges::equal(back.radiance.elements(), expected.radiance.elements())) << storage;
         EXPECT_TRUE(std::ranges::equal(back.depth.elements(), expected.depth.elements())) << storage;
@@ -333,14 +333,14 @@ with open(sys.argv[1], "r+b") as f:
     f.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\0\2IM")
 )",
         directory_ / "a.mat");
-    ForeignField what;
+    ExternalField what;
     what.pitch_x = what.pitch_y = 1e-6;
     what.wavelength = 633e-9;
     const Region all{0, 0, 77, 131};
     const auto samples = [&](const fs::path& path, const std::string& variable) {
         what.variable = variable;
         Array<std::complex<float>, 2> values({all.height, all.width});
-        open_foreign_field(path, what)->read(all, 0, values);
+        open_external_field(path, what)->read(all, 0, values);
         return values;
     };
     const auto expected = samples(directory_ / "a.mat.npy", "");
@@ -348,10 +348,10 @@ with open(sys.argv[1], "r+b") as f:
         EXPECT_TRUE(std::ranges::equal(samples(directory_ / "a.mat", variable).elements(), expected.elements()))
             << variable;
     what.variable = "text";
-    EXPECT_THROW(open_foreign_field(directory_ / "a.mat", what), Error);
+    EXPECT_THROW(open_external_field(directory_ / "a.mat", what), Error);
     what.variable = "double";
-    what.values = ForeignField::Values::amplitude;
-    const auto real = open_foreign_field(directory_ / "a.mat", what);
+    what.values = ExternalField::RayValues::amplitude;
+    const auto real = open_external_field(directory_ / "a.mat", what);
     Array<std::complex<float>, 2> one({1, 1});
     real->read({1, 2, 1, 1}, 0, one);
     EXPECT_EQ(one(0, 0), std::complex<float>(5));

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Values that tell every sample from the others; read in small tiles, which are counted.
+// RayValues that tell every sample from the others; read in small tiles, which are counted.
 class CountedLightField final : public LightFieldSource {
   public:
     const LightFieldGrid& grid() const override { return grid_; }

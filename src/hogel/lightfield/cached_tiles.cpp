@@ -7,9 +7,9 @@
 namespace hogel {
 namespace {
 
-class KeptTiles final : public LightFieldSource {
+class CachedTiles final : public LightFieldSource {
   public:
-    KeptTiles(std::unique_ptr<LightFieldSource> source, double bytes, bool with_depth)
+    CachedTiles(std::unique_ptr<LightFieldSource> source, double bytes, bool with_depth)
         : source_(std::move(source)),
           with_depth_(with_depth && source_->has_depth()),
           size_(source_->preferred_tile()),
@@ -53,13 +53,14 @@ class KeptTiles final : public LightFieldSource {
     std::unique_ptr<LightFieldSource> source_;
     bool with_depth_;
     HogelRange size_;
-    mutable core::RecentResults<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
+    mutable core::LruCache<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
 };
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> keep_tiles(std::unique_ptr<LightFieldSource> source, double bytes, bool with_depth) {
-    return std::make_unique<KeptTiles>(std::move(source), bytes, with_depth);
+std::unique_ptr<LightFieldSource> cached_tiles(std::unique_ptr<LightFieldSource> source, double bytes,
+                                               bool with_depth) {
+    return std::make_unique<CachedTiles>(std::move(source), bytes, with_depth);
 }
 
 }  // namespace hogel

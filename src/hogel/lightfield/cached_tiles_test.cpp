@@ -66,7 +66,7 @@ TEST(KeepTiles, gives_the_same_values_and_reads_each_hogel_once) {
     for (const bool with_depth : {false, true})
         for (const auto& [ns, nt] : {std::pair<std::size_t, std::size_t>{3, 4}, {7, 1}, {1, 9}, {20, 3}, {4, 2}}) {
             std::atomic<std::size_t> asked = 0;
-            const auto kept = keep_tiles(std::make_unique<Numbered>(asked), 20 * tile_bytes, with_depth);
+            const auto kept = cached_tiles(std::make_unique<Numbered>(asked), 20 * tile_bytes, with_depth);
             expect_all_in_tiles(*kept, ns, nt, with_depth);
             EXPECT_EQ(asked, 180u) << ns << "x" << nt;
         }
@@ -74,10 +74,10 @@ TEST(KeepTiles, gives_the_same_values_and_reads_each_hogel_once) {
 
 TEST(KeepTiles, reads_from_the_source_where_nothing_fits_or_no_depth_is_kept) {
     std::atomic<std::size_t> asked = 0;
-    expect_all_in_tiles(*keep_tiles(std::make_unique<Numbered>(asked), 2.5 * tile_bytes, true), 3, 4, true);
+    expect_all_in_tiles(*cached_tiles(std::make_unique<Numbered>(asked), 2.5 * tile_bytes, true), 3, 4, true);
     EXPECT_EQ(asked, 180u);
     asked = 0;
-    expect_all_in_tiles(*keep_tiles(std::make_unique<Numbered>(asked), 20 * tile_bytes, false), 3, 4, true);
+    expect_all_in_tiles(*cached_tiles(std::make_unique<Numbered>(asked), 20 * tile_bytes, false), 3, 4, true);
     EXPECT_EQ(asked, 180u);
 }
 
@@ -85,7 +85,7 @@ TEST(KeepTiles, forgets_what_failed) {
     std::atomic<std::size_t> asked = 0;
     auto source = std::make_unique<Numbered>(asked);
     const Numbered& numbered = *source;
-    const auto kept = keep_tiles(std::move(source), 20 * tile_bytes);
+    const auto kept = cached_tiles(std::move(source), 20 * tile_bytes);
     LightFieldTile tile(grid, {1, 1, 2, 2}, false);
     numbered.fails = true;
     EXPECT_THROW(kept->read(tile), Error);

@@ -13,7 +13,7 @@ namespace hogel {
 namespace {
 
 constexpr std::size_t tile_bytes = std::size_t{16} << 20;
-constexpr std::size_t most_bytes = std::numeric_limits<std::size_t>::max() >> 1;
+constexpr std::size_t max_bytes = std::numeric_limits<std::size_t>::max() >> 1;
 
 void require_positive(double value, ErrorCode code, const std::string& what, const char* member) {
     if (!(std::isfinite(value) && value > 0))
@@ -78,7 +78,7 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
     require_positive(grid.step_v(), code, what, "the step between directions in v");
     require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
     require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, code, what, "the height of the hologram");
-    std::size_t room = most_bytes / sizeof(float);
+    std::size_t room = max_bytes / sizeof(float);
     for (std::size_t extent : radiance_shape(grid, all_hogels(grid))) room /= extent;
     if (room == 0)
         throw Error(
@@ -94,14 +94,14 @@ void require_tangents(const LightFieldGrid& grid, ErrorCode code, const std::str
                                       what));
 }
 
-Vec3 LightFieldGrid::along(double U, double V) const {
+Vec3 LightFieldGrid::direction_of(double U, double V) const {
     if (spacing == Spacing::tangents) return from_face(face, {U, V, 1});
     const double cos2 = 1 - U * U - V * V;
     const double cosine = std::sqrt(std::max(cos2, 0.0));
     return cos2 > 0 ? Vec3{U / cosine, V / cosine, 1} : Vec3{0, 0, 0};
 }
 
-bool LightFieldGrid::sees(Vec3 way) const {
+bool LightFieldGrid::covers(Vec3 way) const {
     const Vec3 q = to_face(face, way);
     if (!(q.z > 0)) return false;
     const double forward = spacing == Spacing::sines ? length(q) : q.z;
@@ -162,7 +162,7 @@ void validate(const LightFieldTile& tile, const LightFieldGrid& grid) {
                                 r.s0, r.t0, r.ns, r.nt, grid.directions_u, grid.directions_v, grid.channels));
 }
 
-LightField::LightField(const LightFieldGrid& grid, bool with_depth) : grid_(grid) {
+LightFieldBuffer::LightFieldBuffer(const LightFieldGrid& grid, bool with_depth) : grid_(grid) {
     validate(grid, ErrorCode::usage, "light field");
     radiance = Array<float, 5>(radiance_shape(grid, all_hogels(grid)));
     if (with_depth)
@@ -187,7 +187,7 @@ void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t fir
             }
 }
 
-void LightField::read(LightFieldTile& tile) const {
+void LightFieldBuffer::read(LightFieldTile& tile) const {
     validate(tile, grid_);
     const HogelRange& r = tile.range;
     core::parallel_for(r.nt, [&](std::size_t j) {
@@ -198,7 +198,7 @@ void LightField::read(LightFieldTile& tile) const {
     });
 }
 
-void LightField::write(const LightFieldTile& tile) {
+void LightFieldBuffer::write(const LightFieldTile& tile) {
     validate(tile, grid_);
     const HogelRange& r = tile.range;
     if (has_depth() && tile.depth.size() == 0)

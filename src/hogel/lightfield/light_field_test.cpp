@@ -31,8 +31,8 @@ float value_at(const LightFieldGrid& g, std::size_t c, std::size_t t, std::size_
     return static_cast<float>((((c * g.hogels_t + t) * g.hogels_s + s) * g.directions_v + v) * g.directions_u + u) + 1;
 }
 
-LightField numbered(const LightFieldGrid& g, bool with_depth) {
-    LightField field(g, with_depth);
+LightFieldBuffer numbered(const LightFieldGrid& g, bool with_depth) {
+    LightFieldBuffer field(g, with_depth);
     for (std::size_t c = 0; c < g.channels; ++c)
         for (std::size_t t = 0; t < g.hogels_t; ++t)
             for (std::size_t s = 0; s < g.hogels_s; ++s)
@@ -62,9 +62,9 @@ TEST(LightFieldGrid, coordinates_are_those_of_the_notation) {
     EXPECT_DOUBLE_EQ(g.v(2), -0.2);
 }
 
-TEST(LightField, every_range_reads_the_slice) {
+TEST(LightFieldBuffer, every_range_reads_the_slice) {
     const LightFieldGrid g = small_grid();
-    const LightField field = numbered(g, true);
+    const LightFieldBuffer field = numbered(g, true);
     for (std::size_t t0 = 0; t0 < g.hogels_t; ++t0)
         for (std::size_t s0 = 0; s0 < g.hogels_s; ++s0)
             for (std::size_t nt = 1; nt <= g.hogels_t - t0; ++nt)
@@ -82,12 +82,12 @@ TEST(LightField, every_range_reads_the_slice) {
                 }
 }
 
-TEST(LightField, writing_through_any_tiling_gives_the_same_light_field) {
+TEST(LightFieldBuffer, writing_through_any_tiling_gives_the_same_light_field) {
     const LightFieldGrid g = small_grid();
-    const LightField from = numbered(g, true);
+    const LightFieldBuffer from = numbered(g, true);
     for (std::size_t nt = 1; nt <= g.hogels_t; ++nt)
         for (std::size_t ns = 1; ns <= g.hogels_s; ++ns) {
-            LightField to(g, true);
+            LightFieldBuffer to(g, true);
             for (std::size_t t0 = 0; t0 < g.hogels_t; t0 += nt)
                 for (std::size_t s0 = 0; s0 < g.hogels_s; s0 += ns) {
                     LightFieldTile tile(g, {s0, t0, std::min(ns, g.hogels_s - s0), std::min(nt, g.hogels_t - t0)},
@@ -100,14 +100,14 @@ TEST(LightField, writing_through_any_tiling_gives_the_same_light_field) {
         }
 }
 
-TEST(LightField, copy_carries_everything_over_many_tiles) {
+TEST(LightFieldBuffer, copy_carries_everything_over_many_tiles) {
     LightFieldGrid g = small_grid();
     g.hogels_s = 19;
     g.hogels_t = 11;
     g.directions_u = g.directions_v = 96;
     ASSERT_LT(default_tile(g).hogels(), g.hogels()) << "should need several tiles";
-    const LightField from = numbered(g, true);
-    LightField to(g, true);
+    const LightFieldBuffer from = numbered(g, true);
+    LightFieldBuffer to(g, true);
     double last = -1;
     copy(from, to, [&](double fraction) {
         EXPECT_GT(fraction, last);
@@ -119,9 +119,9 @@ TEST(LightField, copy_carries_everything_over_many_tiles) {
     EXPECT_TRUE(std::ranges::equal(to.depth.elements(), from.depth.elements()));
 }
 
-TEST(LightField, copy_asks_for_the_tiles_that_the_source_prefers) {
+TEST(LightFieldBuffer, copy_asks_for_the_tiles_that_the_source_prefers) {
     struct Rows final : LightFieldSource {
-        LightField whole = numbered(small_grid(), false);
+        LightFieldBuffer whole = numbered(small_grid(), false);
         const LightFieldGrid& grid() const override { return whole.grid(); }
         HogelRange preferred_tile() const override { return {0, 0, 3, 2}; }
         void read(LightFieldTile& tile) const override {
@@ -133,14 +133,14 @@ TEST(LightField, copy_asks_for_the_tiles_that_the_source_prefers) {
         }
     } from;
     ASSERT_GT(from.grid().hogels_s, 3u);
-    LightField to(from.grid());
+    LightFieldBuffer to(from.grid());
     copy(from, to);
     EXPECT_TRUE(std::ranges::equal(to.radiance.elements(), from.whole.radiance.elements()));
 }
 
-TEST(LightField, copy_stops_when_asked_to) {
-    const LightField from = numbered(small_grid(), false);
-    LightField to(small_grid());
+TEST(LightFieldBuffer, copy_stops_when_asked_to) {
+    const LightFieldBuffer from = numbered(small_grid(), false);
+    LightFieldBuffer to(small_grid());
     try {
         copy(from, to, [](double) { return false; });
         FAIL() << "was not stopped";
@@ -149,17 +149,17 @@ TEST(LightField, copy_stops_when_asked_to) {
     }
 }
 
-TEST(LightField, depth_is_left_alone_where_a_tile_has_no_room_for_it) {
-    const LightField field = numbered(small_grid(), true);
+TEST(LightFieldBuffer, depth_is_left_alone_where_a_tile_has_no_room_for_it) {
+    const LightFieldBuffer field = numbered(small_grid(), true);
     LightFieldTile tile(small_grid(), {1, 1, 2, 2}, false);
     field.read(tile);
     EXPECT_EQ(tile.depth.size(), 0u);
-    LightField to(small_grid(), true);
+    LightFieldBuffer to(small_grid(), true);
     EXPECT_THROW(to.write(tile), Error);
 }
 
-TEST(LightField, rejects_ranges_outside_and_arrays_of_another_shape) {
-    LightField field(small_grid());
+TEST(LightFieldBuffer, rejects_ranges_outside_and_arrays_of_another_shape) {
+    LightFieldBuffer field(small_grid());
     constexpr std::size_t huge = std::numeric_limits<std::size_t>::max();
     for (const HogelRange range :
          {HogelRange{0, 0, 0, 1}, HogelRange{0, 0, 1, 0}, HogelRange{7, 0, 1, 1}, HogelRange{6, 0, 2, 1},
@@ -270,20 +270,20 @@ TEST(Hemicube, has_every_direction_behind_the_hologram_in_one_face) {
             const Vec3 way{x, y, std::sqrt(1 - x * x - y * y)};
             std::size_t count = 0;
             for (std::size_t i = 0; i < 5; ++i) {
-                rays[i] += faces[i].sees(way) ? 1 : 0;
-                count += faces[i].sees(way) ? 1 : 0;
+                rays[i] += faces[i].covers(way) ? 1 : 0;
+                count += faces[i].covers(way) ? 1 : 0;
             }
             ASSERT_EQ(count, 1u) << x << " " << y;
-            for (const LightFieldGrid& face : faces) ASSERT_FALSE(face.sees({x, y, -way.z}));
+            for (const LightFieldGrid& face : faces) ASSERT_FALSE(face.covers({x, y, -way.z}));
         }
     for (std::size_t count : rays) EXPECT_GT(count, 500u);
     // Every sample's own way leads to it.
     for (const LightFieldGrid& face : faces)
         for (std::size_t l = 0; l < face.directions_v; ++l)
             for (std::size_t k = 0; k < face.directions_u; ++k) {
-                const Vec3 way = face.along(face.u(double(k)), face.v(double(l)));
+                const Vec3 way = face.direction_of(face.u(double(k)), face.v(double(l)));
                 EXPECT_GT(way.z, 0);
-                EXPECT_TRUE(face.sees(way));
+                EXPECT_TRUE(face.covers(way));
             }
 }
 
@@ -293,7 +293,7 @@ TEST(Hemicube, pictures_continue_each_other) {
     grid.directions_v = 6;
     const std::vector<LightFieldGrid> faces = hemicube(grid);
     const auto way = [&](std::size_t i, double k, double l) {
-        return normalize(faces[i].along(faces[i].u(k), faces[i].v(l)));
+        return normalize(faces[i].direction_of(faces[i].u(k), faces[i].v(l)));
     };
     for (double along : {-0.5, 1.0, 3.3, 5.5}) {
         EXPECT_NEAR(length(way(0, 7.5, along) - way(2, -0.5, along)), 0, 1e-12);  // front and right

@@ -26,8 +26,8 @@ double van_der_corput(std::size_t i, std::size_t base) {
     return value;
 }
 
-// Values that the points of the lens may see of one tile at a time: 64 MiB.
-constexpr std::size_t most_seen = std::size_t{1} << 24;
+// RayValues that the points of the lens may see of one tile at a time: 64 MiB.
+constexpr std::size_t max_seen = std::size_t{1} << 24;
 
 // Points spread evenly over the pupil's disc (Halton, mapped by equal areas), each with a place of its own in the
 // pixel, so that one set of rays averages over the pupil and over the pixel's area.
@@ -44,12 +44,12 @@ std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
 
 // Linear interpolation between two neighbours of a row of samples. A sample stands for the cell around it: half a cell
 // beyond the last one still shows it, and farther out there is nothing.
-struct Between {
+struct Interpolation {
     std::size_t low = 0;
     float high_weight = 0;
     bool outside = true;
 
-    Between(double index, std::size_t count) {
+    Interpolation(double index, std::size_t count) {
         const double last = static_cast<double>(count) - 1;
         if (!(index >= -0.5 && index <= last + 0.5)) return;
         outside = false;
@@ -76,7 +76,7 @@ class Exposure {
     void add(std::size_t face, const LightFieldTile& tile, const HogelRange& cells) {
         // What each point of the lens sees of each hogel, for as many points at a time as a modest room holds.
         const std::size_t seen_by_one = tile.range.nt * tile.range.ns * grid_.channels;
-        const std::size_t together = std::clamp<std::size_t>(most_seen / seen_by_one, 1, points_.size());
+        const std::size_t together = std::clamp<std::size_t>(max_seen / seen_by_one, 1, points_.size());
         Array<float, 4> seen({together, tile.range.nt, tile.range.ns, grid_.channels});
         for (std::size_t first = 0; first < points_.size(); first += together) {
             const std::size_t count = std::min(together, points_.size() - first);
@@ -105,8 +105,8 @@ class Exposure {
                 const Vec3 way = to_face(grid.face, {U, V, 1});
                 if (!(way.z > 0) || shown_before(face, {U, V, 1})) continue;
                 const double forward = grid.spacing == Spacing::sines ? length(way) : way.z;
-                const Between u(grid.column(way.x / forward), grid.directions_u);
-                const Between v(grid.row(way.y / forward), grid.directions_v);
+                const Interpolation u(grid.column(way.x / forward), grid.directions_u);
+                const Interpolation v(grid.row(way.y / forward), grid.directions_v);
                 if (u.outside || v.outside) continue;
                 const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
                 for (std::size_t c = 0; c < grid.channels; ++c) {
@@ -122,7 +122,7 @@ class Exposure {
     // Faces may overlap; a direction belongs to the first that has it.
     bool shown_before(std::size_t face, Vec3 way) const {
         return std::any_of(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face),
-                           [&](const LightFieldGrid& earlier) { return earlier.sees(way); });
+                           [&](const LightFieldGrid& earlier) { return earlier.covers(way); });
     }
 
     void expose(std::size_t row, const LensPoint& point, const HogelRange& held, const HogelRange& cells,
@@ -131,7 +131,7 @@ class Exposure {
         // pixel's own place on it by this fraction of the lens offset.
         const double R = camera_.eye.z, shift = 1 - R / (R + camera_.focus_depth);
         const double y = camera_.picture.y(static_cast<double>(row) + point.pixel_y) + shift * point.y;
-        const Between t(0.5 * static_cast<double>(grid_.hogels_t) - 0.5 - y / grid_.pitch, grid_.hogels_t);
+        const Interpolation t(0.5 * static_cast<double>(grid_.hogels_t) - 0.5 - y / grid_.pitch, grid_.hogels_t);
         if (t.outside || t.low < cells.t0 || t.low >= cells.t0 + cells.nt) return;
         const std::size_t t0 = t.low - held.t0, t1 = t.high(grid_.hogels_t) - held.t0;
 
@@ -145,7 +145,7 @@ class Exposure {
         const double width = static_cast<double>(camera_.picture.width);
         for (double column = std::max(first, 0.0); column <= std::min(last, width - 1); ++column) {
             const double x = camera_.picture.x(column + point.pixel_x) + shift * point.x;
-            const Between s(x / grid_.pitch + 0.5 * static_cast<double>(grid_.hogels_s) - 0.5, grid_.hogels_s);
+            const Interpolation s(x / grid_.pitch + 0.5 * static_cast<double>(grid_.hogels_s) - 0.5, grid_.hogels_s);
             if (s.outside || s.low < cells.s0 || s.low >= cells.s0 + cells.ns) continue;
             const std::size_t s0 = s.low - held.s0, s1 = s.high(grid_.hogels_s) - held.s0;
             for (std::size_t c = 0; c < grid_.channels; ++c) {
@@ -177,9 +177,9 @@ struct FaceBlock {
 // that those which neighbours share are a small part. The sampling alone decides, so the order of every sum is the same
 // wherever the light field comes from.
 HogelRange block_size(const LightFieldGrid& grid) {
-    constexpr std::size_t rows = 16, most_bytes = std::size_t{64} << 20;
+    constexpr std::size_t rows = 16, max_bytes = std::size_t{64} << 20;
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
-    const std::size_t most = std::max<std::size_t>(1, most_bytes / hogel_bytes);
+    const std::size_t most = std::max<std::size_t>(1, max_bytes / hogel_bytes);
     const std::size_t nt = std::min({rows, grid.hogels_t, most});
     return {0, 0, std::min(grid.hogels_s, most / nt), nt};
 }

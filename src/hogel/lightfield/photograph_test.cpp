@@ -17,8 +17,9 @@ using namespace literals;
 const LightFieldGrid coarse{80, 60, 100_um, 48, 40, 0.25, 0.22, 1};
 
 // The light field of a luminous plane at a depth ζ with radiance f(x, y).
-LightField plane_at(double depth, const std::function<double(double, double)>& f, const LightFieldGrid& grid = coarse) {
-    LightField light_field(grid);
+LightFieldBuffer plane_at(double depth, const std::function<double(double, double)>& f,
+                          const LightFieldGrid& grid = coarse) {
+    LightFieldBuffer light_field(grid);
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
             for (std::size_t v = 0; v < grid.directions_v; ++v)
@@ -42,7 +43,7 @@ Camera camera_at(Vec3 eye, double focus) {
 TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_it) {
     const auto f = [](double x, double y) { return 1 + 100 * x - 60 * y; };
     for (double depth : {-4_mm, 0_mm, 6_mm}) {
-        const LightField light_field = plane_at(depth, f);
+        const LightFieldBuffer light_field = plane_at(depth, f);
         for (double focus : {-4_mm, 0_mm, 6_mm})
             for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{10e-3, 0, 0.1}, Vec3{-6e-3, 8e-3, 0.12}}) {
                 const Camera camera = camera_at(eye, focus);
@@ -67,7 +68,7 @@ TEST(GeometricPhotograph, blurs_by_the_circle_of_confusion) {
     const auto stripe = [&](double x) { return std::exp(-x * x / (0.5 * width * width)); };
     // Sampled so finely that interpolation blurs little beside the stripe's own width.
     const LightFieldGrid fine{160, 12, 50_um, 96, 8, 0.25, 0.22, 1};
-    const LightField light_field = plane_at(
+    const LightFieldBuffer light_field = plane_at(
         depth, [&](double x, double) { return stripe(x); }, fine);
     for (double focus : {6_mm, 3_mm, 0_mm, -6_mm}) {
         Camera camera = camera_at({0, 0, 0.1}, focus);
@@ -87,7 +88,7 @@ TEST(GeometricPhotograph, blurs_by_the_circle_of_confusion) {
 }
 
 TEST(GeometricPhotograph, is_black_outside_the_hologram_and_outside_the_field_of_view) {
-    const LightField light_field = plane_at(0, [](double, double) { return 1; });
+    const LightFieldBuffer light_field = plane_at(0, [](double, double) { return 1; });
     Camera camera = camera_at({0, 0, 0.1}, 0);
     camera.picture = {40, 30, 250_um, 250_um, 0, 0};  // 10 mm × 7.5 mm; the hologram is 8 mm × 6 mm
     const Image image = photograph(light_field, std::span(&camera, 1))[0];
@@ -101,7 +102,7 @@ TEST(GeometricPhotograph, is_black_outside_the_hologram_and_outside_the_field_of
 }
 
 TEST(GeometricPhotograph, is_the_same_for_any_number_of_threads) {
-    const LightField light_field =
+    const LightFieldBuffer light_field =
         plane_at(3e-3, [](double x, double y) { return std::sin(4e3 * x) + std::cos(3e3 * y); });
     const Camera camera = camera_at({2e-3, 1e-3, 0.1}, 1e-3);
     const Image all = photograph(light_field, std::span(&camera, 1))[0];
@@ -115,20 +116,20 @@ TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes
     LightFieldGrid grid{40, 30, 200_um, 64, 64, 1, 1, 1};
     const double depth = 0.4_mm;
     const auto f = [](double x, double y) { return 2 + std::sin(700 * x) + std::cos(500 * y); };
-    std::vector<LightField> faces;
+    std::vector<LightFieldBuffer> faces;
     for (const LightFieldGrid& face : hemicube(grid)) {
-        LightField& light_field = faces.emplace_back(face);
+        LightFieldBuffer& light_field = faces.emplace_back(face);
         for (std::size_t t = 0; t < face.hogels_t; ++t)
             for (std::size_t s = 0; s < face.hogels_s; ++s)
                 for (std::size_t v = 0; v < face.directions_v; ++v)
                     for (std::size_t u = 0; u < face.directions_u; ++u) {
-                        const Vec3 way = face.along(face.u(double(u)), face.v(double(v)));
+                        const Vec3 way = face.direction_of(face.u(double(u)), face.v(double(v)));
                         light_field.radiance(0, t, s, v, u) = static_cast<float>(
                             f(face.s(double(s)) + way.x / way.z * depth, face.t(double(t)) + way.y / way.z * depth));
                     }
     }
     std::vector<const LightFieldSource*> sources;
-    for (const LightField& face : faces) sources.push_back(&face);
+    for (const LightFieldBuffer& face : faces) sources.push_back(&face);
     const double far = 0.3, distance = 0.1;
     for (const Vec3 eye :
          {Vec3{0, 0, distance}, Vec3{far, 0, distance}, Vec3{-far, 0.02, distance}, Vec3{0.01, far, distance},
@@ -153,9 +154,9 @@ TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes
 
 TEST(GeometricPhotograph, refuses_faces_that_do_not_belong_together) {
     LightFieldGrid grid = coarse;
-    const LightField a(grid);
+    const LightFieldBuffer a(grid);
     grid.hogels_s /= 2;
-    const LightField b(grid);
+    const LightFieldBuffer b(grid);
     const Camera camera = camera_at({0, 0, 0.1}, 0);
     const std::array<const LightFieldSource*, 2> both{&a, &b};
     EXPECT_THROW(photograph(both, std::span(&camera, 1)), Error);

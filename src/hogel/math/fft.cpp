@@ -63,7 +63,7 @@ class Directions {
 // different threads transform.
 constexpr std::size_t large_array = std::size_t{1} << 16;
 // Up to this size one thread is the quickest where columns need not be copied one by one.
-constexpr std::size_t largest_by_columns = std::size_t{1} << 18;
+constexpr std::size_t max_by_columns = std::size_t{1} << 18;
 // Lines that are copied together into room of their own, so that columns are read a whole cache line at a time.
 constexpr std::size_t lines_together = 16;
 
@@ -124,7 +124,7 @@ void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, boo
 
 struct Fft2::Plans {
     Plans(std::size_t h, std::size_t w) : height(h), width(w) {
-        if (h * w <= largest_by_columns && ColumnFft::can(h, w)) {
+        if (h * w <= max_by_columns && ColumnFft::can(h, w)) {
             whole.emplace(h * w, [&](fftwf_complex* p, int sign, unsigned flags) {
                 const int length = static_cast<int>(w);
                 return fftwf_plan_many_dft(1, &length, static_cast<int>(h), p, nullptr, 1, length, p, nullptr, 1,

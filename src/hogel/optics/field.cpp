@@ -14,7 +14,7 @@ namespace hogel {
 namespace {
 
 constexpr std::size_t region_side = 1024;  // 8 MiB of samples
-constexpr std::size_t most_samples = (std::numeric_limits<std::size_t>::max() >> 1) / sizeof(std::complex<float>);
+constexpr std::size_t max_samples = (std::numeric_limits<std::size_t>::max() >> 1) / sizeof(std::complex<float>);
 
 void require_positive(double value, ErrorCode code, const std::string& what, const char* member) {
     if (!(std::isfinite(value) && value > 0))
@@ -45,7 +45,7 @@ void validate(const FieldGrid& grid, ErrorCode code, const std::string& what) {
     require_positive(plane.size_y(), code, what, "the height");
     if (!std::isfinite(plane.center_x) || !std::isfinite(plane.center_y))
         throw Error(code, fmt::format("{}: its centre ({}, {}) is not finite", what, plane.center_x, plane.center_y));
-    if (plane.width > most_samples / plane.height)
+    if (plane.width > max_samples / plane.height)
         throw Error(code,
                     fmt::format("{}: {}x{} samples are more than can be addressed", what, plane.width, plane.height));
 }
@@ -89,7 +89,7 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
     const std::size_t width = in_place ? plane.width : side,
                       height = in_place ? aligned_rows(source.alignment(), plane.width) : side;
     const std::size_t across = (plane.width + width - 1) / width, down = (plane.height + height - 1) / height;
-    core::Reused<Array<std::complex<float>, 1>> rooms;
+    core::ObjectPool<Array<std::complex<float>, 1>> rooms;
     std::mutex reporting;
     std::size_t done = 0;
     progress.report(0);

@@ -52,7 +52,8 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
     for (std::size_t first = 0; first < looks; first += looks_at_once) {
         const std::size_t count = std::min(looks_at_once, looks - first);
         const auto tell = [&](double done) {
-            progress.report((static_cast<double>(first) + done * static_cast<double>(count)) / static_cast<double>(looks));
+            progress.report((static_cast<double>(first) + done * static_cast<double>(count)) /
+                            static_cast<double>(looks));
         };
         auto drawn = narrow_band::draw_narrow_bands(window, bands, first, count, [&](double fraction) {
             tell(0.9 * fraction);

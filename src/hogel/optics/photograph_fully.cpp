@@ -94,7 +94,7 @@ Orientation stand(const Camera& camera) {
 
 // The wave on the plane in focus, from that on a parallel plane which it crosses in the middle.
 Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& hologram, Vec3 origin,
-                     const Orientation& axes, const Scratch& scratch) {
+                     const Orientation& axes, const ScratchOptions& scratch) {
     // The size of the picture on it, and the directions from there to the pupil.
     double half_x = 0, half_y = 0, nearest = camera.eye.z - origin.z;
     Band band{1e30, -1e30, 1e30, -1e30};
@@ -187,11 +187,11 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                                                (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
-                    // Between dark samples the cubic may fall below zero.
-                    const double value =
-                        std::max(0.0f, film::cubic_at(samples.extent(0), samples.extent(1),
-                                                plane.row(plane.center_y + dot(aside, focused.axes.y)),
-                                                plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
+                    // Interpolation dark samples the cubic may fall below zero.
+                    const double value = std::max(
+                        0.0f, film::cubic_at(samples.extent(0), samples.extent(1),
+                                             plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                             plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
                     const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
                     sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
                 }
@@ -226,8 +226,8 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
             const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
             const std::complex<float> slow =
                 film::cubic_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
-                         plane.column(plane.center_x + right),
-                         [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
+                               plane.column(plane.center_x + right),
+                               [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
             const double cycles =
                 wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
             result(row, column) = slow * turned(cycles);

@@ -65,7 +65,8 @@ Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std:
         const film::FilmSize film(band, hologram, eye.pupil, eye.blur);
         bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
         // Tiles on their way into the band.
-        const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) + 2 * narrow_band::NarrowBand::margin;
+        const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
+                            2 * narrow_band::NarrowBand::margin;
         bytes.a_look += 8.0 * static_cast<double>(core::default_in_flight()) * tile * tile;
         bytes.fixed += 4.0 * static_cast<double>(film.sines.samples()) * static_cast<double>(eye.members.size());
         largest = std::max(largest, film.pupil_bytes() + film.work_bytes());
@@ -87,7 +88,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
     for (const Camera& camera : cameras) around = std::max(around, margin(hologram, camera));
 
     PhotographPlan best;
-    double least_work = std::numeric_limits<double>::infinity();
+    double min_work = std::numeric_limits<double>::infinity();
     std::size_t cameras_a_pass = cameras.size();
     while (true) {
         std::vector<std::vector<std::size_t>> passes;
@@ -101,7 +102,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
             for (const PhotographPlan::Window& window : list) read += static_cast<double>(window.region.samples());
             const double work =
                 static_cast<double>(passes.size()) * read / static_cast<double>(hologram.plane.samples());
-            if (work >= least_work) continue;
+            if (work >= min_work) continue;
             // Windows at the ends and in the middle stand for all: what they take varies slowly from one to the next.
             std::set<std::size_t> probes{0, list.size() / 2, list.size() - 1, list.size() / 4, 3 * list.size() / 4};
             double fixed = 0, a_look = 0;
@@ -113,7 +114,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
                     a_look = std::max(a_look, bytes.a_look);
                 }
             if (fixed + a_look > memory) continue;
-            least_work = work;
+            min_work = work;
             best = {passes, list, fixed + a_look, a_look};
         }
         if (cameras_a_pass == 1) return best;
@@ -145,7 +146,8 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
                                 PhotographPlan::Windows windows) {
     for (const Camera& camera : cameras) {
         validate(camera);
-        narrow_band::NarrowBand(hologram, camera.eye, camera.pupil);  // says so where the pupil is too wide for the pitch
+        narrow_band::NarrowBand(hologram, camera.eye,
+                                camera.pupil);  // says so where the pupil is too wide for the pitch
     }
     if (cameras.empty()) return {};
     const std::span<const std::size_t> counts =

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <numbers>
 
-#include "hogel/propagate.h"
 #include "hogel/core/parallel.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/propagate.h"
 
 namespace hogel::optics {
 namespace {
@@ -27,7 +27,7 @@ double passes(double distance, double reach, double fade) {
 // The directions of one row of a spectrum, on their way.
 class RowOfDirections {
   public:
-    RowOfDirections(const Spectrum& spectrum, const Way& way, double row)
+    RowOfDirections(const Spectrum& spectrum, const PropagationOptions& way, double row)
         : spectrum_(spectrum),
           way_(way),
           frequency_(1 / spectrum.wavelength),
@@ -82,7 +82,7 @@ class RowOfDirections {
     double aside_y(double fz) const { return way_.distance * fy_ / fz - way_.shift_y; }
 
     const Spectrum& spectrum_;
-    const Way& way_;
+    const PropagationOptions& way_;
     double frequency_, fy_, reach_x_, reach_y_;
 };
 
@@ -114,7 +114,7 @@ void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
 
 }  // namespace
 
-void propagate(Spectrum& spectrum, const Way& way) {
+void propagate(Spectrum& spectrum, const PropagationOptions& way) {
     core::parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
         for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
             propagate_row(spectrum.samples.view()[r].elements(),
@@ -130,8 +130,8 @@ namespace hogel {
 
 using namespace optics;
 
-void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look, const Scratch& scratch,
-               const Progress& progress) {
+void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look,
+               const ScratchOptions& scratch, const Progress& progress) {
     const Grid& plane = source.grid().plane;
     validate(source.grid(), ErrorCode::usage, "propagated field");
     if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));

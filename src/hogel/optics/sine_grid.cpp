@@ -19,7 +19,7 @@ struct Range {
 };
 
 // How fast the sines change over the plane, per metre, where that is slowest.
-double least_slope(const ViewGeometry& geometry, const Grid& plane) {
+double min_slope(const ViewGeometry& geometry, const Grid& plane) {
     // dn_x/dx = (1 - n_x²)/r, and the same in y, are least at the corners that are farthest from the eye.
     double least = std::numeric_limits<double>::infinity();
     for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
@@ -59,7 +59,7 @@ SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, doubl
     }
     SineGrid grid;
     // Nowhere coarser than the band itself, which has room for the pupil and its intensity: so nothing folds back.
-    grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * least_slope(geometry, plane);
+    grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(geometry, plane);
     // What is out of focus spreads by the blur, and what is in focus by some resolution cells, four samples each; room
     // for it keeps it from coming in again at the other side.
     constexpr double room = 64;

@@ -52,9 +52,9 @@ Band Band::of(const Grid& plane) {
     return {-x, x, -y, y};
 }
 
-Wave::Wave(const FieldGrid& grid, const Scratch& scratch) : grid_(grid) {
+Wave::Wave(const FieldGrid& grid, const ScratchOptions& scratch) : grid_(grid) {
     validate(grid, ErrorCode::usage, "wave");
-    samples = core::LargeArray({grid.plane.height, grid.plane.width}, scratch);
+    samples = core::PagedArray({grid.plane.height, grid.plane.width}, scratch);
 }
 
 void Wave::read(const Region& region, std::size_t look, View<Complex, 2> out) const {
@@ -79,7 +79,7 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
 }
 
 Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
-                        const Scratch& scratch) {
+                        const ScratchOptions& scratch) {
     Spectrum result;
     result.window = window;
     result.wavelength = wavelength;
@@ -87,7 +87,7 @@ Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band,
     const auto [first_row, last_row] = steps(-band.high_y, -band.low_y, window.size_y(), window.height, -carrier_y);
     result.first_column = first_column;
     result.first_row = first_row;
-    result.samples = core::LargeArray(
+    result.samples = core::PagedArray(
         {static_cast<std::size_t>(last_row - first_row + 1), static_cast<std::size_t>(last_column - first_column + 1)},
         scratch);
     return result;
@@ -96,7 +96,7 @@ Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band,
 namespace {
 
 Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& window, const Band& band,
-                     double carrier_x, double carrier_y, const Scratch& scratch, const Progress& progress) {
+                     double carrier_x, double carrier_y, const ScratchOptions& scratch, const Progress& progress) {
     const Grid& plane = source.grid().plane;
     if (window.width < plane.width || window.height < plane.height || (window.width - plane.width) % 2 != 0 ||
         (window.height - plane.height) % 2 != 0 || window.pitch_x != plane.pitch_x || window.pitch_y != plane.pitch_y)
@@ -109,7 +109,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const std::size_t columns = result.width(), rows = result.height();
 
     // Along the rows, of which only the band's columns are kept.
-    core::LargeArray half({plane.height, columns}, scratch);
+    core::PagedArray half({plane.height, columns}, scratch);
     const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
@@ -158,16 +158,16 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
 }  // namespace
 
 Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
-                     const Scratch& scratch, const Progress& progress) {
+                     const ScratchOptions& scratch, const Progress& progress) {
     return transformed(field, look, window, band, 0, 0, scratch, progress);
 }
 
-Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const Scratch& scratch,
+Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const ScratchOptions& scratch,
                      const Progress& progress) {
     return transformed(wave, 0, window, band, wave.carrier_x, wave.carrier_y, scratch, progress);
 }
 
-Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const Scratch& scratch) {
+Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch) {
     const Grid& window = spectrum.window;
     const std::size_t columns = spectrum.width(), rows = spectrum.height();
     if (width < columns || height < rows)

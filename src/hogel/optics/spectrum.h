@@ -21,7 +21,7 @@ struct Spectrum {
     Grid window;            ///< what was transformed: its count times its pitch is the window's size, its centre is c
     double wavelength = 0;  ///< metres
     std::ptrdiff_t first_column = 0, first_row = 0;  ///< frequencies of the first sample, in steps; rows run down
-    core::LargeArray samples;                              ///< [row][column] of S, row 0 the highest f_y
+    core::PagedArray samples;                        ///< [row][column] of S, row 0 the highest f_y
 
     double frequency_x(double column) const { return (static_cast<double>(first_column) + column) / window.size_x(); }
     double frequency_y(double row) const { return -(static_cast<double>(first_row) + row) / window.size_y(); }
@@ -33,11 +33,11 @@ struct Spectrum {
 /// carrier, but not for what varies around that: they stand for the frequencies that are nearest to the carrier.
 class Wave final : public FieldSource {
   public:
-    Wave(const FieldGrid& grid, const Scratch& scratch);
+    Wave(const FieldGrid& grid, const ScratchOptions& scratch);
     const FieldGrid& grid() const override { return grid_; }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;
 
-    core::LargeArray samples;                   ///< [y][x]
+    core::PagedArray samples;             ///< [y][x]
     double carrier_x = 0, carrier_y = 0;  ///< cycles per metre
 
   private:
@@ -52,17 +52,17 @@ Grid padded(const Grid& plane, double size_x, double size_y);
 /// @param window  a grid of the field's pitch and centre, at least as large; see padded()
 /// Throws Error(usage) for a window that is smaller than the field or has another pitch, or a band with nothing in it.
 Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
-                     const Scratch& scratch = {}, const Progress& progress = {});
+                     const ScratchOptions& scratch = {}, const Progress& progress = {});
 
-Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const Scratch& scratch = {},
+Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const ScratchOptions& scratch = {},
                      const Progress& progress = {});
 
 /// The wave in the window at so many samples, at least the spectrum's own counts: the same extent at another pitch. Its
 /// carrier is the middle of the spectrum. Throws Error(usage) for fewer.
-Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const Scratch& scratch = {});
+Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch = {});
 
 /// How a wave goes on to a parallel plane. Its window moves along, for light that travels aslant.
-struct Way {
+struct PropagationOptions {
     double distance = 0;              ///< metres; negative goes back
     double shift_x = 0, shift_y = 0;  ///< of the window
     double reach_x = 0, reach_y = 0;  ///< directions that travel farther beside the window's own way are dropped
@@ -73,7 +73,7 @@ struct Way {
 /// What leaves a window of size W comes in again at its other side; a wave D wide that reaches no farther than W − D
 /// does not, where it was. A reach of zero stands for half the window, beyond which the phase is too steep for the
 /// steps.
-void propagate(Spectrum& spectrum, const Way& way);
+void propagate(Spectrum& spectrum, const PropagationOptions& way);
 
 /// The frequencies that light from one rectangle to another on a plane at this distance can have: [K] 6.1.3.
 Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength);

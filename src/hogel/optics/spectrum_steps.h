@@ -7,6 +7,6 @@ namespace hogel::optics {
 /// A spectrum of zeros at the frequencies in `band` that the window's samples carry around a carrier. Throws
 /// Error(usage) where there are none.
 Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
-                        const Scratch& scratch);
+                        const ScratchOptions& scratch);
 
 }  // namespace hogel::optics

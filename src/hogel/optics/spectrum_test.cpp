@@ -289,7 +289,7 @@ TEST(Tilt, a_tilted_plane_cuts_a_gaussian_beam) {
 TEST(Spectrum, is_the_same_for_any_number_of_threads_and_in_a_file) {
     const Grid plane{150, 130, 1_um, 1_um, 0, 0};
     const Field field = noise(plane);
-    const auto run = [&](const Scratch& scratch) {
+    const auto run = [&](const ScratchOptions& scratch) {
         Spectrum spectrum = spectrum_of(field, 0, padded(plane, 300_um, 280_um), {-1e5, 3e5, -2e5, 2e5}, scratch);
         propagate(spectrum, {1_mm, 50_um, 0});
         return wave_of(spectrum, 320, 300, scratch);

@@ -63,7 +63,7 @@ void require_axes(const Orientation& plane) {
 }  // namespace
 
 Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& window, const Band& band,
-              const Scratch& scratch) {
+              const ScratchOptions& scratch) {
     require_axes(plane);
     static const Kernel kernel;
     Spectrum result = empty_spectrum(window, spectrum.wavelength, band, 0.5 * (band.low_x + band.high_x),

@@ -13,13 +13,14 @@ struct Orientation {
 };
 
 /// The same wave on a plane through the window's centre that stands otherwise ([K] 6.1.2). Its plane waves turn,
-/// S'(f') = S(f) f_z/f'_z, f being the frequency f' as seen from the old plane; the factor is the Jacobian. Between
-/// samples S is interpolated to 1e-3. Directions that do not cross both planes towards their fronts are dropped.
+/// S'(f') = S(f) f_z/f'_z, f being the frequency f' as seen from the old plane; the factor is the Jacobian.
+/// Interpolation samples S is interpolated to 1e-3. Directions that do not cross both planes towards their fronts are
+/// dropped.
 /// @param spectrum  of a field that fills no more than half of its window, in x and in y, around the centre
 /// @param window    of the new plane: its count and pitch; its size gives the steps of frequency
 /// @param band      the frequencies on the new plane that are wanted
 /// Throws Error(usage) for axes that are not unit vectors at right angles, and for a band with nothing in it.
 Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& window, const Band& band,
-              const Scratch& scratch = {});
+              const ScratchOptions& scratch = {});
 
 }  // namespace hogel::optics

@@ -41,9 +41,9 @@ ShadedScene wall(const std::vector<double>& x, const std::function<Rgb(Vec3)>& r
     return scene;
 }
 
-LightField render(std::string_view name, const ShadedScene& scene, const LightFieldGrid& sampled,
-                  SamplesPerRay samples) {
-    LightField light_field(sampled, true);
+LightFieldBuffer render(std::string_view name, const ShadedScene& scene, const LightFieldGrid& sampled,
+                        SamplesPerRay samples) {
+    LightFieldBuffer light_field(sampled, true);
     copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), sampled, samples), light_field);
     return light_field;
 }
@@ -54,7 +54,8 @@ TEST(SamplesPerRay, leave_a_constant_as_it_is_to_the_last_bit) {
     tinted.background = {0.1f, 0.7f, 1.0f / 3};
     tinted.triangles.clear();
     for (const SamplesPerRay samples : {SamplesPerRay{1, 1}, {2, 2}, {3, 1}, {1, 5}, {3, 3}}) {
-        const LightField background = render("epi", tinted, grid, samples), seen = render("epi", scene, grid, samples);
+        const LightFieldBuffer background = render("epi", tinted, grid, samples),
+                               seen = render("epi", scene, grid, samples);
         for (float value : background.radiance[0].elements()) ASSERT_EQ(value, tinted.background.r);
         for (float value : background.radiance[2].elements()) ASSERT_EQ(value, tinted.background.b);
         for (float value : background.depth.elements()) ASSERT_EQ(value, std::numeric_limits<float>::infinity());
@@ -80,7 +81,7 @@ TEST(SamplesPerRay, weaken_a_wave_as_the_box_does) {
                 return std::sin(a) / (double(n) * std::sin(a / double(n)));
             };
             const double left = by(grid.pitch, samples.hogel) * by(depth * grid.step_u(), samples.direction);
-            const LightField seen = render("epi", scene, grid, samples);
+            const LightFieldBuffer seen = render("epi", scene, grid, samples);
             double error = 0;
             for (std::size_t s = 0; s < grid.hogels_s; ++s)
                 for (std::size_t u = 0; u < grid.directions_u; ++u) {
@@ -104,7 +105,7 @@ TEST(SamplesPerRay, cover_the_share_of_a_silhouette_to_one_sample) {
     for (const double edge : {-0.21e-3, 0.077e-3, 0.34e-3}) {
         const ShadedScene scene = wall({-0.1, edge}, [](Vec3) { return Rgb{1, 1, 1}; });
         for (const std::size_t n : {2, 4, 7}) {
-            const LightField seen = render("zbuffer", scene, grid, {n, n});
+            const LightFieldBuffer seen = render("zbuffer", scene, grid, {n, n});
             std::size_t partial = 0;
             for (std::size_t s = 0; s < grid.hogels_s; ++s)
                 for (std::size_t u = 0; u < grid.directions_u; ++u) {
@@ -137,14 +138,14 @@ ShadedScene two_leaves() {
 
 TEST(SamplesPerRay, are_the_same_for_every_algorithm) {
     const SamplesPerRay samples{2, 3};
-    const LightField truth = render("raytrace", two_leaves(), grid, samples);
-    const LightField once = render("raytrace", two_leaves(), grid, {1, 1});
+    const LightFieldBuffer truth = render("raytrace", two_leaves(), grid, samples);
+    const LightFieldBuffer once = render("raytrace", two_leaves(), grid, {1, 1});
     double smoothed = 0;
     for (std::size_t i = 0; i < truth.radiance.size(); ++i)
         smoothed = std::max<double>(smoothed, std::abs(truth.radiance.data()[i] - once.radiance.data()[i]));
     EXPECT_GT(smoothed, 0.1);
     for (const RendererInfo& info : renderers()) {
-        const LightField seen = render(info.name, two_leaves(), grid, samples);
+        const LightFieldBuffer seen = render(info.name, two_leaves(), grid, samples);
         double sum = 0, worst = 0;
         for (std::size_t i = 0; i < seen.radiance.size(); ++i) {
             const double error = std::abs(seen.radiance.data()[i] - truth.radiance.data()[i]);
@@ -159,7 +160,7 @@ TEST(SamplesPerRay, are_the_same_for_every_algorithm) {
 TEST(SamplesPerRay, give_the_same_bytes_in_any_tiling_and_with_any_number_of_threads) {
     const SamplesPerRay samples{3, 2};
     const auto scene = std::make_shared<const ShadedScene>(two_leaves());
-    LightField single(grid, true);
+    LightFieldBuffer single(grid, true);
     {
         const ThreadLimit one(1);
         copy(*make_renderer("epi", scene, grid, samples), single);
@@ -185,7 +186,7 @@ TEST(SamplesPerRay, divide_the_cells_of_every_face) {
     }
     for (const SamplesPerRay samples : {SamplesPerRay{0, 1}, {1, 0}, {65, 1}, {1, std::size_t{1} << 40}})
         EXPECT_THROW(finer(grid, samples), Error);
-    EXPECT_THROW(average(std::make_unique<LightField>(grid), grid, {2, 1}), Error);
+    EXPECT_THROW(average(std::make_unique<LightFieldBuffer>(grid), grid, {2, 1}), Error);
 }
 
 }  // namespace

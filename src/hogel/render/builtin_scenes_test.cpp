@@ -25,12 +25,13 @@ Scene quick_scene(std::string_view name) {
     if (name != "church-radiance") return make_scene(name, size);
     Scene church = make_scene("church", size);
     for (Light& light : church.lights) light.casts_shadows = false;
-    return bake(church, {.rays = 2, .bounces = 1, .tessellation = 2});
+    return bake_scene(church, {.rays = 2, .bounces = 1, .tessellation = 2});
 }
 
 // The scene as it is made, or pushed back behind the hologram for a renderer that needs that.
-LightField render(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid, bool behind = false) {
-    LightField light_field(grid, true);
+LightFieldBuffer render(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid,
+                        bool behind = false) {
+    LightFieldBuffer light_field(grid, true);
     Scene scene = quick_scene(name);
     const double back = behind ? bounds(scene).high.z + 1_mm : 0;
     for (Mesh& mesh : scene.meshes)
@@ -40,7 +41,7 @@ LightField render(std::string_view algorithm, std::string_view name, const Light
         light.position.z -= back;
         light.casts_shadows = false;
     }
-    const auto shaded = std::make_shared<const ShadedScene>(shade_vertices(scene));
+    const auto shaded = std::make_shared<const ShadedScene>(shade_scene_vertices(scene));
     copy(*make_renderer(algorithm, shaded, grid), light_field);
     return light_field;
 }
@@ -54,7 +55,7 @@ std::vector<Case> analytic_cases() {
     for (const RendererInfo& renderer : renderers())
         for (const SceneInfo& scene : scenes().rows())
             if (scene::has_analytic_radiance(scene.name) &&
-                (renderer.straddles || bounds(make_scene(scene.name, size)).high.z < 0))
+                (renderer.crosses_plane || bounds(make_scene(scene.name, size)).high.z < 0))
                 list.push_back({std::string(renderer.name), std::string(scene.name)});
     return list;
 }
@@ -71,14 +72,14 @@ INSTANTIATE_TEST_SUITE_P(RenderersAndScenes, ClosedForm, ::testing::ValuesIn(ana
 TEST_P(ClosedForm, is_what_the_renderer_sees) {
     const auto& [algorithm, scene] = GetParam();
     const LightFieldGrid grid{16, 16, size / 16, 40, 40, 0.4, 0.4, 3};
-    const LightField seen = render(algorithm, scene, grid);
+    const LightFieldBuffer seen = render(algorithm, scene, grid);
     std::size_t compared = 0, hits = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
             for (std::size_t v = 0; v < grid.directions_v; ++v)
                 for (std::size_t u = 0; u < grid.directions_u; ++u) {
-                    const scene::AnalyticSample expected = scene::analytic_radiance(scene, size, grid.s(double(s)), grid.t(double(t)),
-                                                                      grid.u(double(u)), grid.v(double(v)));
+                    const scene::AnalyticSample expected = scene::analytic_radiance(
+                        scene, size, grid.s(double(s)), grid.t(double(t)), grid.u(double(u)), grid.v(double(v)));
                     if (expected.clearance < size / 1000) continue;
                     ++compared;
                     const float depth = seen.depth(t, s, v, u);
@@ -96,7 +97,7 @@ TEST_P(ClosedForm, is_what_the_renderer_sees) {
 }
 
 // Whether the depths around a sample jump, as they do at a silhouette.
-bool near_silhouette(const LightField& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     const LightFieldGrid& grid = light_field.grid();
     float low = light_field.depth(t, s, v, u), high = low;
     for (std::size_t l = v > 0 ? v - 1 : 0; l < std::min(v + 2, grid.directions_v); ++l)
@@ -115,8 +116,8 @@ std::vector<Case> showpieces() {
     return list;
 }
 
-bool straddles(std::string_view algorithm) {
-    return std::ranges::find(renderers(), algorithm, &RendererInfo::name)->straddles;
+bool crosses_plane(std::string_view algorithm) {
+    return std::ranges::find(renderers(), algorithm, &RendererInfo::name)->crosses_plane;
 }
 
 class TwoWitnesses : public ::testing::TestWithParam<Case> {};
@@ -130,8 +131,9 @@ TEST_P(TwoWitnesses, agree_away_from_silhouettes) {
     if (algorithm == "oblique") grid = {5, 5, size / 5, 24, 24, 0.0375, 0.0375, 3};
     if (algorithm == "simplex3d") grid = {3, 3, size / 30, 24, 24, 0.09, 0.09, 3};
     if (algorithm == "simplex") grid = {2, 2, size / 20, 8, 8, 0.03, 0.03, 3};
-    const bool behind = !straddles(algorithm);
-    const LightField rays = render("raytrace", scene, grid, behind), other = render(algorithm, scene, grid, behind);
+    const bool behind = !crosses_plane(algorithm);
+    const LightFieldBuffer rays = render("raytrace", scene, grid, behind),
+                           other = render(algorithm, scene, grid, behind);
     std::size_t compared = 0, hits = 0, different = 0;
     double worst = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)

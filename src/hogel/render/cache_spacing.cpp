@@ -5,7 +5,7 @@
 
 namespace hogel::render {
 
-std::vector<float> light_spacing(const ShadedScene& scene, const LightFieldGrid& front, double share) {
+std::vector<float> cache_spacing(const ShadedScene& scene, const LightFieldGrid& front, double share) {
     const double step = std::max(front.step_u(), front.step_v());
     std::vector<float> spacing;
     spacing.reserve(scene.triangles.size());

@@ -11,6 +11,6 @@ namespace hogel::render {
 /// times the smallest width that a sample has anywhere on it, which is a hogel's pitch or, if that is more, the
 /// distance of one hogel's rays, ζ ΔU, where the triangle is nearest to the hologram plane. Holds on the sides of a
 /// hemicube too, where rays of a hogel are nowhere closer than on the front.
-std::vector<float> light_spacing(const ShadedScene& scene, const LightFieldGrid& front, double share);
+std::vector<float> cache_spacing(const ShadedScene& scene, const LightFieldGrid& front, double share);
 
 }  // namespace hogel::render

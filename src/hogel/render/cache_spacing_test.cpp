@@ -30,7 +30,7 @@ class Counted final : public SampleLighting {
         inner_->light_on(scene, index, weights, light);
     }
     Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                 std::span<const float> light, Rgb texture, const Sight& sight) const override {
+                 std::span<const float> light, Rgb texture, const ViewSample& sight) const override {
         return inner_->radiance(scene, index, weights, light, texture, sight);
     }
 
@@ -74,34 +74,34 @@ std::shared_ptr<ShadedScene> shaded(ShadingModel model, double share, std::share
     ShadingOptions options;
     options.model = model;
     options.shadow_map = 256;
-    auto scene = std::make_shared<ShadedScene>(shade(lit_wall(), options));
+    auto scene = std::make_shared<ShadedScene>(shade_scene(lit_wall(), options));
     const auto lighting = std::make_shared<Counted>(scene->lighting);
     scene->lighting = lighting;
     if (counted) *counted = lighting;
-    if (share > 0) shading::cache_light(*scene, light_spacing(*scene, grid, share));
+    if (share > 0) shading::cache_light(*scene, cache_spacing(*scene, grid, share));
     return scene;
 }
 
-LightField render(const std::shared_ptr<const ShadedScene>& scene, std::string_view algorithm = "epi") {
-    LightField light_field(grid);
+LightFieldBuffer render(const std::shared_ptr<const ShadedScene>& scene, std::string_view algorithm = "epi") {
+    LightFieldBuffer light_field(grid);
     copy(*make_renderer(algorithm, scene, grid), light_field);
     return light_field;
 }
 
 TEST(LightSpacing, is_the_finest_width_of_a_sample_on_the_triangle) {
-    const ShadedScene scene = shade_vertices(lit_wall());
-    const std::vector<float> spacing = light_spacing(scene, grid, 0.5);
+    const ShadedScene scene = shade_scene_vertices(lit_wall());
+    const std::vector<float> spacing = cache_spacing(scene, grid, 0.5);
     ASSERT_EQ(spacing.size(), 4u);
     EXPECT_FLOAT_EQ(spacing[0], 0.5f * 0.2e-3f);  // reaches through the hologram
     EXPECT_FLOAT_EQ(spacing[2], 0.5f * 0.2e-3f);  // 1.5 mm · 0.025 are less than a hogel
     const LightFieldGrid fine{24, 20, 0.02_mm, 24, 24, 0.3, 0.3, 3};
-    EXPECT_FLOAT_EQ(light_spacing(scene, fine, 2)[2], 2 * 1.5e-3f * 0.025f);
+    EXPECT_FLOAT_EQ(cache_spacing(scene, fine, 2)[2], 2 * 1.5e-3f * 0.025f);
 }
 
 TEST(LightSpacing, shows_the_light_of_each_ray_but_for_the_edges_of_shadows_from_a_twentieth_of_the_points) {
     for (const ShadingModel model : {ShadingModel::direct, ShadingModel::shadowed}) {
         std::shared_ptr<Counted> counted;
-        const LightField truth = render(shaded(model, 0)), seen = render(shaded(model, 0.5, &counted));
+        const LightFieldBuffer truth = render(shaded(model, 0)), seen = render(shaded(model, 0.5, &counted));
         double error = 0, power = 0;
         std::size_t off = 0, lit = 0;
         for (std::size_t i = 0; i < truth.radiance.size(); ++i) {
@@ -121,8 +121,8 @@ TEST(LightSpacing, shows_the_light_of_each_ray_but_for_the_edges_of_shadows_from
 }
 
 TEST(LightSpacing, gives_the_same_bytes_for_any_number_of_threads_any_tiling_and_nearly_so_for_any_algorithm) {
-    const LightField many = render(shaded(ShadingModel::direct, 0.5));
-    LightField tiled(grid);
+    const LightFieldBuffer many = render(shaded(ShadingModel::direct, 0.5));
+    LightFieldBuffer tiled(grid);
     {
         const ThreadLimit one(1);
         const auto source = make_renderer("epi", shaded(ShadingModel::direct, 0.5), grid);
@@ -134,7 +134,7 @@ TEST(LightSpacing, gives_the_same_bytes_for_any_number_of_threads_any_tiling_and
             }
     }
     EXPECT_TRUE(std::ranges::equal(many.radiance.elements(), tiled.radiance.elements()));
-    const LightField traced = render(shaded(ShadingModel::direct, 0.5), "raytrace");
+    const LightFieldBuffer traced = render(shaded(ShadingModel::direct, 0.5), "raytrace");
     // At the edges of shadows epi interpolates what the others read between the points.
     std::size_t off = 0, far_off = 0;
     for (std::size_t i = 0; i < traced.radiance.size(); ++i) {

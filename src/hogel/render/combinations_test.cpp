@@ -111,9 +111,9 @@ std::vector<Case> cases() {
     return list;
 }
 
-LightField render(std::string_view name, const std::shared_ptr<const ShadedScene>& scene, const LightFieldGrid& grid,
-                  const SamplesPerRay& samples) {
-    LightField light_field(grid, true);
+LightFieldBuffer render(std::string_view name, const std::shared_ptr<const ShadedScene>& scene,
+                        const LightFieldGrid& grid, const SamplesPerRay& samples) {
+    LightFieldBuffer light_field(grid, true);
     copy(*make_renderer(name, scene, grid, samples), light_field);
     return light_field;
 }
@@ -132,22 +132,22 @@ INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(names()),
 // Only rays along an edge may see one thing or the other; and where light is kept on surfaces, epi interpolates between
 // places where the others do, which shows at the edges of shadows.
 TEST_P(Combinations, show_what_rays_see) {
-    const bool straddles = std::ranges::find(renderers(), GetParam(), &RendererInfo::name)->straddles;
+    const bool crosses_plane = std::ranges::find(renderers(), GetParam(), &RendererInfo::name)->crosses_plane;
     std::size_t hits = 0, rays = 0, hemicubes = 0;
     std::size_t number = 0;
     for (const Case& one : cases()) {
         if (GetParam() == "simplex" && number++ / 2 % 3 != 0) continue;  // takes its time
-        const Scene scene = still_life(straddles ? 0 : 1e-3);
-        ShadedScene lit = shade(scene, {.model = one.model, .shadow_map = 64});
+        const Scene scene = still_life(crosses_plane ? 0 : 1e-3);
+        ShadedScene lit = shade_scene(scene, {.model = one.model, .shadow_map = 64});
         lit.fronts_only = one.fronts_only;
-        if (one.spacing > 0) shading::cache_light(lit, light_spacing(lit, finer(one.front, one.samples), one.spacing));
+        if (one.spacing > 0) shading::cache_light(lit, cache_spacing(lit, finer(one.front, one.samples), one.spacing));
         const auto shaded = std::make_shared<const ShadedScene>(std::move(lit));
         const std::vector<LightFieldGrid> faces = one.hemicube ? hemicube(one.front) : std::vector{one.front};
         hemicubes += faces.size() > 1 ? 1 : 0;
         std::size_t off = 0, far_off = 0, depths_off = 0, values = 0;
         for (const LightFieldGrid& face : faces) {
-            const LightField truth = render("raytrace", shaded, face, one.samples),
-                             seen = render(GetParam(), shaded, face, one.samples);
+            const LightFieldBuffer truth = render("raytrace", shaded, face, one.samples),
+                                   seen = render(GetParam(), shaded, face, one.samples);
             for (std::size_t i = 0; i < truth.depth.size(); ++i) {
                 const float expected = truth.depth.data()[i], found = seen.depth.data()[i];
                 depths_off += found == expected || std::abs(found - expected) < 1e-7f ? 0 : 1;

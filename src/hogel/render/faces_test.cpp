@@ -40,8 +40,8 @@ ShadedScene random_scene(std::mt19937& random, bool behind) {
     return scene;
 }
 
-LightField render(std::string_view name, const ShadedScene& scene, const LightFieldGrid& grid) {
-    LightField light_field(grid, true);
+LightFieldBuffer render(std::string_view name, const ShadedScene& scene, const LightFieldGrid& grid) {
+    LightFieldBuffer light_field(grid, true);
     copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), grid), light_field);
     return light_field;
 }
@@ -60,7 +60,7 @@ const RendererInfo& info(std::string_view name) { return *std::ranges::find(rend
 // What face `grid` of each hogel sees must be what the front of a single hogel sees of the scene turned around it. Only
 // a ray along an edge may see one thing or the other.
 void compare_with_turned_scene(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
-    const LightField seen = render(name, scene, grid);
+    const LightFieldBuffer seen = render(name, scene, grid);
     std::size_t hits = 0, different = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s) {
@@ -72,10 +72,10 @@ void compare_with_turned_scene(const std::string& name, const ShadedScene& scene
             LightFieldGrid one = grid;
             one.hogels_s = one.hogels_t = 1;
             one.face = Face::front;
-            const LightField expected = render("raytrace", turned, one);
+            const LightFieldBuffer expected = render("raytrace", turned, one);
             for (std::size_t v = 0; v < grid.directions_v; ++v)
                 for (std::size_t u = 0; u < grid.directions_u; ++u) {
-                    const double way = grid.along(grid.u(double(u)), grid.v(double(v))).z;
+                    const double way = grid.direction_of(grid.u(double(u)), grid.v(double(v))).z;
                     const double depth = expected.depth(0, 0, v, u) * way, found = seen.depth(t, s, v, u);
                     hits += std::isfinite(depth) ? 1 : 0;
                     bool same = found == depth || std::abs(found - depth) < 1e-7;
@@ -94,7 +94,7 @@ TEST_P(Faces, are_the_front_of_the_scene_turned) {
         const bool behind = round % 2 == 0;
         ShadedScene scene = random_scene(random, behind);
         scene.fronts_only = round >= 2;
-        if (!behind && !info(GetParam()).straddles) continue;
+        if (!behind && !info(GetParam()).crosses_plane) continue;
         for (const LightFieldGrid& face : hemicube(front)) compare_with_turned_scene(GetParam(), scene, face);
     }
 }
@@ -111,7 +111,7 @@ TEST_P(Faces, off_centre_directions_are_the_front_of_the_scene_too) {
     part.directions_u = 6;
     part.tan_half_u = front.tan_half_u * 6 / 22;
     part.center_u = front.u(18.5);
-    const LightField whole = render(GetParam(), scene, front), right = render(GetParam(), scene, part);
+    const LightFieldBuffer whole = render(GetParam(), scene, front), right = render(GetParam(), scene, part);
     for (std::size_t t = 0; t < front.hogels_t; ++t)
         for (std::size_t s = 0; s < front.hogels_s; ++s)
             for (std::size_t v = 0; v < front.directions_v; ++v)
@@ -121,9 +121,9 @@ TEST_P(Faces, off_centre_directions_are_the_front_of_the_scene_too) {
 
 TEST_P(Faces, sides_are_the_same_bytes_in_any_tiling) {
     std::mt19937 random(5);
-    const ShadedScene scene = random_scene(random, !info(GetParam()).straddles);
+    const ShadedScene scene = random_scene(random, !info(GetParam()).crosses_plane);
     for (const LightFieldGrid& face : hemicube(front)) {
-        const LightField whole = render(GetParam(), scene, face);
+        const LightFieldBuffer whole = render(GetParam(), scene, face);
         const auto renderer = make_renderer(GetParam(), std::make_shared<const ShadedScene>(scene), face);
         for (const HogelRange& range : {HogelRange{0, 0, 1, 1}, HogelRange{2, 1, 3, 2}, HogelRange{4, 3, 1, 1},
                                         HogelRange{0, 2, 5, 1}, HogelRange{3, 0, 1, 4}}) {

@@ -8,11 +8,11 @@
 
 #include "hogel/render/sample_store.h"
 
-namespace hogel::render::baselines {
+namespace hogel::render {
 
 /// A triangle slid along one direction (U, V) into the hologram plane, where the rays of that direction are points.
 ///
-/// The renderers that find samples by other ways than testing each one (`simplex`, `simplex-strip`, `simplex3d`,
+/// The renderers that find samples by other ways than testing each one (`simplex`, `simploid`, `simplex3d`,
 /// `oblique`, `mvr`) all decide here whether a ray meets a triangle and where. The answer depends on the ray and the
 /// triangle alone, so it does not matter which way a sample was found, nor how often, nor in which region.
 ///
@@ -34,7 +34,7 @@ class ObliqueTriangle {
 
     /// Along a ray in column u and row v of a light field's directions, on whatever face.
     ObliqueTriangle(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid, double u, double v)
-        : ObliqueTriangle(scene, index, grid.along(grid.u(u), grid.v(v))) {}
+        : ObliqueTriangle(scene, index, grid.direction_of(grid.u(u), grid.v(v))) {}
 
     const std::array<double, 3>& s() const { return s_; }
     const std::array<double, 3>& t() const { return t_; }
@@ -127,4 +127,4 @@ inline std::vector<std::uint32_t> triangles_with_area(const ShadedScene& scene) 
     return list;
 }
 
-}  // namespace hogel::render::baselines
+}  // namespace hogel::render

@@ -1,10 +1,10 @@
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/oblique_triangle.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace hogel::render::baselines {
+namespace hogel::render {
 namespace {
 
 std::size_t add_vertex(ShadedScene& scene, Vec3 position) {
@@ -116,4 +116,4 @@ TEST(ObliqueTriangle, the_nearest_is_seen_and_of_equals_the_first) {
 }
 
 }  // namespace
-}  // namespace hogel::render::baselines
+}  // namespace hogel::render

@@ -1,6 +1,6 @@
 #include "hogel/renderer.h"
 
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 
 namespace hogel {
@@ -11,7 +11,7 @@ namespace {
 
 template <std::size_t rank>
 double bytes(const Shape<rank>& shape) {
-    double product = sizeof(baselines::NearestTriangle);
+    double product = sizeof(NearestTriangle);
     for (const std::size_t extent : shape) product *= static_cast<double>(extent);
     return product;
 }
@@ -20,7 +20,7 @@ double bytes(const Shape<rank>& shape) {
 
 double depth_buffer_bytes(std::string_view algorithm, const LightFieldGrid& grid, const HogelRange& region) {
     if (algorithm == "simplex") return bytes(simplex_buffer(grid, region));
-    if (algorithm == "simplex-strip") return bytes(simplex_strip_buffer(RowAxes(grid), region));
+    if (algorithm == "simploid") return bytes(simplex_strip_buffer(RowAxes(grid), region));
     if (algorithm == "simplex3d") return bytes(simplex3d_buffer(grid, region));
     if (algorithm == "oblique") return bytes(oblique_buffer(region));
     return 0;

@@ -4,7 +4,6 @@
 
 #include <string>
 
-
 namespace hogel::render {
 namespace {
 
@@ -19,8 +18,8 @@ TEST(RegionMemory, is_eight_bytes_a_ray_that_is_kept) {
     const LightFieldGrid grid = grid_of(Face::front);
     const HogelRange region{7, 3, 20, 10};
     EXPECT_EQ(depth_buffer_bytes("simplex", grid, region), 8.0 * 20 * 10 * 16 * 6);
-    EXPECT_EQ(depth_buffer_bytes("simplex-strip", grid, region), 8.0 * 20 * 10 * 16);
-    EXPECT_EQ(depth_buffer_bytes("simplex-strip", grid_of(Face::left), region), 8.0 * 20 * 10 * 6);
+    EXPECT_EQ(depth_buffer_bytes("simploid", grid, region), 8.0 * 20 * 10 * 16);
+    EXPECT_EQ(depth_buffer_bytes("simploid", grid_of(Face::left), region), 8.0 * 20 * 10 * 6);
     EXPECT_EQ(depth_buffer_bytes("simplex3d", grid, region), 8.0 * 20 * 16 * 6);
     EXPECT_EQ(depth_buffer_bytes("oblique", grid, region), 8.0 * 20 * 10);
     for (const char* name : {"raytrace", "zbuffer", "epi"}) EXPECT_EQ(depth_buffer_bytes(name, grid, region), 0);

@@ -25,7 +25,7 @@ constexpr std::array infos{
     RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)"},
     RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
     RendererInfo{"simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false},
-    RendererInfo{"simplex-strip", "the same in slices of whole simploids, one row of directions after the other"},
+    RendererInfo{"simploid", "the same in slices of whole simploids, one row of directions after the other"},
     RendererInfo{"simplex3d", "the same as simplex in three dimensions, for one row of hogels after the other", false},
     RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
     RendererInfo{"mvr", "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions"},
@@ -43,7 +43,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
     require_tangents(grid, ErrorCode::usage, fmt::format("the renderer '{}' (but not raytrace)", name));
     if (name == "zbuffer") return baselines::make_zbuffer_renderer(std::move(scene), grid);
     if (name == "simplex") return simplex::make_simplex_renderer(std::move(scene), grid);
-    if (name == "simplex-strip") return simplex::make_simplex_strip_renderer(std::move(scene), grid);
+    if (name == "simploid") return simplex::make_simploid_renderer(std::move(scene), grid);
     if (name == "simplex3d") return simplex::make_simplex3d_renderer(std::move(scene), grid);
     if (name == "oblique") return baselines::make_oblique_renderer(std::move(scene), grid);
     if (name == "mvr") return baselines::make_mvr_renderer(std::move(scene), grid);

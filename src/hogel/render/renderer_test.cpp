@@ -9,7 +9,7 @@
 #include <string>
 
 #include "hogel/error.h"
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/simplex/volume.h"
 #include "hogel/render/test_names.h"
 #include "hogel/units.h"
@@ -33,8 +33,8 @@ void add_triangle(ShadedScene& scene, Vec3 a, Vec3 b, Vec3 c, const std::functio
     scene.triangles.push_back({{first, first + 1, first + 2}, ShadedScene::no_texture, 0});
 }
 
-LightField render(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
-    LightField light_field(grid, true);
+LightFieldBuffer render(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
+    LightFieldBuffer light_field(grid, true);
     copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), grid), light_field);
     return light_field;
 }
@@ -47,7 +47,9 @@ std::vector<std::string> names() {
     return list;
 }
 
-bool straddles(std::string_view name) { return std::ranges::find(renderers(), name, &RendererInfo::name)->straddles; }
+bool crosses_plane(std::string_view name) {
+    return std::ranges::find(renderers(), name, &RendererInfo::name)->crosses_plane;
+}
 
 // Random triangles within 4 mm of the hologram plane, or from 1 to 9 mm behind it. Some have no area, some are as thin
 // as a line, and of some both faces show, one from some hogels and the other from the rest; behind the plane some come
@@ -86,7 +88,7 @@ TEST_P(EveryRenderer, sees_a_tilted_plane_where_geometry_says) {
         return Rgb{float(0.5 + 40 * p.x), float(0.5 - 30 * p.y), float(0.5 + 50 * p.z)};
     };
     // z = 0.3 x − 0.2 y + offset, as a fan of triangles around a point off centre.
-    const double offset = straddles(GetParam()) ? 0.4e-3 : -7e-3;
+    const double offset = crosses_plane(GetParam()) ? 0.4e-3 : -7e-3;
     const auto plane = [&](double x, double y) { return Vec3{x, y, 0.3 * x - 0.2 * y + offset}; };
     ShadedScene scene;
     const double e = 12e-3;
@@ -94,7 +96,7 @@ TEST_P(EveryRenderer, sees_a_tilted_plane_where_geometry_says) {
     const std::array corners{plane(-e, -e), plane(e, -e), plane(e, e), plane(-e, e)};
     for (std::size_t i = 0; i < 4; ++i) add_triangle(scene, hub, corners[i], corners[(i + 1) % 4], radiance);
     scene.background = {9, 9, 9};
-    const LightField seen = render(GetParam(), scene, grid);
+    const LightFieldBuffer seen = render(GetParam(), scene, grid);
     std::size_t front = 0, behind = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
@@ -111,7 +113,7 @@ TEST_P(EveryRenderer, sees_a_tilted_plane_where_geometry_says) {
                     ASSERT_NEAR(seen.radiance(2, t, s, v, u), expected.b, 1e-5);
                     (depth > 0 ? behind : front) += 1;
                 }
-    if (straddles(GetParam())) {
+    if (crosses_plane(GetParam())) {
         EXPECT_GT(front, 100u);
     }
     EXPECT_GT(behind, 100u);
@@ -138,7 +140,7 @@ TEST_P(EveryRenderer, leaves_no_crack_between_triangles_that_share_edges) {
         }
     LightFieldGrid centred = grid;
     centred.pitch = step_x;
-    const LightField seen = render(GetParam(), scene, centred);
+    const LightFieldBuffer seen = render(GetParam(), scene, centred);
     for (float value : seen.radiance.elements()) ASSERT_NEAR(value, 1, 1e-6);
 }
 
@@ -161,11 +163,11 @@ TEST(Renderers, that_scan_convert_give_no_sample_to_two_triangles_that_share_an_
                     ShadedScene scene;
                     add_triangle(scene, a, b, c, white);
                     add_triangle(whole, a, b, c, white);
-                    const LightField seen = render(name, scene, centred);
+                    const LightFieldBuffer seen = render(name, scene, centred);
                     for (std::size_t k = 0; k < owners.size(); ++k)
                         owners(k) += std::isfinite(seen.depth.data()[k]) ? 1 : 0;
                 }
-        const LightField seen = render(name, whole, centred);
+        const LightFieldBuffer seen = render(name, whole, centred);
         std::size_t hits = 0;
         for (std::size_t k = 0; k < owners.size(); ++k) {
             ASSERT_EQ(owners(k), std::isfinite(seen.depth.data()[k]) ? 1 : 0) << name;
@@ -186,8 +188,8 @@ TEST_P(EveryRenderer, prefers_tiles_that_exist) {
 
 TEST_P(EveryRenderer, gives_the_same_bytes_in_any_tiling) {
     std::mt19937 random(11);
-    const ShadedScene scene = random_scene(random, 40, !straddles(GetParam()));
-    const LightField whole = render(GetParam(), scene, grid);
+    const ShadedScene scene = random_scene(random, 40, !crosses_plane(GetParam()));
+    const LightFieldBuffer whole = render(GetParam(), scene, grid);
     const auto renderer = make_renderer(GetParam(), std::make_shared<const ShadedScene>(scene), grid);
     for (const HogelRange& range : {HogelRange{0, 0, 1, 1}, HogelRange{2, 1, 3, 2}, HogelRange{4, 3, 1, 1},
                                     HogelRange{0, 2, 5, 1}, HogelRange{3, 0, 1, 4}, HogelRange{0, 0, 5, 4}}) {
@@ -205,14 +207,14 @@ TEST_P(EveryRenderer, gives_the_same_bytes_in_any_tiling) {
 TEST_P(EveryRenderer, an_empty_scene_is_background_at_infinity) {
     ShadedScene scene;
     scene.background = {0.1f, 0.2f, 0.3f};
-    const LightField seen = render(GetParam(), scene, grid);
+    const LightFieldBuffer seen = render(GetParam(), scene, grid);
     for (float depth : seen.depth.elements()) ASSERT_EQ(depth, std::numeric_limits<float>::infinity());
     for (std::size_t c = 0; c < 3; ++c)
         for (float value : seen.radiance[c].elements()) ASSERT_EQ(value, 0.1f * float(c + 1) + 0.0f) << c;
 }
 
 // Whether a sample lies within one sample of a silhouette: a neighbour sees something else, much nearer or farther.
-bool near_silhouette(const LightField& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u,
+bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u,
                      double jump) {
     const float here = light_field.depth(t, s, v, u);
     const LightFieldGrid& sampled = light_field.grid();
@@ -230,7 +232,8 @@ struct Compared {
 };
 
 // Samples less than `margin` from the border of a hogel's view are left out: what is beside them is not known.
-void expect_agreement(const LightField& first, const LightField& second, std::size_t margin, Compared& compared) {
+void expect_agreement(const LightFieldBuffer& first, const LightFieldBuffer& second, std::size_t margin,
+                      Compared& compared) {
     const LightFieldGrid& sampled = first.grid();
     for (std::size_t t = 0; t < sampled.hogels_t; ++t)
         for (std::size_t s = 0; s < sampled.hogels_s; ++s)
@@ -256,7 +259,7 @@ TEST_P(EveryRenderer, agrees_with_ray_casting_on_random_scenes) {
     // The plain algorithm for whole tiles takes its time.
     const int rounds = GetParam() == "simplex" ? 8 : 40;
     for (int round = 0; round < rounds; ++round) {
-        const bool behind = round % 2 == 0 || !straddles(GetParam());
+        const bool behind = round % 2 == 0 || !crosses_plane(GetParam());
         ShadedScene scene = random_scene(random, 16, behind);
         scene.fronts_only = round % 4 >= 2;
         expect_agreement(render("raytrace", scene, grid), render(GetParam(), scene, grid), 0, compared);
@@ -274,7 +277,7 @@ TEST_P(EveryRenderer, agrees_with_ray_casting_on_2000_random_scenes) {
     for (int round = 0; round < 2000; ++round) {
         const bool behind = round % 2 == 0;
         ShadedScene scene = random_scene(random, 8, behind);
-        if (!behind && !straddles(GetParam())) continue;
+        if (!behind && !crosses_plane(GetParam())) continue;
         scene.fronts_only = round % 8 >= 4;
         // One kind of triangle after the other by itself, then all together.
         if (round % 32 < 16) scene.triangles = {scene.triangles[static_cast<std::size_t>(round / 2 % 8)]};
@@ -314,15 +317,15 @@ TEST_P(EveryRenderer, covers_a_closed_body_without_a_gap) {
     std::mt19937 random(3);
     std::size_t inside = 0, outside = 0;
     for (int round = 0; round < (GetParam() == "simplex" ? 1 : 6); ++round) {
-        const Vec3 middle{0.2e-3, -0.3e-3, straddles(GetParam()) && round % 2 == 0 ? 0.4e-3 : -4e-3};
+        const Vec3 middle{0.2e-3, -0.3e-3, crosses_plane(GetParam()) && round % 2 == 0 ? 0.4e-3 : -4e-3};
         const std::vector<std::array<Vec3, 3>> faces = random_body(random, middle);
         ShadedScene scene;
         for (const auto& [p, q, r] : faces) add_triangle(scene, p, q, r, [](Vec3) { return Rgb{1, 1, 1}; });
-        const LightField seen = render(GetParam(), scene, grid);
+        const LightFieldBuffer seen = render(GetParam(), scene, grid);
         scene.fronts_only = true;
-        const LightField fronts = render(GetParam(), scene, grid);
+        const LightFieldBuffer fronts = render(GetParam(), scene, grid);
         for (ShadedScene::Triangle& triangle : scene.triangles) std::swap(triangle.vertices[1], triangle.vertices[2]);
-        const LightField backs = render(GetParam(), scene, grid);
+        const LightFieldBuffer backs = render(GetParam(), scene, grid);
         for (std::size_t t = 0; t < grid.hogels_t; ++t)
             for (std::size_t s = 0; s < grid.hogels_s; ++s)
                 for (std::size_t v = 0; v < grid.directions_v; ++v)
@@ -340,7 +343,7 @@ TEST_P(EveryRenderer, covers_a_closed_body_without_a_gap) {
                         if (std::abs(leaves - enters) < 1e-9) continue;
                         const bool hit = enters < leaves;
                         ++(hit ? inside : outside);
-                        for (const LightField* field : {&seen, &fronts, &backs})
+                        for (const LightFieldBuffer* field : {&seen, &fronts, &backs})
                             ASSERT_NEAR(field->radiance(0, t, s, v, u), hit ? 1 : 0, 1e-6);
                         if (!hit) continue;
                         ASSERT_NEAR(seen.depth(t, s, v, u), enters, 1e-7);
@@ -357,7 +360,7 @@ TEST_P(EveryRenderer, covers_a_closed_body_without_a_gap) {
 // through vertices and along edges.
 class SampleFindingRenderer : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer,
-                         ::testing::Values("simplex", "simplex-strip", "simplex3d", "oblique", "mvr"),
+                         ::testing::Values("simplex", "simploid", "simplex3d", "oblique", "mvr"),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
 TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangles_finds) {
@@ -366,28 +369,28 @@ TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangle
     std::uniform_int_distribution<int> step(-4, 4), deeper(1, 6);
     const int rounds = GetParam() == "simplex" ? 10 : 40;
     for (int round = 0; round < rounds; ++round) {
-        const bool behind = !straddles(GetParam()) || round % 4 < 2;
+        const bool behind = !crosses_plane(GetParam()) || round % 4 < 2;
         ShadedScene scene = random_scene(random, 16, behind);
         // Half of the scenes have all vertices on a lattice of half hogels and millimetres of depth.
         if (round % 2 == 0)
             for (Vec3& p : scene.positions)
                 p = {0.5e-3 * step(random), 0.5e-3 * step(random), 1e-3 * (behind ? -deeper(random) : step(random))};
         scene.fronts_only = round % 8 >= 4;
-        const double least = straddles(GetParam()) ? -1 : simplex::near_plane(scene, GetParam());
-        LightField expected(odd, true);
+        const double least = crosses_plane(GetParam()) ? -1 : simplex::near_plane(scene, GetParam());
+        LightFieldBuffer expected(odd, true);
         LightFieldTile tile(odd, {0, 0, odd.hogels_s, odd.hogels_t}, true);
         for (std::size_t t = 0; t < odd.hogels_t; ++t)
             for (std::size_t s = 0; s < odd.hogels_s; ++s)
                 for (std::size_t v = 0; v < odd.directions_v; ++v)
                     for (std::size_t u = 0; u < odd.directions_u; ++u) {
-                        baselines::NearestTriangle seen;
-                        for (std::uint32_t i : baselines::triangles_with_area(scene))
-                            baselines::see(seen, i, baselines::ObliqueTriangle(scene, i, odd.u(double(u)), odd.v(double(v))),
+                        NearestTriangle seen;
+                        for (std::uint32_t i : triangles_with_area(scene))
+                            see(seen, i, ObliqueTriangle(scene, i, odd.u(double(u)), odd.v(double(v))),
                                 odd.s(double(s)), odd.t(double(t)), least);
                         store(tile, scene, odd, seen, t, s, v, u);
                     }
         expected.write(tile);
-        const LightField found = render(GetParam(), scene, odd);
+        const LightFieldBuffer found = render(GetParam(), scene, odd);
         ASSERT_TRUE(std::ranges::equal(found.radiance.elements(), expected.radiance.elements())) << round;
         ASSERT_TRUE(std::ranges::equal(found.depth.elements(), expected.depth.elements())) << round;
     }
@@ -400,17 +403,17 @@ TEST(Renderers, that_need_the_scene_behind_the_plane_say_so_and_name_one_that_do
     for (const RendererInfo& info : renderers()) {
         try {
             make_renderer(info.name, std::make_shared<const ShadedScene>(scene), grid);
-            EXPECT_TRUE(info.straddles) << info.name;
+            EXPECT_TRUE(info.crosses_plane) << info.name;
         } catch (const Error& error) {
             ++refused;
-            EXPECT_FALSE(info.straddles) << info.name;
+            EXPECT_FALSE(info.crosses_plane) << info.name;
             EXPECT_EQ(error.code(), ErrorCode::usage);
             EXPECT_NE(std::string(error.what()).find("'" + std::string(info.name) + "' needs"), std::string::npos);
             EXPECT_NE(std::string(error.what()).find("z = 0.002 m; 'raytrace'"), std::string::npos) << error.what();
         }
     }
     EXPECT_GT(refused, 0u);
-    EXPECT_TRUE(straddles("raytrace"));
+    EXPECT_TRUE(crosses_plane("raytrace"));
 }
 
 // A flake in front of the middle of a hogel, at twice and at half of a millionth of the scene's size.
@@ -424,8 +427,8 @@ TEST(Renderers, that_need_the_scene_behind_the_plane_see_up_to_their_near_plane)
             return Rgb{1, 1, 1};
         });
         for (const RendererInfo& info : renderers()) {
-            if (info.straddles) continue;
-            const LightField seen = render(std::string(info.name), scene, grid);
+            if (info.crosses_plane) continue;
+            const LightFieldBuffer seen = render(std::string(info.name), scene, grid);
             for (float value : seen.depth[2][1].elements()) {
                 if (depth > near) {
                     ASSERT_NEAR(value, depth, 1e-12) << info.name;
@@ -457,10 +460,10 @@ TEST(Renderers, agree_on_a_fine_mesh_around_the_hologram) {
             scene.triangles.push_back({{at(j, i), at(j + 1, i), at(j + 1, i + 1)}, ShadedScene::no_texture, 0});
             scene.triangles.push_back({{at(j, i), at(j + 1, i + 1), at(j, i + 1)}, ShadedScene::no_texture, 0});
         }
-    const LightField first = render(names()[0], scene, grid);
+    const LightFieldBuffer first = render(names()[0], scene, grid);
     for (std::size_t other = 1; other < names().size(); ++other) {
-        if (!straddles(names()[other])) continue;
-        const LightField second = render(names()[other], scene, grid);
+        if (!crosses_plane(names()[other])) continue;
+        const LightFieldBuffer second = render(names()[other], scene, grid);
         std::size_t hits = 0, different = 0;
         for (std::size_t i = 0; i < first.depth.size(); ++i) {
             const float a = first.depth.data()[i], b = second.depth.data()[i];
@@ -498,9 +501,9 @@ TEST(Renderers, agree_on_textures_with_and_without_depth) {
     for (const std::size_t channels : {1, 3}) {
         LightFieldGrid sampled = grid;
         sampled.channels = channels;
-        const LightField first = render(names()[0], scene, sampled);
+        const LightFieldBuffer first = render(names()[0], scene, sampled);
         for (std::size_t other = 1; other < names().size(); ++other) {
-            if (!straddles(names()[other])) continue;
+            if (!crosses_plane(names()[other])) continue;
             const auto source = make_renderer(names()[other], std::make_shared<const ShadedScene>(scene), sampled);
             LightFieldTile tile(sampled, {0, 0, grid.hogels_s, grid.hogels_t}, false);
             source->read(tile);

@@ -24,8 +24,8 @@ inline float luminance(Rgb radiance) { return 0.2126f * radiance.r + 0.7152f * r
 /// How the ray (U, V) of a grid looks at what it meets at depth ζ. Neighbouring rays meet a surface a hogel's pitch
 /// apart if they come from neighbouring hogels, and ζΔU apart if they come from one: a sample stands for the larger of
 /// the two.
-inline Sight sight_along(const LightFieldGrid& grid, double U, double V, double depth) {
-    const Vec3 way = grid.along(U, V);
+inline ViewSample sight_along(const LightFieldGrid& grid, double U, double V, double depth) {
+    const Vec3 way = grid.direction_of(U, V);
     const double spread = std::abs(depth / way.z) * std::max(grid.step_u(), grid.step_v());
     return {normalize({-way.x, -way.y, way.z}), std::max(grid.pitch, spread)};
 }
@@ -35,7 +35,7 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
                   std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     Rgb radiance = scene.background;
     if (point.triangle != VisiblePoint::nothing) {
-        Sight sight;
+        ViewSample sight;
         if (scene.needs_samples(point.triangle))
             sight = sight_along(grid, grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v)), point.depth);
         radiance = radiance_at(scene, point.triangle, point.b0, point.b1, point.b2, sight);

@@ -8,7 +8,6 @@
 
 namespace hogel {
 
-
 void fit_scene(Scene& scene, const Fit& fit) {
     if (!(fit.width > 0 && fit.height > 0 && fit.fill > 0))
         throw Error(ErrorCode::usage, fmt::format("fit: {} m x {} m filled to {}; expected sizes above zero", fit.width,

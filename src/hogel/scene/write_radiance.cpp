@@ -140,13 +140,13 @@ void add_mesh(Gltf& gltf, const Mesh& mesh, std::map<const Image*, std::size_t>&
 
 }  // namespace
 
-void require_radiance_name(const std::filesystem::path& path) {
+void require_baked_scene_name(const std::filesystem::path& path) {
     if (path.extension() != ".glb")
         throw Error(ErrorCode::usage, fmt::format("{}: expected a name that ends in .glb", path.string()));
 }
 
-void write_radiance(const std::filesystem::path& path, const Scene& scene) {
-    require_radiance_name(path);
+void write_baked_scene(const std::filesystem::path& path, const Scene& scene) {
+    require_baked_scene_name(path);
     validate(scene);
     Gltf gltf;
     std::map<const Image*, std::size_t> pictures;

@@ -45,7 +45,7 @@ Scene two_balls() {
 TEST(WriteRadiance, comes_back_as_it_was) {
     const Folder folder;
     const Scene scene = two_balls();
-    write_radiance(folder.path / "x.glb", scene);
+    write_baked_scene(folder.path / "x.glb", scene);
     const Scene back = import_scene(folder.path / "x.glb");
     ASSERT_EQ(back.meshes.size(), 2u);
     for (std::size_t m = 0; m < 2; ++m) {
@@ -71,7 +71,7 @@ TEST(WriteRadiance, comes_back_as_it_was) {
 TEST(WriteRadiance, is_the_same_every_time) {
     const Folder folder;
     const auto bytes = [&](const char* name) {
-        write_radiance(folder.path / name, two_balls());
+        write_baked_scene(folder.path / name, two_balls());
         std::ifstream file(folder.path / name, std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
@@ -82,7 +82,7 @@ TEST(WriteRadiance, is_the_same_every_time) {
 TEST(WriteRadiance, damaged_files_are_refused_or_read) {
     const Folder folder;
     const std::filesystem::path path = folder.path / "x.glb";
-    write_radiance(path, two_balls());
+    write_baked_scene(path, two_balls());
     std::ifstream file(path, std::ios::binary);
     const std::string whole(std::istreambuf_iterator<char>(file), {});
     std::mt19937 random(4);
@@ -108,10 +108,10 @@ TEST(WriteRadiance, damaged_files_are_refused_or_read) {
 TEST(WriteRadiance, refuses_scenes_without_radiance_and_other_names) {
     const Folder folder;
     Scene scene = two_balls();
-    EXPECT_THROW(write_radiance(folder.path / "x.ply", scene), Error);
-    EXPECT_THROW(write_radiance(folder.path / "no" / "x.glb", scene), Error);
+    EXPECT_THROW(write_baked_scene(folder.path / "x.ply", scene), Error);
+    EXPECT_THROW(write_baked_scene(folder.path / "no" / "x.glb", scene), Error);
     scene.meshes[1].radiance.clear();
-    EXPECT_THROW(write_radiance(folder.path / "x.glb", scene), Error);
+    EXPECT_THROW(write_baked_scene(folder.path / "x.glb", scene), Error);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 

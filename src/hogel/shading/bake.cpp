@@ -63,7 +63,7 @@ ShadedScene unlit(const Scene& scene) {
     options.model = ShadingModel::vertex;
     Scene dark = scene;
     dark.lights.clear();
-    return shade(dark, options);
+    return shade_scene(dark, options);
 }
 
 /// Calls body(vertex) for all vertices, reporting from `from` to `to`.
@@ -97,7 +97,7 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
     const scene::Across frame = scene::across(normal);
     const Vec3 eye = surfaces.eyes[vertex] + surfaces.offset * normal;
     const auto random = core::philox({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(rays), 0, 0},
-                               {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+                                     {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
     const double shift_a = random[0] / 4294967296.0, shift_b = random[1] / 4294967296.0;
     // The multiples of the inverse powers of the plastic number fill the square evenly; each vertex shifts them.
     constexpr double plastic = 1.32471795724474602596;
@@ -135,7 +135,7 @@ void give(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>& values
 
 }  // namespace
 
-Scene bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
     if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
     for (const Mesh& mesh : scene.meshes)

@@ -44,7 +44,7 @@ Scene box(float albedo, float emission) {
 // A closed room whose walls glow evenly and reflect half: e (1 + ½ + ¼ + …), whatever its form.
 TEST(Bake, a_furnace_is_as_bright_as_its_series) {
     for (const std::size_t bounces : {0, 1, 2, 6}) {
-        const Scene baked = bake(box(0.5f, 1), {.rays = 16, .bounces = bounces});
+        const Scene baked = bake_scene(box(0.5f, 1), {.rays = 16, .bounces = bounces});
         for (const Rgb& seen : baked.meshes[0].radiance)
             ASSERT_NEAR(seen.r, 2 - std::pow(0.5, double(bounces)), 1e-5) << bounces;
     }
@@ -57,8 +57,8 @@ TEST(Bake, an_integrating_sphere_is_evenly_lit) {
     constexpr double albedo = 0.6, intensity = 2, power = 4 * pi * intensity;
     Scene scene = hollow_ball(float(albedo));
     scene.lights = {lamp({0.4, 0.2, -0.1}, float(intensity))};
-    const Scene baked = bake(scene, {.rays = 192, .bounces = 12});
-    const Scene direct = bake(scene, {.rays = 1, .bounces = 0});
+    const Scene baked = bake_scene(scene, {.rays = 192, .bounces = 12});
+    const Scene direct = bake_scene(scene, {.rays = 1, .bounces = 0});
     const double expected = albedo * albedo * power / (4 * pi * pi * (1 - albedo));
     double mean = 0, area = 0, absorbed = 0;
     for (const auto& t : scene.meshes[0].triangles) {
@@ -81,8 +81,8 @@ TEST(Bake, without_bounces_it_is_the_light_at_the_vertices) {
     const Scene scene = hollow_ball(0.7f);
     Scene lit = scene;
     lit.lights = {lamp({0.3, 0, 0}, 1)};
-    const ShadedScene vertices = shade_vertices(lit);
-    const Scene baked = bake(lit, {.rays = 1, .bounces = 0});
+    const ShadedScene vertices = shade_scene_vertices(lit);
+    const Scene baked = bake_scene(lit, {.rays = 1, .bounces = 0});
     for (std::size_t i = 0; i < vertices.radiance.size(); ++i)
         ASSERT_NEAR(baked.meshes[0].radiance[i].g, vertices.radiance[i].g, 0.03 * vertices.radiance[i].g);
 }
@@ -110,7 +110,7 @@ TEST(Bake, colours_bleed) {
     scene.meshes = {red.mesh, white.mesh};
     add_missing_normals(scene, 0.5);
     scene.lights = {lamp({0.5, 0.9, 0.5}, 1)};
-    const Scene baked = bake(scene, {.rays = 128, .bounces = 2});
+    const Scene baked = bake_scene(scene, {.rays = 128, .bounces = 2});
     ASSERT_GT(scene.meshes[0].normals[0].x, 0.9);
     const auto excess = [&](std::size_t i) {
         const Rgb c = baked.meshes[1].radiance[i];
@@ -122,8 +122,8 @@ TEST(Bake, colours_bleed) {
 
 TEST(Bake, finer_triangles_follow_shadows_that_coarse_ones_miss) {
     const Scene scene = box(0.5f, 0.2f);
-    const Scene coarse = bake(scene, {.rays = 16, .bounces = 2}),
-                fine = bake(scene, {.rays = 16, .bounces = 2, .tessellation = 3});
+    const Scene coarse = bake_scene(scene, {.rays = 16, .bounces = 2}),
+                fine = bake_scene(scene, {.rays = 16, .bounces = 2, .tessellation = 3});
     EXPECT_EQ(fine.meshes[0].triangles.size(), 9 * coarse.meshes[0].triangles.size());
     EXPECT_EQ(fine.meshes[0].radiance.size(), fine.meshes[0].positions.size());
     for (std::size_t i = 0; i < coarse.meshes[0].radiance.size(); ++i)
@@ -134,13 +134,13 @@ TEST(Bake, is_the_same_for_any_number_of_threads_and_depends_on_the_seed) {
     Scene scene = hollow_ball(0.6f, 20, 10);
     scene.lights = {lamp({0.4, 0.2, -0.1}, 2)};
     BakeOptions options{.rays = 16, .bounces = 2};
-    const Scene many = bake(scene, options);
+    const Scene many = bake_scene(scene, options);
     {
         const ThreadLimit one(1);
-        EXPECT_EQ(many.meshes[0].radiance, bake(scene, options).meshes[0].radiance);
+        EXPECT_EQ(many.meshes[0].radiance, bake_scene(scene, options).meshes[0].radiance);
     }
     options.seed = 2;
-    EXPECT_NE(many.meshes[0].radiance, bake(scene, options).meshes[0].radiance);
+    EXPECT_NE(many.meshes[0].radiance, bake_scene(scene, options).meshes[0].radiance);
 }
 
 TEST(Bake, what_is_given_stays_and_lights_the_rest) {
@@ -149,16 +149,16 @@ TEST(Bake, what_is_given_stays_and_lights_the_rest) {
     for (Vec3& p : scene.meshes[1].positions) p = 0.6 * p;
     for (Vec3& n : scene.meshes[1].normals) n = -n;  // a ball in the room
     scene.meshes[1].radiance.assign(scene.meshes[1].positions.size(), {3, 3, 3});
-    const Scene baked = bake(scene, {.rays = 64, .bounces = 2});
+    const Scene baked = bake_scene(scene, {.rays = 64, .bounces = 2});
     EXPECT_EQ(baked.meshes[1].radiance, scene.meshes[1].radiance);
     for (const Rgb& seen : baked.meshes[0].radiance) EXPECT_GT(seen.r, 0.0f);
 }
 
 TEST(Bake, refuses_what_makes_no_sense) {
-    EXPECT_THROW(bake(box(0.5f, 1), {.rays = 0}), Error);
-    EXPECT_THROW(bake(box(0.5f, 1), {.rays = 1, .tessellation = 0}), Error);
-    EXPECT_THROW(bake({}, {}), Error);
-    EXPECT_THROW(bake(box(0.5f, 1), {}, [](double) { return false; }), Error);
+    EXPECT_THROW(bake_scene(box(0.5f, 1), {.rays = 0}), Error);
+    EXPECT_THROW(bake_scene(box(0.5f, 1), {.rays = 1, .tessellation = 0}), Error);
+    EXPECT_THROW(bake_scene({}, {}), Error);
+    EXPECT_THROW(bake_scene(box(0.5f, 1), {}, [](double) { return false; }), Error);
 }
 
 }  // namespace

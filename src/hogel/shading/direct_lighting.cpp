@@ -75,7 +75,7 @@ class DirectLighting final : public SampleLighting {
     }
 
     Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                 std::span<const float> light, Rgb texture, const Sight& sight) const override {
+                 std::span<const float> light, Rgb texture, const ViewSample& sight) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const Surface& surface = surfaces_[triangle.mesh];
         if (!surface.material.is_glossy()) return texture * rgb(light.first<3>());

@@ -29,7 +29,7 @@ class LampTable {
 struct GlossyPoint {
     Vec3 position, normal, to_viewer;  ///< unit length
     double cos_view = 1;               ///< normal · to_viewer, above 0
-    double roughness = 1;              ///< at least least_roughness
+    double roughness = 1;              ///< at least min_roughness
 };
 
 /// The light in the lobe, the sum of Reflection::lobe over the lamps, in single precision.

@@ -8,7 +8,7 @@ namespace {
 
 // What the word after the first three numbers of a point says, besides LightGrid::made.
 constexpr std::uint32_t untouched = 0, in_work = 1;
-constexpr double most_cells = LightGrid::node_bits;  // along a side
+constexpr double max_cells = LightGrid::node_bits;  // along a side
 
 // Cells along a side. The outermost points stand in from its ends.
 double cells(double side, double spacing) {
@@ -33,7 +33,7 @@ float between(float a, float b, float part) { return a + part * (b - a); }
 
 }  // namespace
 
-LightCache::LightCache(const ShadedScene& scene, std::span<const float> spacing, double most_bytes)
+LightCache::LightCache(const ShadedScene& scene, std::span<const float> spacing, double max_bytes)
     : grids_(scene.triangles.size()) {
     std::vector<std::uint64_t> first(grids_.size());
     for (std::size_t i = 0; i < grids_.size(); ++i) {
@@ -48,7 +48,7 @@ LightCache::LightCache(const ShadedScene& scene, std::span<const float> spacing,
         const double rows = cells(*std::ranges::max_element(side), spacing[i]);
         const double columns = cells(side[corner], spacing[i]);
         const double words = (rows + 1) * (columns + 1) * static_cast<double>(words_of(size));
-        if (!(rows < most_cells && columns < most_cells && bytes() + words * sizeof(std::uint32_t) <= most_bytes &&
+        if (!(rows < max_cells && columns < max_cells && bytes() + words * sizeof(std::uint32_t) <= max_bytes &&
               words < 0x1p31)) {
             ++without_room_;
             continue;
@@ -156,8 +156,8 @@ void LightCache::make_point(const ShadedScene& scene, std::size_t index, std::si
     points_made_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void cache_light(ShadedScene& scene, std::span<const float> spacing, double most_bytes) {
-    if (scene.lighting) scene.light_cache = std::make_shared<LightCache>(scene, spacing, most_bytes);
+void cache_light(ShadedScene& scene, std::span<const float> spacing, double max_bytes) {
+    if (scene.lighting) scene.light_cache = std::make_shared<LightCache>(scene, spacing, max_bytes);
 }
 
 }  // namespace hogel::shading

@@ -85,8 +85,8 @@ struct alignas(32) LightGrid {
 class LightCache {
   public:
     /// @param spacing  of each triangle: metres between the points of its grid, at most; 0 where it is to have none
-    /// @param most_bytes  of all points. Triangles whose grids no longer fit, in the scene's order, have none
-    LightCache(const ShadedScene& scene, std::span<const float> spacing, double most_bytes);
+    /// @param max_bytes  of all points. Triangles whose grids no longer fit, in the scene's order, have none
+    LightCache(const ShadedScene& scene, std::span<const float> spacing, double max_bytes);
 
     /// The light on the point of triangle `index` with these weights, as SampleLighting::light_on gives it. False, and
     /// nothing read, for a triangle without a grid.
@@ -129,6 +129,6 @@ class LightCache {
 };
 
 /// Gives a scene whose light is worked out for each sample a cache of it; other scenes stay as they are.
-void cache_light(ShadedScene& scene, std::span<const float> spacing, double most_bytes = 1e9);
+void cache_light(ShadedScene& scene, std::span<const float> spacing, double max_bytes = 1e9);
 
 }  // namespace hogel::shading

@@ -31,7 +31,7 @@ class KnownLight final : public SampleLighting {
         for (std::size_t i = 0; i < 5; ++i) light[2 + i] = static_cast<float>(0.5 + 0.1 * double(i) * p.y);
     }
     Rgb radiance(const ShadedScene&, std::size_t, const Weights&, std::span<const float> light, Rgb,
-                 const Sight&) const override {
+                 const ViewSample&) const override {
         return {light[0], light[1], light[6]};
     }
 
@@ -165,7 +165,7 @@ TEST(LightCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadow
             ShadingOptions options;
             options.model = model;
             options.shadow_map = 256;
-            const ShadedScene plain = shade(scene, options);
+            const ShadedScene plain = shade_scene(scene, options);
             ShadedScene kept = plain;
             cache_light(kept, std::vector<float>(plain.triangles.size(), 0.01f));
             std::mt19937 engine(3);
@@ -180,7 +180,7 @@ TEST(LightCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadow
                 const double edge = std::max(std::abs(through.x - 0.2) - 0.3, std::abs(through.y - 0.1) - 0.2);
                 if (std::abs(edge) < 0.025) continue;
                 dark += edge < 0 ? 1 : 0;
-                const Sight sight{normalize(Vec3{0.3, -0.5, 1}), 0.01};
+                const ViewSample sight{normalize(Vec3{0.3, -0.5, 1}), 0.01};
                 const Rgb truth = radiance_at(plain, index, w[0], w[1], w[2], sight);
                 const Rgb seen = radiance_at(kept, index, w[0], w[1], w[2], sight);
                 ASSERT_NEAR(seen.r, truth.r, 1e-3 * truth.r) << p.x << " " << p.y;

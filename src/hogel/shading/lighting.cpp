@@ -1,5 +1,5 @@
-#include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
+#include "hogel/shading/illumination.h"
 
 namespace hogel::shading {
 

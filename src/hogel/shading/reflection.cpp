@@ -67,7 +67,7 @@ struct Table {
         return x * x;
     }
     static double roughness(std::size_t k) {
-        return least_roughness + (1 - least_roughness) * static_cast<double>(k) / (cells - 1);
+        return min_roughness + (1 - min_roughness) * static_cast<double>(k) / (cells - 1);
     }
     Table() {
         for (std::size_t k = 0; k < cells; ++k) {
@@ -104,8 +104,7 @@ struct Row {
 };
 
 Row row_of(double roughness) {
-    const double at =
-        (std::clamp(roughness, least_roughness, 1.0) - least_roughness) / (1 - least_roughness) * (cells - 1);
+    const double at = (std::clamp(roughness, min_roughness, 1.0) - min_roughness) / (1 - min_roughness) * (cells - 1);
     const auto k = std::min(static_cast<std::size_t>(at), cells - 2);
     return {k, at - static_cast<double>(k)};
 }
@@ -129,7 +128,7 @@ LobeAlbedo mean_lobe_albedo(double roughness) {
 namespace {
 
 double clamped_roughness(const Material& material) {
-    return std::clamp(double{material.roughness}, least_roughness, 1.0);
+    return std::clamp(double{material.roughness}, min_roughness, 1.0);
 }
 
 void add_light(LightUnderLobe& sum, bool glossy, double roughness, Rgb irradiance, double cos_light) {

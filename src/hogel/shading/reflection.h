@@ -64,6 +64,6 @@ class Reflection {
 };
 
 /// Surfaces smoother than this are treated as this rough: a lamp is a point, and its image would be one too.
-inline constexpr double least_roughness = 0.15;
+inline constexpr double min_roughness = 0.15;
 
 }  // namespace hogel::shading

@@ -23,7 +23,7 @@ double texels_per_metre(const ShadedScene& scene, const ShadedScene::Triangle& t
 }
 
 Rgb texture_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, float b0, float b1, float b2,
-               const Sight& sight) {
+               const ViewSample& sight) {
     const auto [a, b, c] = triangle.vertices;
     const Texture& texture = scene.textures[triangle.texture];
     const auto &ta = scene.texture_coordinates[a], &tb = scene.texture_coordinates[b],
@@ -35,7 +35,7 @@ Rgb texture_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, 
 
 // What a ray sees of the light that falls on a point, from the cache or worked out here.
 Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
-                 const Sight& sight) {
+                 const ViewSample& sight) {
     const std::size_t size = scene.lighting->size_of_light(scene.triangles[index].mesh).sum();
     thread_local std::vector<float> room;
     if (room.size() < size) room.resize(size);
@@ -47,7 +47,7 @@ Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<f
 
 }  // namespace
 
-Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const Sight& sight) {
+Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const ViewSample& sight) {
     const ShadedScene::Triangle& triangle = scene.triangles[index];
     const bool textured = triangle.texture != ShadedScene::no_texture;
     const Rgb texture = textured ? texture_at(scene, triangle, b0, b1, b2, sight) : Rgb{1, 1, 1};

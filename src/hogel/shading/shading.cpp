@@ -12,8 +12,8 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/shading/lighting.h"
-#include "hogel/trace/ray_caster.h"
 #include "hogel/shading/triangles.h"
+#include "hogel/trace/ray_caster.h"
 
 namespace hogel {
 
@@ -29,7 +29,7 @@ constexpr std::array models{
 };
 
 constexpr std::size_t vertices_per_task = 1024;
-constexpr std::size_t most_texels = 32768;  // along a side of a shadow map
+constexpr std::size_t max_texels = 32768;  // along a side of a shadow map
 
 bool has_shadows(const Scene& scene) {
     return std::ranges::any_of(scene.lights, [](const Light& light) { return light.casts_shadows; });
@@ -98,15 +98,15 @@ void require_given(const Scene& scene) {
 }
 
 void require_room(const Scene& scene, const ShadingOptions& options) {
-    if (options.shadow_map < 1 || options.shadow_map > most_texels)
+    if (options.shadow_map < 1 || options.shadow_map > max_texels)
         throw Error(ErrorCode::usage,
-                    fmt::format("shadow maps of {} texels a side; expected 1 to {}", options.shadow_map, most_texels));
+                    fmt::format("shadow maps of {} texels a side; expected 1 to {}", options.shadow_map, max_texels));
     const double bytes = shadow_map_bytes(scene, options);
-    if (bytes > options.most_shadow_bytes)
+    if (bytes > options.max_shadow_bytes)
         throw Error(
             ErrorCode::usage,
             fmt::format("shadow maps of {} texels a side for {} lights take {:.3g} GB; expected at most {:.3g} GB",
-                        options.shadow_map, scene.lights.size(), bytes / 1e9, options.most_shadow_bytes / 1e9));
+                        options.shadow_map, scene.lights.size(), bytes / 1e9, options.max_shadow_bytes / 1e9));
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ double shadow_map_bytes(const Scene& scene, const ShadingOptions& options) {
     return sum;
 }
 
-ShadedScene shade(const Scene& scene, const ShadingOptions& options, const Progress& progress) {
+ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options, const Progress& progress) {
     ShadedScene shaded = geometry(scene, options.filter_textures);
     if (options.model == ShadingModel::given) require_given(scene);
     if (options.model == ShadingModel::vertex) light_vertices(scene, shaded);
@@ -141,8 +141,8 @@ ShadedScene shade(const Scene& scene, const ShadingOptions& options, const Progr
     return shaded;
 }
 
-ShadedScene shade_vertices(const Scene& scene) {
-    return shade(scene, {.model = ShadingModel::vertex, .filter_textures = false});
+ShadedScene shade_scene_vertices(const Scene& scene) {
+    return shade_scene(scene, {.model = ShadingModel::vertex, .filter_textures = false});
 }
 
 }  // namespace hogel

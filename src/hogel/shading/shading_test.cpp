@@ -28,7 +28,7 @@ TEST(Shading, in_a_furnace_a_surface_shows_its_colour_times_the_furnace) {
     scene.meshes[0].material.base_color = {0.5f, 0.25f, 1};
     scene.meshes[0].colors = {{1, 1, 1}, {0.5f, 1, 1}, {1, 0.5f, 1}, {1, 1, 0.5f}};
     scene.ambient = {2, 4, 8};
-    const ShadedScene shaded = shade_vertices(scene);
+    const ShadedScene shaded = shade_scene_vertices(scene);
     EXPECT_EQ(shaded.radiance[0], (Rgb{1, 1, 8}));
     EXPECT_EQ(shaded.radiance[1], (Rgb{0.5f, 1, 8}));
     EXPECT_EQ(shaded.radiance[3], (Rgb{1, 1, 4}));
@@ -40,7 +40,7 @@ TEST(Shading, emission_needs_no_light) {
     scene.meshes.push_back(square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     scene.meshes[0].material.emission = {0.5f, 1, 2};
     scene.background = {1, 2, 3};
-    const ShadedScene shaded = shade_vertices(scene);
+    const ShadedScene shaded = shade_scene_vertices(scene);
     EXPECT_EQ(radiance_at(shaded, 1, 0.25f, 0.25f, 0.5f), (Rgb{0.5f, 1, 2}));
     EXPECT_EQ(shaded.background, scene.background);
 }
@@ -51,7 +51,8 @@ TEST(Shading, a_directional_light_falls_off_with_the_cosine_and_lights_one_side)
         Scene scene;
         scene.meshes.push_back(square({0, 0, 0}, {std::cos(angle), 0, std::sin(angle)}, {0, 1, 0}));
         scene.lights.push_back(directional({0, 0, -3}, 2));
-        EXPECT_NEAR(shade_vertices(scene).radiance[2].r, 2 * std::max(0.0, std::cos(angle)) / pi, 1e-6) << degrees;
+        EXPECT_NEAR(shade_scene_vertices(scene).radiance[2].r, 2 * std::max(0.0, std::cos(angle)) / pi, 1e-6)
+            << degrees;
     }
 }
 
@@ -62,7 +63,7 @@ TEST(Shading, a_point_light_falls_off_with_the_square_of_the_distance) {
         const Vec3 corner = scene.meshes[0].positions[1];
         scene.lights.push_back(lamp(corner + Vec3{0.6 * distance, 0, 0.8 * distance}, 3));
         const double expected = 3 * 0.8 / (pi * distance * distance);
-        EXPECT_NEAR(shade_vertices(scene).radiance[1].g, expected, 1e-6 * expected);
+        EXPECT_NEAR(shade_scene_vertices(scene).radiance[1].g, expected, 1e-6 * expected);
     }
 }
 
@@ -74,14 +75,14 @@ TEST(Shading, a_blocker_throws_its_shadow_and_nothing_behind_the_lamp_does) {
     scene.meshes.push_back(floor);
     scene.meshes.push_back(square({0, 0, 1}, {0.1, 0, 0}, {0, 0.1, 0}));
     scene.lights.push_back(lamp({0, 0, 2}, static_cast<float>(4 * pi)));
-    EXPECT_EQ(shade_vertices(scene).radiance[4].r, 0);  // the middle of the floor, below the blocker
-    EXPECT_GT(shade_vertices(scene).radiance[0].r, 0.1f);
+    EXPECT_EQ(shade_scene_vertices(scene).radiance[4].r, 0);  // the middle of the floor, below the blocker
+    EXPECT_GT(shade_scene_vertices(scene).radiance[0].r, 0.1f);
     scene.lights[0].casts_shadows = false;
-    EXPECT_NEAR(shade_vertices(scene).radiance[4].r, 1, 1e-6);
+    EXPECT_NEAR(shade_scene_vertices(scene).radiance[4].r, 1, 1e-6);
     scene.lights[0] = lamp({0, 0, 0.5}, static_cast<float>(pi / 4));
-    EXPECT_NEAR(shade_vertices(scene).radiance[4].r, 1, 1e-6);
+    EXPECT_NEAR(shade_scene_vertices(scene).radiance[4].r, 1, 1e-6);
     scene.lights[0] = directional({0, 0, -1}, static_cast<float>(pi));
-    EXPECT_EQ(shade_vertices(scene).radiance[4].r, 0);
+    EXPECT_EQ(shade_scene_vertices(scene).radiance[4].r, 0);
 }
 
 TEST(Shading, a_convex_surface_does_not_shadow_itself) {
@@ -101,7 +102,7 @@ TEST(Shading, a_convex_surface_does_not_shadow_itself) {
     ball.material.base_color = {1, 1, 1};
     scene.meshes.push_back(ball);
     scene.lights.push_back(directional({1, -2, -3}, 1));
-    const ShadedScene shaded = shade_vertices(scene);
+    const ShadedScene shaded = shade_scene_vertices(scene);
     for (std::size_t i = 0; i < ball.normals.size(); ++i)
         EXPECT_NEAR(shaded.radiance[i].r, std::max(0.0, -dot(ball.normals[i], scene.lights[0].direction)) / pi, 1e-6);
 }
@@ -117,9 +118,9 @@ TEST(Shading, is_the_same_for_any_number_of_threads) {
         }
     }
     scene.lights.push_back(lamp({3, 2, 15}, 4));
-    const ShadedScene all = shade_vertices(scene);
+    const ShadedScene all = shade_scene_vertices(scene);
     const ThreadLimit one(1);
-    EXPECT_EQ(all.radiance, shade_vertices(scene).radiance);
+    EXPECT_EQ(all.radiance, shade_scene_vertices(scene).radiance);
 }
 
 TEST(Shading, textures_interpolate_between_texel_centres_repeat_and_have_v_upwards) {
@@ -133,7 +134,7 @@ TEST(Shading, textures_interpolate_between_texel_centres_repeat_and_have_v_upwar
     mesh.material.base_color_texture = image;
     const auto at = [&](float u, float v) {
         mesh.texture_coordinates.assign(4, {u, v});
-        return radiance_at(shade_vertices(scene), 0, 0.2f, 0.3f, 0.5f).g;
+        return radiance_at(shade_scene_vertices(scene), 0, 0.2f, 0.3f, 0.5f).g;
     };
     EXPECT_FLOAT_EQ(at(0.25f, 0.75f), 1);
     EXPECT_FLOAT_EQ(at(0.75f, 0.75f), 2);
@@ -151,7 +152,7 @@ TEST(Shading, meshes_share_a_texture_and_keep_their_number) {
     Scene scene;
     scene.meshes.assign(3, square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     scene.meshes[0].material.base_color_texture = scene.meshes[2].material.base_color_texture = image;
-    const ShadedScene shaded = shade_vertices(scene);
+    const ShadedScene shaded = shade_scene_vertices(scene);
     EXPECT_EQ(shaded.textures.size(), 1u);
     EXPECT_EQ(shaded.triangles[1].texture, 0u);
     EXPECT_EQ(shaded.triangles[2].texture, ShadedScene::no_texture);
@@ -162,12 +163,12 @@ TEST(Shading, meshes_share_a_texture_and_keep_their_number) {
 
 TEST(Shading, refuses_lights_without_normals_and_scenes_without_triangles) {
     Scene scene;
-    EXPECT_THROW(shade_vertices(scene), Error);
+    EXPECT_THROW(shade_scene_vertices(scene), Error);
     scene.meshes.push_back(square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     scene.meshes[0].normals.clear();
-    EXPECT_NO_THROW(shade_vertices(scene));
+    EXPECT_NO_THROW(shade_scene_vertices(scene));
     scene.lights.push_back(directional({0, 0, -1}, 1));
-    EXPECT_THROW(shade_vertices(scene), Error);
+    EXPECT_THROW(shade_scene_vertices(scene), Error);
 }
 
 }  // namespace

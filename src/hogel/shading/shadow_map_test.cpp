@@ -152,7 +152,7 @@ TEST(ShadowMap, a_light_on_a_surface_or_inside_a_body_is_no_trouble) {
     const ShadowMap on = map_of(scene, lamp({0.2, 0.1, 0}, 1), 32);
     EXPECT_TRUE(std::isfinite(on.lit({0.2, 0.1, 0}, {0, 0, 1})));
     EXPECT_TRUE(std::isfinite(on.lit({0.5, 0.1, 0}, {0, 0, 1})));
-    // Between two plates, seen from outside of both.
+    // Interpolation two plates, seen from outside of both.
     add_square(scene, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
     add_square(scene, {0, 0, 3}, {1, 0, 0}, {0, 1, 0});
     const ShadowMap between = map_of(scene, lamp({0, 0, 0.5}, 1), 64);

@@ -20,7 +20,7 @@ using HalfTag = hn::Rebind<float, Tag>;  // as many floats
 using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-constexpr std::size_t most_lanes = HWY_MAX_BYTES / 8;
+constexpr std::size_t max_lanes = HWY_MAX_BYTES / 8;
 
 // As std::clamp.
 HWY_INLINE Doubles clamp(Doubles v, Doubles low, Doubles high) { return hn::Min(hn::Max(v, low), high); }
@@ -35,7 +35,7 @@ void Lit(const ShadowMaps::Table& table, std::span<const std::uint32_t> lamps, V
     const Doubles nx = hn::Set(d, normal.x), ny = hn::Set(d, normal.y), nz = hn::Set(d, normal.z);
     for (std::size_t begin = 0; begin < lamps.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, lamps.size() - begin);
-        HWY_ALIGN std::int64_t numbers[most_lanes];
+        HWY_ALIGN std::int64_t numbers[max_lanes];
         for (std::size_t i = 0; i < lanes; ++i) numbers[i] = lamps[begin + std::min(i, count - 1)];
         const auto lamp = hn::Load(di, numbers);
         const auto of = [&](const ShadowMaps::Table::Doubles& values)
@@ -77,8 +77,8 @@ void Lit(const ShadowMaps::Table& table, std::span<const std::uint32_t> lamps, V
         const Doubles of_rows[2] = {added(along_rows, rows[0]), added(along_rows, rows[1])};
 
         // All texels are fetched before one is looked at.
-        HWY_ALIGN std::int64_t places[4][most_lanes];
-        HWY_ALIGN float texels[4][most_lanes] = {};
+        HWY_ALIGN std::int64_t places[4][max_lanes];
+        HWY_ALIGN float texels[4][max_lanes] = {};
         for (std::size_t k = 0; k < 4; ++k) {
             const Doubles in_row = hn::Add(hn::Mul(hn::Add(hn::Mul(face, side), rows[k / 2]), side), columns[k % 2]);
             hn::Store(hn::ConvertTo(di, hn::IfThenElseZero(there, in_row)), di, places[k]);
@@ -101,7 +101,7 @@ void Lit(const ShadowMaps::Table& table, std::span<const std::uint32_t> lamps, V
                                  HWY_ATTR { return hn::Add(a, hn::Mul(part, hn::Sub(b, a))); };
         const auto share =
             between(between(compare(0, 0), compare(1, 0), right), between(compare(0, 1), compare(1, 1), right), down);
-        HWY_ALIGN float some[most_lanes], lit[most_lanes];
+        HWY_ALIGN float some[max_lanes], lit[max_lanes];
         hn::Store(share, df, some);
         hn::Store(hn::DemoteTo(df, hn::IfThenElse(there, one, zero)), df, lit);
         for (std::size_t i = 0; i < count; ++i) shares[begin + i] = lit[i] != 0 ? some[i] : 1;

@@ -23,7 +23,7 @@ std::vector<float> noise(std::size_t count) {
     return values;
 }
 
-double largest_difference(std::span<const float> a, std::span<const float> b) {
+double max_difference(std::span<const float> a, std::span<const float> b) {
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i) most = std::max<double>(most, std::abs(a[i] - b[i]));
     return most;
@@ -94,7 +94,7 @@ TEST(Transform, of_a_product_is_the_product) {
         std::vector<float> values = product();
         chosen.forward(pyramid, values);
         for (std::size_t axis = 0; axis < 4; ++axis) forward_plain(chosen, pyramid.groups()[axis].levels, lines[axis]);
-        EXPECT_LT(largest_difference(values, product()), 1e-3) << name;
+        EXPECT_LT(max_difference(values, product()), 1e-3) << name;
     }
 }
 
@@ -147,7 +147,7 @@ TEST(Transform, every_length_comes_back) {
                 std::vector<float> values = original;
                 transform(name).forward(pyramid, values);
                 transform(name).inverse(pyramid, values);
-                EXPECT_LT(largest_difference(values, original), 3e-5) << name << " " << n << " of " << shape.size();
+                EXPECT_LT(max_difference(values, original), 3e-5) << name << " " << n << " of " << shape.size();
             }
 }
 
@@ -165,7 +165,7 @@ TEST(Transform, four_dimensions_come_back_interleaved_separate_and_in_part) {
             }
             transform(name).inverse(pyramid, values);
             // Rounding grows with the condition number of the ends, to the fourth power: cdf42 is the worst.
-            EXPECT_LT(largest_difference(values, original), 5e-4) << name;
+            EXPECT_LT(max_difference(values, original), 5e-4) << name;
         }
 }
 

@@ -24,7 +24,7 @@ std::vector<Wavelet> table() {
                          {detail, 0, {-0.35238765767485564, -0.46675694679423857}, 2},
                          {coarse, -2, {-0.09542943900975184, 0.4921518448877388}, 2},
                          {detail, 2, {0.11619309193636229}, 2}}},
-        // Average-interpolating (N,Ñ): N samples are averages over cells of the interpolating polynomial, which predicts
+        // LobeAverage-interpolating (N,Ñ): N samples are averages over cells of the interpolating polynomial, which predicts
         // the averages over their halves; from Haar, that prediction, then an update. Donoho 1993; Sweldens, "The
         // lifting scheme", 1996.
         {"ai13", 1, 3, 1, {{detail, 0, {-1}, 1}, {coarse, 0, {0.5}, 0}, {coarse, -1, {1. / 16, 0, -1. / 16}, 0}}},

@@ -43,7 +43,7 @@ class ClassicCoder : public TileCoder {
         return tile;
     }
 
-    Encoded encode(LightFieldTile& tile, double step, std::size_t most_bytes) const override {
+    Encoded encode(LightFieldTile& tile, double step, std::size_t max_bytes) const override {
         LightFieldTile work = tile;
         if (content_ == Content::amplitude)
             for (float& value : work.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
@@ -54,9 +54,9 @@ class ClassicCoder : public TileCoder {
         std::vector<std::vector<std::uint8_t>> codes(channels);
         for (std::size_t c = 0; c < channels; ++c) transform_.forward(pyramid, work.radiance[c].elements());
         for (std::size_t c = 0; c < channels; ++c) energies[c] = coding::energy(work.radiance[c].elements());
-        core::parallel_for(channels,
-                     [&](std::size_t c) { codes[c] = encode_channel(pyramid, work.radiance[c].elements(), step); });
-        shorten(codes, most_bytes);
+        core::parallel_for(
+            channels, [&](std::size_t c) { codes[c] = encode_channel(pyramid, work.radiance[c].elements(), step); });
+        shorten(codes, max_bytes);
         ByteWriter writer;
         for (const auto& code : codes) {
             writer.put(static_cast<std::uint32_t>(code.size()));
@@ -98,7 +98,8 @@ class ClassicCoder : public TileCoder {
     transform::Pyramid pyramid_of(const LightFieldTile& tile) const {
         const Shape<5>& shape = tile.radiance.shape();
         const std::vector<std::size_t> axes(shape.begin() + 1, shape.end());
-        return content_ == Content::amplitude ? transform::Pyramid::separate(axes, {{0, 1}, {2, 3}}) : transform::Pyramid::interleaved(axes);
+        return content_ == Content::amplitude ? transform::Pyramid::separate(axes, {{0, 1}, {2, 3}})
+                                              : transform::Pyramid::interleaved(axes);
     }
     // Transforms back along the groups of `back`.
     void decode(std::span<const std::uint8_t> bytes, const transform::Pyramid& back, LightFieldTile& tile) const {
@@ -146,13 +147,14 @@ class ClassicCoder : public TileCoder {
 
 // Steps below what a coder can tell apart do not make anything finer.
 double usable_step(std::span<const float> values, double step) {
-    return std::max(step, static_cast<double>(coding::largest_magnitude(values)) * 0x1p-29);
+    return std::max(step, static_cast<double>(coding::max_magnitude(values)) * 0x1p-29);
 }
 
 class ThreePassCoder final : public ClassicCoder {
   public:
     ThreePassCoder(std::string_view name, const DirectionCross& counted, Content content, std::uint32_t version)
-        : ClassicCoder(name, counted, content), code_(version < 3 ? coding::ThreePassCode::alphabets : coding::ThreePassCode::bits) {}
+        : ClassicCoder(name, counted, content),
+          code_(version < 3 ? coding::ThreePassCode::alphabets : coding::ThreePassCode::bits) {}
 
   private:
     std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
@@ -163,7 +165,8 @@ class ThreePassCoder final : public ClassicCoder {
                         std::span<float> values) const override {
         coding::three_pass_decode(pyramid, code, values, code_);
     }
-    void round_channel(const transform::Pyramid&, std::span<const std::uint8_t> code, std::span<float> values) const override {
+    void round_channel(const transform::Pyramid&, std::span<const std::uint8_t> code,
+                       std::span<float> values) const override {
         coding::three_pass_round(code, values);
     }
 
@@ -174,7 +177,7 @@ class EzwCoder final : public ClassicCoder {
   public:
     using ClassicCoder::ClassicCoder;
     // The lengths of the codes.
-    std::optional<std::size_t> least_bytes(const LightFieldGrid& grid) const override {
+    std::optional<std::size_t> min_bytes(const LightFieldGrid& grid) const override {
         return grid.channels * sizeof(std::uint32_t);
     }
 

@@ -18,8 +18,9 @@ namespace {
 void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile) {
     LightFieldTile values(coded.grid(), tile.range, false);
     coded.read(values);
-    std::ranges::transform(values.radiance.elements(), tile.depth.elements().begin(),
-                           [&](float value) { return value < beyond ? value : std::numeric_limits<float>::infinity(); });
+    std::ranges::transform(values.radiance.elements(), tile.depth.elements().begin(), [&](float value) {
+        return value < beyond ? value : std::numeric_limits<float>::infinity();
+    });
 }
 
 // A stream, and the tiles of it that were decoded last.
@@ -160,7 +161,7 @@ class DecodedStream {
     std::vector<std::unique_ptr<TileCoder>> coders_;  // of each part
     bool coefficients_;
     std::size_t layers_;
-    mutable core::RecentResults<Index, Decoder> recent_;
+    mutable core::LruCache<Index, Decoder> recent_;
 };
 
 // One face of a stream.

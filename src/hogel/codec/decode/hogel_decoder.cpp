@@ -224,8 +224,8 @@ std::size_t samples_in_blocks(const LightFieldGrid& grid) {
 }
 
 bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range) {
-    return range.ns <= most_hogel_tile_side && range.nt <= most_hogel_tile_side &&
-           samples_in_blocks(grid) <= most_hogel_tile_samples / range.hogels();
+    return range.ns <= max_hogel_tile_side && range.nt <= max_hogel_tile_side &&
+           samples_in_blocks(grid) <= max_hogel_tile_samples / range.hogels();
 }
 
 }  // namespace hogel::codec::decode

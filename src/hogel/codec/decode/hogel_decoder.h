@@ -38,13 +38,13 @@ class HogelDecoder final : public TileDecoder {
     HogelRange range_;
     format::TileSetup setup_;
     std::vector<std::size_t> place_;                    // in the order, of hogels row by row
-    std::vector<format::BlockModels> models_;                   // of each level, as they begin
+    std::vector<format::BlockModels> models_;           // of each level, as they begin
     std::vector<std::span<const std::uint8_t>> codes_;  // of the hogels of these levels
 
     std::mutex mutex_;  // of all that follows but pictures that are complete
     std::vector<format::CodedHogel> coded_;
     std::vector<std::uint8_t> told_, wanted_;  // bools
-    std::vector<format::BlockState> blocks_;           // of all hogels
+    std::vector<format::BlockState> blocks_;   // of all hogels
     std::vector<format::Picture> pictures_;
     std::vector<std::atomic<bool>> complete_;
 };
@@ -53,8 +53,8 @@ class HogelDecoder final : public TileDecoder {
 std::size_t samples_in_blocks(const LightFieldGrid& grid);
 // True where the coder's tiles may be so large.
 bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range);
-constexpr std::size_t most_hogel_tile_side = 64;
-constexpr std::size_t most_hogel_tile_samples = std::size_t{1} << 28;
+constexpr std::size_t max_hogel_tile_side = 64;
+constexpr std::size_t max_hogel_tile_samples = std::size_t{1} << 28;
 
 // How many references of a side tell their disparities: more make them worse.
 constexpr std::size_t tellers_a_side = 1;

@@ -18,14 +18,14 @@ using namespace format;
 namespace {
 
 struct Example {
-    LightField field;
+    LightFieldBuffer field;
     HogelRange whole;
     TileCoder::Encoded encoded;
     LightFieldTile decoded;
 
     Example(std::size_t s, std::size_t t, std::size_t u, std::size_t v, std::size_t channels, double step = 0.02)
         : Example(textured_planes(s, t, u, v, channels), step) {}
-    Example(LightField shown, double step)
+    Example(LightFieldBuffer shown, double step)
         : field(std::move(shown)),
           whole{0, 0, field.grid().hogels_s, field.grid().hogels_t},
           decoded(field.grid(), whole, false) {
@@ -69,7 +69,7 @@ TEST(HogelDecoder, any_part_is_what_the_whole_has_there) {
 // A picture of lines that come from above on the right, which the first hogel goes on along; the others see it moved by
 // more than a block, so that they show only one end of it.
 TEST(HogelDecoder, parts_have_what_lies_above_on_the_right) {
-    LightField field({5, 1, 1e-3, 64, 40, 0.3, 0.3, 1});
+    LightFieldBuffer field({5, 1, 1e-3, 64, 40, 0.3, 0.3, 1});
     for (std::size_t s = 0; s < 5; ++s)
         for (std::size_t v = 0; v < 40; ++v)
             for (std::size_t u = 0; u < 64; ++u) {
@@ -88,21 +88,21 @@ TEST(HogelDecoder, parts_have_what_lies_above_on_the_right) {
 // A hogel needs those that it is predicted from and theirs: a handful on each level, not the tile.
 TEST(HogelDecoder, a_hogel_needs_few_others) {
     const Example example(32, 32, 16, 16, 1);
-    std::size_t most_told = 0, all_made = 0;
+    std::size_t max_told = 0, all_made = 0;
     for (std::size_t k = 7; k < 1024; k += 61) {
         HogelDecoder decoder = example.open();
         EXPECT_EQ(decoder.hogels_told(), 0u);
         LightFieldTile part(example.field.grid(), {k % 32, k / 32, 1, 1}, false);
         decoder.read(part);
         ASSERT_TRUE(example.has(part));
-        most_told = std::max(most_told, decoder.hogels_told());
+        max_told = std::max(max_told, decoder.hogels_told());
         all_made += decoder.blocks_made();
         const std::size_t made = decoder.blocks_made();
         decoder.read(part);
         EXPECT_EQ(decoder.blocks_made(), made);  // nothing is done twice
     }
-    EXPECT_GE(most_told, 10u);
-    EXPECT_LE(most_told, 160u);
+    EXPECT_GE(max_told, 10u);
+    EXPECT_LE(max_told, 160u);
     EXPECT_LE(all_made, 17 * 4 * 80u);  // of 4 · 1024 each
 }
 
@@ -130,7 +130,7 @@ TEST(HogelDecoder, layers_are_finer_and_finer) {
         LightFieldTile tile(example.field.grid(), example.whole, false);
         HogelDecoder decoder = example.open(layers);
         decoder.read(tile);
-        LightField other(example.field.grid());
+        LightFieldBuffer other(example.field.grid());
         other.write(tile);
         const double sqnr = sqnr_of(example.field, other);
         EXPECT_GT(sqnr, before + 0.2) << layers;

@@ -25,10 +25,10 @@ constexpr float rounding_within = 0.36f, rounding_across = 0.2f;
 // further.
 constexpr float well_estimated = 1;
 // The error, in squared finest steps a block, from which on neighbours do not show the same.
-constexpr float most_shared_error = 6.4f;
+constexpr float max_shared_error = 6.4f;
 // Bits that parts take, and how many more there have to be before they are looked for.
-constexpr float in_parts = 14, least_gain_by_parts = 16;
-constexpr std::int32_t most_level = 1 << 24;
+constexpr float in_parts = 14, min_gain_by_parts = 16;
+constexpr std::int32_t max_level = 1 << 24;
 
 BlockSamples block_of(const Plane& plane, std::size_t x, std::size_t y) {
     BlockSamples block;
@@ -59,7 +59,7 @@ float gain_of_levels(const BlockSamples& residual, float step, float rounding, f
     const float per_step = 1 / step;
     for (std::uint64_t large = large_samples(coefficients, (0.99f - rounding) * step); large != 0; large &= large - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(large));
-        const float size = std::min(std::abs(coefficients[k]) * per_step, static_cast<float>(most_level));
+        const float size = std::min(std::abs(coefficients[k]) * per_step, static_cast<float>(max_level));
         const auto level = static_cast<std::int32_t>(size + rounding);
         if (level == 0) continue;
         const std::size_t frequency = (basis.cosines_v ? k / block_side : 0) + (basis.cosines_u ? k % block_side : 0);
@@ -118,7 +118,7 @@ Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, cons
     std::size_t counted = 0;
     for (const auto& axis : neighbours) counted += (axis.size() + 1) / 2;
     const float well_known = well_estimated * static_cast<float>(counted) * setup.step[0] * setup.step[0];
-    const float not_shared = most_shared_error * static_cast<float>(counted) * setup.step.back() * setup.step.back();
+    const float not_shared = max_shared_error * static_cast<float>(counted) * setup.step.back() * setup.step.back();
     Estimate estimate;
     std::vector<std::int16_t>& result = estimate.disparities;
     result.resize(setup.grid.count());
@@ -275,7 +275,7 @@ CodedHogel analyse(const TileSetup& setup, std::size_t hogel, const Picture& sou
                 if (const auto in_two = parts.best(other.prediction))
                     offer(*in_two, squared_difference(other.prediction, wanted));
             };
-            const float worth_parts = worth * (in_parts + least_gain_by_parts);
+            const float worth_parts = worth * (in_parts + min_gain_by_parts);
             if (channel.cost > worth_parts) {
                 parts.begin(wanted, candidates, worth);
                 offer_parts();

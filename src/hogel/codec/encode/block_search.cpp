@@ -19,9 +19,9 @@ constexpr float good_enough_first = 1.5f, good_enough_last = 2;
 // one that costs less is not worth looking farther,
 constexpr float worth_looking_first = 12, worth_looking_last = 16;
 // and no other one is likely to have a smaller error.
-constexpr float least_error = 1;
+constexpr float min_error = 1;
 constexpr int times_along_slopes = 2;
-constexpr std::size_t most_nearby = 3;
+constexpr std::size_t max_nearby = 3;
 constexpr int farthest_look = 4;  // in units of disparity
 
 }  // namespace
@@ -40,7 +40,7 @@ BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel,
     worth_ = bit_worth * step * step;
     good_enough_ = (last ? good_enough_last : good_enough_first) * step * step;
     worth_looking_ = (last ? worth_looking_last : worth_looking_first) * step * step;
-    least_error_ = least_error * step * step;
+    min_error_ = min_error * step * step;
 }
 
 // Whether a prediction, whose error this is, is the best so far; then it is noted.
@@ -52,7 +52,7 @@ bool BlockSearch::take_if_better(const BlockSamples& prediction, float error, fl
 }
 
 void BlockSearch::try_any_side(int disparity, float bits) {
-    if (std::abs(disparity) > most_disparity || !may_win(bits + best_of_all_sides)) return;
+    if (std::abs(disparity) > max_disparity || !may_win(bits + best_of_all_sides)) return;
     const auto& choice = weights_.choose(disparity, ReferenceWeights::Side::any);
     if (choice.count == 0) return;
     BlockSamples& spare = kept_[best_.prediction == &kept_[0] ? 1 : 0];
@@ -68,7 +68,7 @@ void BlockSearch::try_any_side(int disparity, float bits) {
 }
 
 void BlockSearch::try_single_sides(int disparity, float bits) {
-    if (std::abs(disparity) > most_disparity) return;
+    if (std::abs(disparity) > max_disparity) return;
     for (int side = 1; side < static_cast<int>(ReferenceWeights::sides); ++side) {
         if (good() || !may_win(bits + one_side)) return;
         const auto& choice = weights_.choose(disparity, static_cast<ReferenceWeights::Side>(side));
@@ -82,7 +82,7 @@ void BlockSearch::try_single_sides(int disparity, float bits) {
 
 int BlockSearch::told_as(float disparity) const {
     const float away = disparity - static_cast<float>(likeliest_);
-    const float units = std::clamp<float>(std::abs(away) / static_cast<float>(unit_) + 0.5f, 0, 2 * most_disparity);
+    const float units = std::clamp<float>(std::abs(away) / static_cast<float>(unit_) + 0.5f, 0, 2 * max_disparity);
     return likeliest_ + static_cast<int>(units) * (away < 0 ? -unit_ : unit_);
 }
 
@@ -115,10 +115,10 @@ void BlockSearch::follow_slopes() {
 
 // The disparities of surfaces around the block, as far as they are known: where one ends, another begins.
 void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
-    std::array<int, Candidates{}.disparity.size() + most_nearby> tried;
+    std::array<int, Candidates{}.disparity.size() + max_nearby> tried;
     std::copy_n(candidates.disparity.begin(), candidates.count, tried.begin());
     std::size_t count = candidates.count;
-    const auto enough = [&] { return count == candidates.count + most_nearby || !(best_.cost > worth_looking_); };
+    const auto enough = [&] { return count == candidates.count + max_nearby || !(best_.cost > worth_looking_); };
     const auto try_one = [&](int disparity) {
         for (std::size_t n = 0; n < count; ++n)
             if (std::abs(tried[n] - disparity) <= unit_) return;

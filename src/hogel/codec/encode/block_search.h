@@ -13,13 +13,13 @@ class BlockSearch {
   public:
     // Disparities that are known before blocks are told.
     struct Known {
-        std::span<const std::int16_t> estimated{};   // of the blocks; may be empty
+        std::span<const std::int16_t> estimated{};           // of the blocks; may be empty
         std::span<const format::Block* const> moved{};       // moved to the blocks of this hogel; may be empty
         const std::vector<format::Block>* beside = nullptr;  // of the first teller; may be null
     };
     // @param seen   of the block that is searched for
-    BlockSearch(const format::TileSetup& setup, const format::HogelOrder::Hogel& hogel, const format::Plane& source, SeenBlocks& seen,
-                format::ReferenceWeights& weights, const Known& known);
+    BlockSearch(const format::TileSetup& setup, const format::HogelOrder::Hogel& hogel, const format::Plane& source,
+                SeenBlocks& seen, format::ReferenceWeights& weights, const Known& known);
     BlockSearch(const BlockSearch&) = delete;
     BlockSearch& operator=(const BlockSearch&) = delete;
 
@@ -40,7 +40,7 @@ class BlockSearch {
     float worth_looking() const { return worth_looking_; }
 
   private:
-    bool may_win(float bits) const { return least_error_ + worth_ * bits < best_.cost; }
+    bool may_win(float bits) const { return min_error_ + worth_ * bits < best_.cost; }
     bool take_if_better(const format::BlockSamples& prediction, float error, float bits, int side, int disparity);
     void try_any_side(int disparity, float bits);
     void try_single_sides(int disparity, float bits);
@@ -55,7 +55,7 @@ class BlockSearch {
     SeenBlocks& seen_;
     format::ReferenceWeights& weights_;
     Known known_;
-    float worth_, good_enough_, worth_looking_, least_error_;
+    float worth_, good_enough_, worth_looking_, min_error_;
     int unit_;
 
     // Of the block that is searched for:

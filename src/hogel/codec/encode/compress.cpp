@@ -31,7 +31,7 @@ namespace {
 // with all. The rest is filled up.
 constexpr double first_tolerance = 0.02, last_tolerance = 0.004;
 // More than a sample has to tell: floats have 24 bits, and what they are multiplied by.
-constexpr double most_bits_of_sample = 24;
+constexpr double max_bits_of_sample = 24;
 constexpr std::size_t sampled = 8;  // tiles coded to guess the step
 
 // Sizes that are `room` bytes together, and each the same part of what it was beyond the least.
@@ -88,16 +88,16 @@ class Compression {
 
     // Tiles of all parts, those of the first before those of the second.
     std::size_t tiles() const { return parts_.size() * tiling_.count(); }
-    bool embedded() const { return parts_.front().coder->least_bytes(parts_.front().source->grid()).has_value(); }
+    bool embedded() const { return parts_.front().coder->min_bytes(parts_.front().source->grid()).has_value(); }
     double samples() const {
         double sum = 0;
         for (const Part& part : parts_) sum += part.source->grid().samples();
         return sum;
     }
 
-    // Codes these tiles, and writes them where that is wanted.
+    // RawPixels these tiles, and writes them where that is wanted.
     CodingOutcome code(std::span<const std::size_t> tiles, double step, bool write,
-                       std::span<const std::size_t> most_bytes = {}) {
+                       std::span<const std::size_t> max_bytes = {}) {
         if (write) {
             writer_.restart();
             sizes_.clear();
@@ -106,7 +106,7 @@ class Compression {
         core::parallel_ordered<Coded>(
             tiles.size(), in_flight(),
             [&](std::size_t i) {
-                return code_tile(tiles[i], step, most_bytes.empty() ? TileCoder::no_limit : most_bytes[i]);
+                return code_tile(tiles[i], step, max_bytes.empty() ? TileCoder::no_limit : max_bytes[i]);
             },
             [&](std::size_t i, Coded& coded) {
                 sum.add(coded.outcome);
@@ -146,7 +146,7 @@ class Compression {
     // The bytes that the tiles last written may have each, so that the whole file has so many.
     std::vector<std::size_t> cut(double file) const {
         const double room = file - static_cast<double>(writer_.overhead(sizes_.size()));
-        return cut_sizes(sizes_, *parts_.front().coder->least_bytes(parts_.front().source->grid()), room);
+        return cut_sizes(sizes_, *parts_.front().coder->min_bytes(parts_.front().source->grid()), room);
     }
 
   private:
@@ -156,7 +156,7 @@ class Compression {
         CodingOutcome outcome;
     };
 
-    std::size_t in_flight() const { return std::min(core::default_in_flight(), parts_.front().coder->most_at_once()); }
+    std::size_t in_flight() const { return std::min(core::default_in_flight(), parts_.front().coder->max_at_once()); }
 
     std::pair<LightFieldTile, CodingOutcome> read(std::size_t index) const {
         return read(parts_[index / tiling_.count()], tiling_[index % tiling_.count()]);
@@ -189,9 +189,9 @@ class Compression {
         return {std::move(tile), outcome};
     }
 
-    Coded code_tile(std::size_t index, double step, std::size_t most_bytes) const {
+    Coded code_tile(std::size_t index, double step, std::size_t max_bytes) const {
         auto [tile, outcome] = read(index);
-        TileCoder::Encoded encoded = parts_[index / tiling_.count()].coder->encode(tile, step, most_bytes);
+        TileCoder::Encoded encoded = parts_[index / tiling_.count()].coder->encode(tile, step, max_bytes);
         spare_.give_back(std::move(tile));
         outcome.error = encoded.squared_error;
         outcome.bytes = static_cast<double>(encoded.bytes.size());
@@ -239,14 +239,14 @@ void check(const CompressionTarget& target) {
 }
 
 // Of a file of the rate that was asked for. Throws Error(usage) where that is more than there is to tell.
-double most_bytes(double pixels_per_bit, double pixels, double samples) {
+double max_bytes(double pixels_per_bit, double pixels, double samples) {
     const double bytes = std::floor(pixels / pixels_per_bit / 8);
-    if (8 * bytes > most_bits_of_sample * samples)
+    if (8 * bytes > max_bits_of_sample * samples)
         throw Error(
             ErrorCode::usage,
             fmt::format("{} pixels per bit were asked for, more than {} bits a sample; expected at least {:.3g} "
                         "pixels per bit, or --lossless",
-                        pixels_per_bit, most_bits_of_sample, pixels / (most_bits_of_sample * samples)));
+                        pixels_per_bit, max_bits_of_sample, pixels / (max_bits_of_sample * samples)));
     return bytes;
 }
 
@@ -260,8 +260,8 @@ double most_bytes(double pixels_per_bit, double pixels, double samples) {
 // Where levels or floats are too short for so fine a step, errors are many times as large as it. Throws Error(usage).
 void check_quality(const CompressionTarget& target, const CodingOutcome& outcome, double step,
                    const std::string& coder) {
-    constexpr double most_steps = 16;
-    const bool too_fine = outcome.error > most_steps * most_steps * step * step * outcome.samples;
+    constexpr double max_steps = 16;
+    const bool too_fine = outcome.error > max_steps * max_steps * step * step * outcome.samples;
     if (!too_fine && !(target.sqnr && outcome.sqnr() < *target.sqnr)) return;
     throw Error(ErrorCode::usage,
                 fmt::format("{} asked for, finer than coder {} can be here: it would have {:.2f} dB; expected less, or "
@@ -300,18 +300,18 @@ std::unique_ptr<TileCoder> coder_for(const StreamInfo& info, const LightFieldGri
     });
 }
 
-RadianceMapping mapping_for(std::span<const LightFieldSource* const> faces, const CompressionOptions& options,
-                            const Progress& progress) {
+Companding mapping_for(std::span<const LightFieldSource* const> faces, const CompressionOptions& options,
+                       const Progress& progress) {
     const CompressionTarget& target = options.target;
-    RadianceMapping mapping;
+    Companding mapping;
     if (!options.tone_decades && options.chrominance == 1) return mapping;
     if (target.lossless || target.max_error)
         throw Error(ErrorCode::usage,
                     "a tone curve or coarser chrominance neither keep to an error nor are lossless; expected an SQNR, "
                     "a rate or a step");
-    if (!(options.chrominance >= 1 && options.chrominance <= RadianceMapping::most_chrominance))
+    if (!(options.chrominance >= 1 && options.chrominance <= Companding::max_chrominance))
         throw Error(ErrorCode::usage, fmt::format("chrominance {} times as coarse was asked for, expected 1 to {}",
-                                                  options.chrominance, RadianceMapping::most_chrominance));
+                                                  options.chrominance, Companding::max_chrominance));
     if (options.chrominance != 1 && faces.front()->grid().channels != 3)
         throw Error(ErrorCode::usage, "coarser chrominance was asked for of a light field of one channel, expected 3");
     mapping.chrominance = static_cast<float>(options.chrominance);
@@ -328,7 +328,7 @@ struct MappedFaces {
     std::vector<std::unique_ptr<LightFieldSource>> mapped;
     std::vector<const LightFieldSource*> faces;
 
-    MappedFaces(std::span<const LightFieldSource* const> sources, const RadianceMapping& mapping)
+    MappedFaces(std::span<const LightFieldSource* const> sources, const Companding& mapping)
         : faces(sources.begin(), sources.end()) {
         if (!mapping.changes()) return;
         for (const LightFieldSource*& face : faces) face = mapped.emplace_back(map_radiances(*face, mapping)).get();
@@ -352,7 +352,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
         throw Error(ErrorCode::usage, fmt::format("coder {} cannot keep to an error, nor be lossless; expected hogel",
                                                   options.method.coder));
     require_tangents(grid, ErrorCode::usage, "a compressed light field");
-    const RadianceMapping mapping = mapping_for(sources, options, progress);
+    const Companding mapping = mapping_for(sources, options, progress);
     const MappedFaces mapped(sources, mapping);
     const std::span<const LightFieldSource* const> faces = mapped.faces;
     StreamInfo info{grid, {}, options.method, options.metadata};
@@ -403,15 +403,15 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
         const auto code_some = [&](double step) { return compression.code(some, step, false); };
         const auto code_all = [&](double step) { return compression.code(all, step, true); };
         const double most =
-            target.pixels_per_bit ? most_bytes(*target.pixels_per_bit, pixels, compression.samples()) : 0;
+            target.pixels_per_bit ? max_bytes(*target.pixels_per_bit, pixels, compression.samples()) : 0;
         const bool embedded = compression.embedded();
-        const double room = std::max(most - (embedded ? 0 : static_cast<double>(least_filler)), 1.0);
+        const double room = std::max(most - (embedded ? 0 : static_cast<double>(min_filler)), 1.0);
         const auto band = [&](double tolerance) {
             return target.sqnr ? band_of_sqnr(*target.sqnr) : band_of_bytes(room, tolerance, embedded);
         };
         if (some.size() < all.size()) search.run(band(first_tolerance), code_some);
         const double tolerance =
-            embedded ? first_tolerance : std::min(last_tolerance, static_cast<double>(most_filler) / most);
+            embedded ? first_tolerance : std::min(last_tolerance, static_cast<double>(max_filler) / most);
         const StepFound found = search.run(band(tolerance), code_all);
         outcome = search.outcome();
         result.step = search.step();
@@ -424,7 +424,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
             }
             if (found == StepFound::only_below || static_cast<double>(writer.size()) > room)
                 refuse_rate(*target.pixels_per_bit, most, writer.size());
-            filler = std::min(static_cast<std::uint64_t>(most) - writer.size(), std::uint64_t{most_filler});
+            filler = std::min(static_cast<std::uint64_t>(most) - writer.size(), std::uint64_t{max_filler});
         }
     }
     result.bytes = writer.size() + filler;

@@ -33,14 +33,14 @@ CompressionOptions with_sqnr(const CodingMethod& method, double sqnr) {
 // Undoing the transform of the directions is all that is left to do.
 TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
     const TestFolder folder;
-    const LightField field = textured_planes(9, 7, 24, 20, 3);
+    const LightFieldBuffer field = textured_planes(9, 7, 24, 20, 3);
     compress(field, folder / "a.hgl", with_sqnr({"fringes", "ai33"}, 30));
     const auto source = open_coefficients(folder / "a.hgl");
-    LightField coefficients(source->grid());
+    LightFieldBuffer coefficients(source->grid());
     copy(*source, coefficients);
     const transform::Pyramid pyramid = transform::Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
     transform::transform("ai33").inverse(pyramid, coefficients.radiance.elements());
-    const LightField expected = decoded(folder / "a.hgl");
+    const LightFieldBuffer expected = decoded(folder / "a.hgl");
     for (std::size_t i = 0; i < expected.radiance.size(); ++i)
         ASSERT_NEAR(std::pow(coefficients.radiance.data()[i], 2), expected.radiance.data()[i], 1e-5) << i;
     compress(field, folder / "b.hgl", with_sqnr({"threepass", "ai33"}, 30));
@@ -51,7 +51,7 @@ TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
 // signal, not in the coefficients.
 TEST(Compress, gives_the_sqnr_that_was_asked_for) {
     const TestFolder folder;
-    const LightField field = textured_planes(8, 6, 24, 20, 1);
+    const LightFieldBuffer field = textured_planes(8, 6, 24, 20, 1);
     for (const CodingMethod& method : all_methods()) {
         const CompressionResult result = compress(field, folder / "a.hgl", with_sqnr(method, 25));
         const double measured = sqnr_of(field, decoded(folder / "a.hgl"));
@@ -72,8 +72,8 @@ TEST(Compress, gives_the_rate_that_was_asked_for) {
     for (const Case& c : {Case{{8, 6, 1e-3, 24, 20, 0.3, 0.3, 3}, 2.5},
                           {{9, 7, 1e-3, 16, 16, 0.3, 0.3, 1}, 1.5},
                           {{31, 1, 1e-3, 33, 1, 0.3, 0.3, 1}, 0.2}}) {
-        LightField field = textured_planes(c.grid.hogels_s, c.grid.hogels_t, c.grid.directions_u, c.grid.directions_v,
-                                           c.grid.channels);
+        LightFieldBuffer field = textured_planes(c.grid.hogels_s, c.grid.hogels_t, c.grid.directions_u,
+                                                 c.grid.directions_v, c.grid.channels);
         // Of a dark tile nothing can be cut off.
         LightFieldTile dark(c.grid, {0, 0, 5, std::min<std::size_t>(c.grid.hogels_t, 4)}, false);
         field.write(dark);
@@ -109,7 +109,7 @@ TEST(Compress, rate_is_not_met_by_filler_alone) {
 
 TEST(Compress, rates_that_cannot_be_had_are_refused) {
     const TestFolder folder;
-    const LightField field = textured_planes(8, 6, 24, 20, 1), dark(field.grid());
+    const LightFieldBuffer field = textured_planes(8, 6, 24, 20, 1), dark(field.grid());
     for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"threepass", "haar"}, {"ezw", "haar"}})
         for (const double rate : {0.03, 1000.0, 1e9}) {
             CompressionOptions options;
@@ -125,7 +125,7 @@ TEST(Compress, rates_that_cannot_be_had_are_refused) {
 // Floats and levels have an end: finer than that is refused rather than written badly.
 TEST(Compress, quality_that_cannot_be_had_is_refused) {
     const TestFolder folder;
-    const LightField field = textured_planes(4, 3, 12, 10, 1);
+    const LightFieldBuffer field = textured_planes(4, 3, 12, 10, 1);
     for (const char* coder : {"hogel", "threepass"}) {
         CompressionOptions fine = with_sqnr({coder, std::string(default_transform(coder))}, 100);
         EXPECT_GE(compress(field, folder / "a.hgl", fine).sqnr, 100);
@@ -145,11 +145,11 @@ TEST(Compress, sizes_of_all_kinds_come_back) {
     for (const Case& c : {Case{1, 1, 1, 1, 1}, {1, 1, 7, 5, 3}, {13, 1, 11, 1, 1}, {3, 5, 2, 17, 3}, {1, 9, 31, 3, 1}})
         for (const CodingMethod& method :
              {CodingMethod{"hogel", ""}, {"threepass", "cdf97"}, {"ezw", "haar"}, {"jpeg4d", "dct8"}}) {
-            const LightField field = textured_planes(c.s, c.t, c.u, c.v, c.channels);
+            const LightFieldBuffer field = textured_planes(c.s, c.t, c.u, c.v, c.channels);
             CompressionOptions options = with_sqnr(method, 40);
             options.tile = HogelRange{0, 0, 4, 3};
             compress(field, folder / "a.hgl", options);
-            const LightField other = decoded(folder / "a.hgl");
+            const LightFieldBuffer other = decoded(folder / "a.hgl");
             EXPECT_EQ(other.grid(), field.grid());
             EXPECT_GE(sqnr_of(field, other), 40) << method.coder << " " << c.s << "x" << c.t << "x" << c.u;
         }
@@ -157,19 +157,19 @@ TEST(Compress, sizes_of_all_kinds_come_back) {
 
 TEST(Compress, nothing_to_see_takes_nearly_no_bytes) {
     const TestFolder folder;
-    const LightField dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
+    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
     for (const CodingMethod& method : all_methods()) {
         const CompressionResult result = compress(dark, folder / "a.hgl", with_sqnr(method, 40));
         EXPECT_LT(result.bytes, 300u);
         EXPECT_EQ(result.sqnr, std::numeric_limits<double>::infinity());
-        const LightField other = decoded(folder / "a.hgl");
+        const LightFieldBuffer other = decoded(folder / "a.hgl");
         for (const float value : other.radiance.elements()) ASSERT_EQ(value, 0);
     }
 }
 
 TEST(Compress, bytes_do_not_depend_on_threads) {
     const TestFolder folder;
-    const LightField field = textured_planes(9, 7, 16, 16, 3);
+    const LightFieldBuffer field = textured_planes(9, 7, 16, 16, 3);
     for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"threepass", "cdf97"}}) {
         CompressionOptions options = with_sqnr(method, 30);
         options.tile = HogelRange{0, 0, 4, 4};
@@ -186,7 +186,7 @@ TEST(Compress, bytes_do_not_depend_on_threads) {
 
 TEST(Compress, asks_that_make_no_sense_are_refused) {
     const TestFolder folder;
-    LightField field = textured_planes(2, 2, 4, 4, 1);
+    LightFieldBuffer field = textured_planes(2, 2, 4, 4, 1);
     const auto refused = [&](const CompressionOptions& options) {
         return code_of([&] { compress(field, folder / "a.hgl", options); });
     };

@@ -10,7 +10,7 @@ using namespace format;
 namespace {
 
 constexpr std::size_t per_octave = std::size_t{1} << (23 - ToneCurve::low_bits);
-constexpr std::size_t most_octaves = 20;
+constexpr std::size_t max_octaves = 20;
 constexpr double evenly = 0.1;  // the part of all samples that is spread evenly
 
 // The slopes, in logarithms, that rise by `height` altogether, in proportion to the densities but nowhere above 1.
@@ -43,7 +43,7 @@ std::optional<ToneCurve> adjusted_curve(const LuminanceHistogram& histogram, dou
     if (highest == counts.rend()) return std::nullopt;
     const auto end = static_cast<std::size_t>(counts.rend() - highest);
     const auto lowest = static_cast<std::size_t>(std::ranges::find_if(counts, some) - counts.begin());
-    const std::size_t begin = std::max(lowest, end - std::min(end, most_octaves * per_octave));
+    const std::size_t begin = std::max(lowest, end - std::min(end, max_octaves * per_octave));
     std::vector<double> widths, densities;
     double width = 0, total = 0;
     for (std::size_t bin = begin; bin < end; ++bin) {

@@ -29,7 +29,7 @@ std::size_t cheapest_line(const BestOfLines& main, const BestOfLines& beyond) {
 // All ways to predict a block with a disparity, as parts on either side of all lines.
 void PartSearch::see(int disparity, float bits) {
     for (std::uint8_t side = 0; side < ReferenceWeights::sides; ++side) {
-        const Way way{static_cast<std::int16_t>(disparity), side};
+        const PropagationOptions way{static_cast<std::int16_t>(disparity), side};
         if (choice(way).count == 0) continue;
         BlockSamples room;
         const float cost = bit_ * (bits + (side == 0 ? best_of_all_sides : one_side));
@@ -50,14 +50,15 @@ void PartSearch::begin(const BlockSamples& wanted, const Candidates& candidates,
 }
 
 void PartSearch::add(int disparity) {
-    if (std::ranges::none_of(ways_, [&](Way way) { return way.disparity == disparity; })) see(disparity, new_disparity);
+    if (std::ranges::none_of(ways_, [&](PropagationOptions way) { return way.disparity == disparity; }))
+        see(disparity, new_disparity);
 }
 
 std::optional<Block> PartSearch::best(BlockSamples& prediction) {
     if (ways_.empty()) return std::nullopt;
     const std::size_t line = cheapest_line(main_, beyond_);
-    const Way main = ways_[static_cast<std::size_t>(main_.way[line])];
-    const Way beyond = ways_[static_cast<std::size_t>(beyond_.way[line])];
+    const PropagationOptions main = ways_[static_cast<std::size_t>(main_.way[line])];
+    const PropagationOptions beyond = ways_[static_cast<std::size_t>(beyond_.way[line])];
     BlockSamples room;
     prediction = predict(main, room);
     put_beyond(line, predict(beyond, room), prediction);

@@ -21,13 +21,15 @@ class PartSearch {
     std::optional<format::Block> best(format::BlockSamples& prediction);
 
   private:
-    struct Way {
+    struct PropagationOptions {
         std::int16_t disparity;
         std::uint8_t side;
     };
     void see(int disparity, float bits);
-    const format::BlockSamples& predict(Way way, format::BlockSamples& room) { return seen_.predict(way.disparity, choice(way), room); }
-    const format::ReferenceWeights::Choice& choice(Way way) {
+    const format::BlockSamples& predict(PropagationOptions way, format::BlockSamples& room) {
+        return seen_.predict(way.disparity, choice(way), room);
+    }
+    const format::ReferenceWeights::Choice& choice(PropagationOptions way) {
         return weights_.choose(way.disparity, static_cast<format::ReferenceWeights::Side>(way.side));
     }
 
@@ -36,7 +38,7 @@ class PartSearch {
     // Of the block looked at:
     const format::BlockSamples* wanted_ = nullptr;
     float bit_ = 0;
-    std::vector<Way> ways_;
+    std::vector<PropagationOptions> ways_;
     format::BestOfLines main_, beyond_;
 };
 

@@ -10,8 +10,8 @@ namespace hogel::codec::encode {
 namespace {
 
 constexpr double sqnr_tolerance = 0.1;
-constexpr int most_passes = 12;
-constexpr double least_difference = 1e-5;
+constexpr int max_passes = 12;
+constexpr double min_difference = 1e-5;
 constexpr double likely_bounded_step = 3;        // times the error
 constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
 constexpr double likely_step_of_rate = 0.1;      // times the same
@@ -57,7 +57,7 @@ double StepSearch::code_at(double place, const Code& code) {
 StepFound StepSearch::run(const StepBand& band, const Code& code) {
     Search search(band.low, band.high, place_, slope_.value_or(band.slope));
     std::optional<std::pair<double, double>> best;  // place and figure
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < max_passes; ++pass) {
         const double place = search.next(), figure = code_at(place, code);
         const bool found = search.tell(figure);
         slope_ = search.slope();
@@ -65,7 +65,7 @@ StepFound StepSearch::run(const StepBand& band, const Code& code) {
         if (band.above_is_better ? figure > band.high && !(best && best->second < figure)
                                  : figure < band.low && !(best && best->second > figure))
             best = {place, figure};
-        if (search.above() && search.below() && *search.below() - *search.above() < least_difference) break;
+        if (search.above() && search.below() && *search.below() - *search.above() < min_difference) break;
     }
     if (best && best->first != place_) code_at(best->first, code);
     if (!search.below()) return StepFound::only_above;

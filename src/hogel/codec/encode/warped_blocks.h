@@ -29,11 +29,12 @@ class SeenBlocks {
         return kept.samples;
     }
     // What is predicted from a choice with any references: `room`, or what was seen.
-    const format::BlockSamples& predict(int disparity, const format::ReferenceWeights::Choice& choice, format::BlockSamples& room) {
+    const format::BlockSamples& predict(int disparity, const format::ReferenceWeights::Choice& choice,
+                                        format::BlockSamples& room) {
         const format::BlockSamples& first = by(disparity, choice.reference[0], choice.shift[0]);
         if (choice.count < 2) return first;
-        format::mix_blocks(first, by(disparity, choice.reference[1], choice.shift[1]), choice.weight[0], choice.weight[1],
-                   room);
+        format::mix_blocks(first, by(disparity, choice.reference[1], choice.shift[1]), choice.weight[0],
+                           choice.weight[1], room);
         return room;
     }
 

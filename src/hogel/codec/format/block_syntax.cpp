@@ -60,9 +60,9 @@ void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, 
         const bool negative = coder.bit(models.sign, difference < 0);
         const std::uint32_t size =
             1 + std::min(code_number(coder, models.difference, static_cast<std::uint32_t>(std::abs(difference) - 1)),
-                         std::uint32_t{4 * most_disparity});
+                         std::uint32_t{4 * max_disparity});
         const int value = likeliest + (negative ? -unit : unit) * static_cast<int>(size);
-        disparity = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
+        disparity = static_cast<std::int16_t>(std::clamp(value, -max_disparity, max_disparity));
     }
 }
 

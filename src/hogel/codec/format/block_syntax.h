@@ -75,7 +75,7 @@ struct Candidates {
         return found;
     }
     void add(int value) {
-        const auto clamped = static_cast<std::int16_t>(std::clamp(value, -most_disparity, most_disparity));
+        const auto clamped = static_cast<std::int16_t>(std::clamp(value, -max_disparity, max_disparity));
         if (!contain(clamped)) disparity[count++] = clamped;
     }
     // How far they are from each other: 0 for not at all, 1 for nearly so, 2 for one surface, 3.
@@ -89,12 +89,12 @@ Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::v
 int disparity_unit(const HogelOrder::Hogel& hogel);
 
 // A number >= 0 as how many bits it has more than one, in unary (a model a place), and these bits.
-constexpr std::size_t most_number_bits = 30;
+constexpr std::size_t max_number_bits = 30;
 template <class Coder, class Model>
-std::uint32_t code_number(Coder& coder, std::array<Model, most_number_bits + 1>& models, std::uint32_t value) {
+std::uint32_t code_number(Coder& coder, std::array<Model, max_number_bits + 1>& models, std::uint32_t value) {
     const std::uint32_t one_more = value + 1;
     std::size_t bits = 0;
-    while (bits < most_number_bits && coder.bit(models[bits], one_more >> (bits + 1) != 0)) ++bits;
+    while (bits < max_number_bits && coder.bit(models[bits], one_more >> (bits + 1) != 0)) ++bits;
     std::uint32_t result = 1;
     for (std::size_t k = bits; k-- > 0;) result = result << 1 | std::uint32_t{coder.even(one_more >> k & 1)};
     return result - 1;
@@ -110,7 +110,7 @@ struct ModelsOf {
         std::array<Model, block_samples> last;
         std::array<std::array<Model, 3>, level_classes> significant, beyond_one;  // by frequency
         std::array<Model, level_classes> beyond_two;
-        std::array<std::array<Model, most_number_bits + 1>, level_classes> rest;
+        std::array<std::array<Model, max_number_bits + 1>, level_classes> rest;
         std::array<std::array<Model, 3>, 3> sign;  // of samples, by those on the right and below
     };
     // Up to version 5.
@@ -118,7 +118,7 @@ struct ModelsOf {
         std::array<Model, block_samples> last;
         std::array<std::array<Model, 6>, 8> significant;
         std::array<Model, 8> beyond_one, beyond_two;
-        std::array<Model, most_number_bits + 1> rest;
+        std::array<Model, max_number_bits + 1> rest;
     };
     // What is told by the block that is moved here comes three times: for none, and for two sorts of such blocks.
     template <class Models>
@@ -129,7 +129,7 @@ struct ModelsOf {
         ByMoved<std::array<std::array<std::array<Model, 2>, 3>, 4>> disparity;  // by spread
         std::array<std::array<Model, 4>, 4> candidate;                          // by spread
         Model sign;
-        std::array<Model, most_number_bits + 1> difference;
+        std::array<Model, max_number_bits + 1> difference;
     };
     struct ForParts {
         ByMoved<std::array<Model, 3>> parted;
@@ -272,7 +272,7 @@ class BlockReader {
     coding::ArithmeticDecoder decoder_;
 };
 
-// Codes all blocks of a hogel; a reader fills `coded`.
+// RawPixels all blocks of a hogel; a reader fills `coded`.
 template <class Coder>
 void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
                 const std::vector<const Block*>& moved, const std::vector<Block>* beside, CodedHogel& coded);

@@ -7,20 +7,20 @@
 namespace hogel::codec::format {
 namespace {
 
-constexpr int most_state = 40;
+constexpr int max_state = 40;
 constexpr double bits_of_change = 7;  // what it takes to tell another state, about
 
 // Where a state is in a table.
 std::size_t place_of(int state) {
-    const int place = state + most_state;
+    const int place = state + max_state;
     return static_cast<std::size_t>(place);
 }
 
 struct Probabilities {
-    std::array<std::uint16_t, 2 * most_state + 1> zero;          // of 2¹⁶
-    std::array<std::array<double, 2>, 2 * most_state + 1> bits;  // that a zero and a one take
+    std::array<std::uint16_t, 2 * max_state + 1> zero;          // of 2¹⁶
+    std::array<std::array<double, 2>, 2 * max_state + 1> bits;  // that a zero and a one take
     Probabilities() {
-        for (int state = -most_state; state <= most_state; ++state) {
+        for (int state = -max_state; state <= max_state; ++state) {
             const double p = 1 / (1 + std::exp2(-state / 4.0));
             const std::size_t at = place_of(state);
             zero[at] = static_cast<std::uint16_t>(std::lround(65536 * p));
@@ -52,7 +52,7 @@ ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& be
         }
         // The nearest state to the ratio that was counted is as good as the best one.
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
-        const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -most_state, most_state);
+        const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -max_state, max_state);
         const bool worth_it = bits_for(count, found) + bits_of_change < bits_for(count, old);
         states_.push_back(worth_it ? found : old);
     }
@@ -75,7 +75,7 @@ template <class Coder>
 void ModelStates::code(Coder& coder, const ModelStates& before) {
     std::array<coding::BitModel, 2> changed;  // by whether the one before has
     coding::BitModel sign;
-    std::array<coding::BitModel, most_number_bits + 1> size;
+    std::array<coding::BitModel, max_number_bits + 1> size;
     bool last = false;
     for (std::size_t k = 0; k < states_.size(); ++k) {
         const int difference = states_[k] - before.states_[k];
@@ -84,10 +84,10 @@ void ModelStates::code(Coder& coder, const ModelStates& before) {
         if (last) {
             const bool negative = coder.bit(sign, difference < 0);
             const int found = static_cast<int>(std::min<std::uint32_t>(
-                code_number(coder, size, static_cast<std::uint32_t>(std::abs(difference) - 1)), 2 * most_state));
+                code_number(coder, size, static_cast<std::uint32_t>(std::abs(difference) - 1)), 2 * max_state));
             state += negative ? -found - 1 : found + 1;
         }
-        states_[k] = std::clamp(state, -most_state, most_state);
+        states_[k] = std::clamp(state, -max_state, max_state);
     }
 }
 

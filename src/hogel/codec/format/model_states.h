@@ -39,7 +39,7 @@ class CodeLengths {
     }
 
   private:
-    std::array<coding::BitModel, most_number_bits + 1> models_;
+    std::array<coding::BitModel, max_number_bits + 1> models_;
 };
 
 extern template void ModelStates::code(BlockWriter&, const ModelStates&);

@@ -19,11 +19,11 @@ class PictureMemory final : public std::pmr::memory_resource {
     // @param planes        how many there may be at once
     PictureMemory(std::size_t plane_bytes, std::size_t planes)
         : plane_bytes_(plane_bytes),
-          planes_a_block_(
-              std::clamp<std::size_t>(most_block_bytes / plane_bytes, 1, std::max<std::size_t>(planes, 1))) {}
+          planes_a_block_(std::clamp<std::size_t>(max_block_bytes / plane_bytes, 1, std::max<std::size_t>(planes, 1))) {
+    }
 
   private:
-    static constexpr std::size_t most_block_bytes = std::size_t{8} << 20;
+    static constexpr std::size_t max_block_bytes = std::size_t{8} << 20;
 
     void* do_allocate(std::size_t bytes, std::size_t) override {
         if (bytes != plane_bytes_) return allocate_lines(bytes);

@@ -117,7 +117,7 @@ BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column
 
 ReferenceWeights::ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect)
     : hogel_(hogel), aspect_(aspect), kept_(new Kept[kept_choices]) {
-    for (std::size_t n = 0; n < kept_choices; ++n) kept_[n].disparity = -most_disparity - 1;
+    for (std::size_t n = 0; n < kept_choices; ++n) kept_[n].disparity = -max_disparity - 1;
     for (const HogelOrder::Reference& reference : hogel.references) {
         const auto distance = static_cast<float>(reference.ds * reference.ds + reference.dt * reference.dt);
         fixed_.push_back({noise_weight * noise[reference.hogel] + distance_weight * distance, side_of(reference)});
@@ -125,7 +125,7 @@ ReferenceWeights::ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<con
 }
 
 const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
-    Kept& kept = kept_[static_cast<std::size_t>(disparity + most_disparity) % kept_choices];
+    Kept& kept = kept_[static_cast<std::size_t>(disparity + max_disparity) % kept_choices];
     if (kept.disparity == disparity) return kept.choices;
     kept.disparity = disparity;
     for (Choice& choice : kept.choices) choice.count = 0;

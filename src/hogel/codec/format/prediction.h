@@ -78,7 +78,7 @@ struct Shift {
 
 // Disparity: how many directions (in u, in 64ths) what a block shows moves from one hogel to the next: ΔU-steps of
 // d/ζ. It moves `aspect` times as many directions in v.
-constexpr int most_disparity = 1 << 14;
+constexpr int max_disparity = 1 << 14;
 inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
     if (reference.dt == 0) return {-disparity * reference.ds, 0};
     if (aspect == 1) return {-disparity * reference.ds, -disparity * reference.dt};

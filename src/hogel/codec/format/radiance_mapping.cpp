@@ -52,7 +52,7 @@ void scale(View<float, 5> radiance, Factor&& factor_of, float chrominance) {
 
 class MappedSource final : public LightFieldSource {
   public:
-    MappedSource(const LightFieldSource& source, const RadianceMapping& mapping) : source_(source), mapping_(mapping) {}
+    MappedSource(const LightFieldSource& source, const Companding& mapping) : source_(source), mapping_(mapping) {}
     const LightFieldGrid& grid() const override { return source_.grid(); }
     bool has_depth() const override { return source_.has_depth(); }
     HogelRange preferred_tile() const override { return source_.preferred_tile(); }
@@ -63,7 +63,7 @@ class MappedSource final : public LightFieldSource {
 
   private:
     const LightFieldSource& source_;
-    const RadianceMapping& mapping_;
+    const Companding& mapping_;
 };
 
 void count(const LightFieldTile& tile, LuminanceHistogram& histogram) {
@@ -77,17 +77,17 @@ void count(const LightFieldTile& tile, LuminanceHistogram& histogram) {
 
 }  // namespace
 
-void RadianceMapping::apply(View<float, 5> radiance) const {
+void Companding::apply(View<float, 5> radiance) const {
     const auto factor = [&](float mean) { return tone ? tone->factor(mean) : 1.0f; };
     if (changes()) scale(radiance, factor, 1 / chrominance);
 }
 
-void RadianceMapping::undo(View<float, 5> radiance) const {
+void Companding::undo(View<float, 5> radiance) const {
     const auto factor = [&](float mean) { return tone ? tone->inverse_factor(mean) : 1.0f; };
     if (changes()) scale(radiance, factor, chrominance);
 }
 
-std::unique_ptr<LightFieldSource> map_radiances(const LightFieldSource& source, const RadianceMapping& mapping) {
+std::unique_ptr<LightFieldSource> map_radiances(const LightFieldSource& source, const Companding& mapping) {
     return std::make_unique<MappedSource>(source, mapping);
 }
 
@@ -108,7 +108,7 @@ LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> 
             [&](std::size_t i, LuminanceHistogram& histogram) {
                 sum.add(histogram);
                 progress.report((static_cast<double>(face) + static_cast<double>(i + 1) / double(tiling.count())) /
-                                     static_cast<double>(faces.size()));
+                                static_cast<double>(faces.size()));
             });
     }
     return sum;

@@ -16,13 +16,14 @@ namespace hogel::codec::format {
 namespace {
 
 // Textured planes with radiances over four decades and a half.
-LightField high_range(std::size_t hogels_s, std::size_t hogels_t, std::size_t u, std::size_t v, std::size_t channels) {
-    LightField field = textured_planes(hogels_s, hogels_t, u, v, channels);
+LightFieldBuffer high_range(std::size_t hogels_s, std::size_t hogels_t, std::size_t u, std::size_t v,
+                            std::size_t channels) {
+    LightFieldBuffer field = textured_planes(hogels_s, hogels_t, u, v, channels);
     for (float& value : field.radiance.elements()) value = static_cast<float>(std::pow(10, 6 * value - 4));
     return field;
 }
 
-RadianceMapping mapping_of(const LightField& field, double decades, float chrominance) {
+Companding mapping_of(const LightFieldBuffer& field, double decades, float chrominance) {
     const LightFieldSource* const source = &field;
     return {encode::adjusted_curve(luminance_histogram({&source, 1}), decades), chrominance};
 }
@@ -37,19 +38,19 @@ CompressionOptions mapped(const CodingMethod& method, std::optional<double> deca
     return options;
 }
 
-TEST(RadianceMapping, is_undone) {
+TEST(Companding, is_undone) {
     for (const std::size_t channels : {1, 3})
         for (const float chrominance : {1.0f, 4.0f}) {
-            LightField field = high_range(3, 2, 16, 12, channels);
+            LightFieldBuffer field = high_range(3, 2, 16, 12, channels);
             // Colours of no lamp come back too: none, negative, and of opposite signs.
             for (std::size_t c = 0; c < channels; ++c) {
                 field.radiance(c, 0, 0, 0, 0) = 0;
                 field.radiance(c, 0, 0, 0, 1) = -0.3f * static_cast<float>(c + 1);
                 field.radiance(c, 0, 0, 0, 2) = c == 1 ? -0.3f : 0.2f;
             }
-            const RadianceMapping mapping = mapping_of(field, 2, chrominance);
+            const Companding mapping = mapping_of(field, 2, chrominance);
             ASSERT_TRUE(mapping.tone);
-            LightField there = field;
+            LightFieldBuffer there = field;
             mapping.apply(there.radiance.view());
             EXPECT_LT(sqnr_of(field, there), 10);
             mapping.undo(there.radiance.view());
@@ -65,14 +66,14 @@ TEST(RadianceMapping, is_undone) {
 }
 
 // Scaled alike the colours of a ray keep their ratios, and chrominance its mean; coarser, they come nearer to it.
-TEST(RadianceMapping, keeps_ratios_of_colours_and_divides_chrominance) {
-    const LightField field = high_range(2, 2, 8, 8, 3);
-    const auto at = [](const LightField& f, std::size_t c, std::size_t i) {
+TEST(Companding, keeps_ratios_of_colours_and_divides_chrominance) {
+    const LightFieldBuffer field = high_range(2, 2, 8, 8, 3);
+    const auto at = [](const LightFieldBuffer& f, std::size_t c, std::size_t i) {
         return double(f.radiance.data()[c * f.radiance.size() / 3 + i]);
     };
-    LightField toned = field, grey = field;
+    LightFieldBuffer toned = field, grey = field;
     mapping_of(field, 2, 1).apply(toned.radiance.view());
-    RadianceMapping{std::nullopt, 4}.apply(grey.radiance.view());
+    Companding{std::nullopt, 4}.apply(grey.radiance.view());
     for (std::size_t i = 0; i < field.radiance.size() / 3; ++i) {
         const double mean = (at(field, 0, i) + at(field, 1, i) + at(field, 2, i)) / 3;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -84,18 +85,18 @@ TEST(RadianceMapping, keeps_ratios_of_colours_and_divides_chrominance) {
 }
 
 // Of all coders: the SQNR that was asked for is that of the mapped light field, and what is read is it, mapped back.
-TEST(RadianceMapping, goes_with_every_coder) {
+TEST(Companding, goes_with_every_coder) {
     const TestFolder folder;
-    const LightField field = high_range(5, 4, 16, 12, 3);
+    const LightFieldBuffer field = high_range(5, 4, 16, 12, 3);
     for (const CodingMethod& method : {CodingMethod{"hogel", ""},
                                        {"threepass", "cdf97"},
                                        {"ezw", "haar"},
                                        {"jpeg4d", "dct8"},
                                        {"fringes", "cdf97"}}) {
         const CompressionResult result = compress(field, folder / "a.hgl", mapped(method, 2, 2));
-        const RadianceMapping mapping = read_stream_info(folder / "a.hgl").mapping;
+        const Companding mapping = read_stream_info(folder / "a.hgl").mapping;
         EXPECT_EQ(mapping, mapping_of(field, 2, 2));
-        LightField truth = field, other = decoded(folder / "a.hgl");
+        LightFieldBuffer truth = field, other = decoded(folder / "a.hgl");
         mapping.apply(truth.radiance.view());
         mapping.apply(other.radiance.view());
         EXPECT_GE(result.sqnr, 40) << method.coder;
@@ -107,29 +108,29 @@ TEST(RadianceMapping, goes_with_every_coder) {
 }
 
 // Both faces of a stream are mapped, by the histogram of all together; unfolded, before the corners are filled.
-TEST(RadianceMapping, goes_with_hemicubes) {
+TEST(Companding, goes_with_hemicubes) {
     const TestFolder folder;
-    std::vector<LightField> fields;
+    std::vector<LightFieldBuffer> fields;
     std::vector<const LightFieldSource*> faces;
     const LightFieldGrid front = high_range(3, 2, 16, 16, 3).grid();
     LightFieldGrid wide = front;
     wide.tan_half_u = wide.tan_half_v = 1;
     for (const LightFieldGrid& grid : hemicube(wide)) {
-        LightField field(grid);
-        const LightField truth = high_range(3, 2, grid.directions_u, grid.directions_v, 3);
+        LightFieldBuffer field(grid);
+        const LightFieldBuffer truth = high_range(3, 2, grid.directions_u, grid.directions_v, 3);
         std::ranges::copy(truth.radiance.elements(), field.radiance.elements().begin());
         fields.push_back(std::move(field));
     }
-    for (const LightField& field : fields) faces.push_back(&field);
+    for (const LightFieldBuffer& field : fields) faces.push_back(&field);
     for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
         CompressionOptions options = mapped({"threepass", "cdf97"}, 2, 2);
         options.layout = layout;
         compress(faces, folder / "a.hgl", options);
-        const RadianceMapping mapping = read_stream_info(folder / "a.hgl").mapping;
+        const Companding mapping = read_stream_info(folder / "a.hgl").mapping;
         EXPECT_EQ(mapping.tone, encode::adjusted_curve(luminance_histogram(faces), 2));
         const auto sources = open_stream_faces(folder / "a.hgl");
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            LightField truth = fields[i], other(fields[i].grid());
+            LightFieldBuffer truth = fields[i], other(fields[i].grid());
             copy(*sources[i], other);
             mapping.apply(truth.radiance.view());
             mapping.apply(other.radiance.view());
@@ -139,9 +140,9 @@ TEST(RadianceMapping, goes_with_hemicubes) {
 }
 
 // With luminances that span no more than is asked for, nothing is mapped, and the bytes are those without.
-TEST(RadianceMapping, of_a_low_range_is_none) {
+TEST(Companding, of_a_low_range_is_none) {
     const TestFolder folder;
-    const LightField field = textured_planes(5, 4, 16, 12, 3);
+    const LightFieldBuffer field = textured_planes(5, 4, 16, 12, 3);
     compress(field, folder / "a.hgl", mapped({}, std::nullopt, 1));
     compress(field, folder / "b.hgl", mapped({}, 2, 1));
     EXPECT_EQ(bytes_of_file(folder / "a.hgl"), bytes_of_file(folder / "b.hgl"));
@@ -152,7 +153,7 @@ TEST(RadianceMapping, of_a_low_range_is_none) {
 // Takes note of how many samples are asked for at once and in all.
 class WatchedSource final : public LightFieldSource {
   public:
-    explicit WatchedSource(const LightField& field) : field_(field) {}
+    explicit WatchedSource(const LightFieldBuffer& field) : field_(field) {}
     const LightFieldGrid& grid() const override { return field_.grid(); }
     HogelRange preferred_tile() const override { return {0, 0, 3, 2}; }
     void read(LightFieldTile& tile) const override {
@@ -164,12 +165,12 @@ class WatchedSource final : public LightFieldSource {
     mutable std::size_t most = 0, all = 0;
 
   private:
-    const LightField& field_;
+    const LightFieldBuffer& field_;
     mutable std::mutex mutex_;
 };
 
-TEST(RadianceMapping, histogram_is_the_same_for_any_number_of_threads_and_reads_once_by_tiles) {
-    const LightField field = high_range(8, 7, 16, 12, 3);
+TEST(Companding, histogram_is_the_same_for_any_number_of_threads_and_reads_once_by_tiles) {
+    const LightFieldBuffer field = high_range(8, 7, 16, 12, 3);
     const LightFieldSource* const whole = &field;
     const LuminanceHistogram expected = luminance_histogram({&whole, 1});
     for (const std::size_t threads : {1, 2, 5}) {
@@ -183,10 +184,10 @@ TEST(RadianceMapping, histogram_is_the_same_for_any_number_of_threads_and_reads_
     }
 }
 
-TEST(RadianceMapping, asks_that_make_no_sense_are_refused) {
+TEST(Companding, asks_that_make_no_sense_are_refused) {
     const TestFolder folder;
-    const LightField colours = high_range(2, 2, 8, 8, 3), grey = high_range(2, 2, 8, 8, 1);
-    const auto refused = [&](const LightField& field, const CompressionOptions& options) {
+    const LightFieldBuffer colours = high_range(2, 2, 8, 8, 3), grey = high_range(2, 2, 8, 8, 1);
+    const auto refused = [&](const LightFieldBuffer& field, const CompressionOptions& options) {
         return code_of([&] { compress(field, folder / "a.hgl", options); }) == ErrorCode::usage;
     };
     EXPECT_FALSE(refused(grey, mapped({}, 2, 1)));
@@ -220,9 +221,9 @@ std::string complaint(const std::filesystem::path& path) {
 }
 
 // The mapping's part of a header, forged so that the checksum is right.
-TEST(RadianceMapping, damaged_in_a_header_is_refused) {
+TEST(Companding, damaged_in_a_header_is_refused) {
     const TestFolder folder;
-    const LightField field = high_range(2, 2, 8, 8, 3);
+    const LightFieldBuffer field = high_range(2, 2, 8, 8, 3);
     compress(field, folder / "plain.hgl", mapped({"threepass", "haar"}, {}, 1));
     compress(field, folder / "a.hgl", mapped({"threepass", "haar"}, 2, 2));
     const auto length_of = [](const std::vector<std::uint8_t>& file) { return file[12] | std::size_t{file[13]} << 8; };

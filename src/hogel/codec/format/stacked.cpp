@@ -5,7 +5,7 @@
 namespace hogel::codec::format {
 namespace {
 
-constexpr std::size_t most_gathered = 64;  // hogels: eight rows of blocks
+constexpr std::size_t max_gathered = 64;  // hogels: eight rows of blocks
 constexpr std::size_t whole_blocks = 8;
 
 bool single_row(const LightFieldGrid& grid) { return grid.directions_v == 1; }
@@ -84,7 +84,7 @@ class GatheredCoder final : public TileCoder {
         HogelRange tile{0, 0, grid.hogels_s, grid.hogels_t};
         std::size_t& gathered = rows ? tile.nt : tile.ns;
         // Tiles of nearly one size, in whole blocks.
-        const std::size_t all = gathered, tiles = (all + most_gathered - 1) / most_gathered;
+        const std::size_t all = gathered, tiles = (all + max_gathered - 1) / max_gathered;
         gathered = std::min(all, ((all + tiles - 1) / tiles + whole_blocks - 1) / whole_blocks * whole_blocks);
         const Gathering gathering(grid, tile);
         (rows ? tile.ns : tile.nt) = coder_of_(gathering.grid())->preferred_tile(gathering.grid()).ns;
@@ -93,10 +93,10 @@ class GatheredCoder final : public TileCoder {
 
     bool takes_any_value() const override { return coder_of_(grid_)->takes_any_value(); }
 
-    Encoded encode(LightFieldTile& tile, double step, std::size_t most_bytes) const override {
+    Encoded encode(LightFieldTile& tile, double step, std::size_t max_bytes) const override {
         const Gathering gathering(grid_, tile.range);
         LightFieldTile gathered = gathering.gather(tile);
-        return coder_of_(gathering.grid())->encode(gathered, step, most_bytes);
+        return coder_of_(gathering.grid())->encode(gathered, step, max_bytes);
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {

@@ -34,11 +34,11 @@ ErrorCode outcome_of(const TestFolder& folder, const std::vector<std::uint8_t>& 
 }
 
 // The same light field with rows for columns, of hogels and of directions.
-LightField transposed(const LightField& field) {
+LightFieldBuffer transposed(const LightFieldBuffer& field) {
     LightFieldGrid grid = field.grid();
     std::swap(grid.hogels_s, grid.hogels_t);
     std::swap(grid.directions_u, grid.directions_v);
-    LightField result(grid);
+    LightFieldBuffer result(grid);
     for (std::size_t c = 0; c < grid.channels; ++c)
         for (std::size_t t = 0; t < grid.hogels_t; ++t)
             for (std::size_t s = 0; s < grid.hogels_s; ++s)
@@ -48,17 +48,17 @@ LightField transposed(const LightField& field) {
     return result;
 }
 
-void expect_same(const LightField& a, const LightField& b) {
+void expect_same(const LightFieldBuffer& a, const LightFieldBuffer& b) {
     for (std::size_t i = 0; i < a.radiance.size(); ++i) ASSERT_EQ(a.radiance.data()[i], b.radiance.data()[i]) << i;
 }
 
 // One that lies flat, its rows of hogels as rows of directions, codes to the same tiles, which decode to the same.
 TEST(Gathered, tiles_are_those_of_rows_of_directions) {
     const TestFolder folder;
-    const LightField field = textured_planes(13, 19, 24, 1, 3);
+    const LightFieldBuffer field = textured_planes(13, 19, 24, 1, 3);
     LightFieldGrid grid = field.grid();
     std::swap(grid.hogels_t, grid.directions_v);
-    LightField flat(grid);
+    LightFieldBuffer flat(grid);
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t t = 0; t < 19; ++t)
             for (std::size_t s = 0; s < 13; ++s)
@@ -77,7 +77,7 @@ TEST(Gathered, tiles_are_those_of_rows_of_directions) {
         if (!lossless) {
             EXPECT_EQ(a.read(0, a.info().layer_ends.size()), b.read(0, b.info().layer_ends.size()));
         }
-        const LightField of_a = decoded(folder / "a.hgl"), of_b = decoded(folder / "b.hgl");
+        const LightFieldBuffer of_a = decoded(folder / "a.hgl"), of_b = decoded(folder / "b.hgl");
         if (lossless) {
             expect_same(of_a, field);
         }
@@ -91,7 +91,7 @@ TEST(Gathered, tiles_are_those_of_rows_of_directions) {
 
 TEST(Gathered, columns_of_directions_are_rows_lying_on_their_side) {
     const TestFolder folder;
-    const LightField rows = textured_planes(13, 19, 24, 1, 1), columns = transposed(rows);
+    const LightFieldBuffer rows = textured_planes(13, 19, 24, 1, 1), columns = transposed(rows);
     compress(rows, folder / "a.hgl", in_layout(StreamLayout::gathered));
     compress(columns, folder / "b.hgl", in_layout(StreamLayout::gathered, HogelRange{0, 0, 11, 7}));
     expect_same(decoded(folder / "a.hgl"), transposed(decoded(folder / "b.hgl")));
@@ -103,13 +103,13 @@ TEST(Gathered, columns_of_directions_are_rows_lying_on_their_side) {
 TEST(Gathered, reads_any_range_the_same) {
     const TestFolder folder;
     for (const bool by_columns : {false, true}) {
-        LightField field = textured_planes(13, 19, 24, 1, 1);
+        LightFieldBuffer field = textured_planes(13, 19, 24, 1, 1);
         if (by_columns) field = transposed(field);
         compress(field, folder / "a.hgl", in_layout(StreamLayout::gathered));
         const std::size_t layers = read_stream_info(folder / "a.hgl").layer_ends.size();
         ASSERT_EQ(layers, by_columns ? 5u : 4u);
         for (std::size_t layer = 1; layer <= layers; ++layer) {
-            LightField whole(field.grid());
+            LightFieldBuffer whole(field.grid());
             copy(*open_stream(folder / "a.hgl", {.layers = layer}), whole);
             EXPECT_GE(sqnr_of(field, whole), layer == layers ? 25 : 5);
             const auto source = open_stream(folder / "a.hgl", {.memory = 1, .layers = layer});
@@ -130,7 +130,7 @@ TEST(Gathered, reads_any_range_the_same) {
 // A plane, whose rows are alike, is gathered; rows that each lie at a depth of their own are not.
 TEST(Gathered, is_chosen_where_rows_are_alike) {
     const TestFolder folder;
-    LightField alike(LightFieldGrid{24, 24, 1e-3, 48, 1, 0.3, 0.3, 1}), apart(alike.grid());
+    LightFieldBuffer alike(LightFieldGrid{24, 24, 1e-3, 48, 1, 0.3, 0.3, 1}), apart(alike.grid());
     for (std::size_t t = 0; t < 24; ++t)
         for (std::size_t s = 0; s < 24; ++s)
             for (std::size_t u = 0; u < 48; ++u) {
@@ -141,7 +141,7 @@ TEST(Gathered, is_chosen_where_rows_are_alike) {
                 apart.radiance(0, t, s, 0, u) = texture(double(u) + 0.8 * double(t * 5 % 7) * double(s));
             }
     for (const bool lossless : {false, true})
-        for (const LightField* field : {&alike, &apart}) {
+        for (const LightFieldBuffer* field : {&alike, &apart}) {
             CompressionOptions options;
             options.target.lossless = lossless;
             if (!lossless) options.target.sqnr = 35;
@@ -174,7 +174,7 @@ TEST(Gathered, needs_a_single_row_or_column_of_directions) {
     EXPECT_FALSE(fits({5, 1, 8, 1}));
     EXPECT_FALSE(fits({1, 4, 1, 8}));
     const TestFolder folder;
-    const auto refused = [&](const LightField& field) {
+    const auto refused = [&](const LightFieldBuffer& field) {
         return code_of([&] { compress(field, folder / "a.hgl", in_layout(StreamLayout::gathered)); });
     };
     EXPECT_EQ(refused(textured_planes(5, 4, 8, 2, 1)), ErrorCode::usage);
@@ -204,7 +204,7 @@ TEST(Gathered, every_truncation_and_every_flipped_byte_is_noticed) {
         bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
         ASSERT_EQ(outcome_of(folder, bad), ErrorCode::bad_input) << at;
     }
-    const LightField field = textured_planes(5, 9, 8, 1, 1);
+    const LightFieldBuffer field = textured_planes(5, 9, 8, 1, 1);
     const auto coder = coder_in_layout(StreamLayout::gathered, field.grid(),
                                        [](const LightFieldGrid& grid) { return make_tile_coder({}, grid); });
     LightFieldTile tile(field.grid(), {0, 0, 5, 9}, false);
@@ -216,13 +216,13 @@ TEST(Gathered, every_truncation_and_every_flipped_byte_is_noticed) {
 // All faces of a hemisquare, with depth.
 TEST(Gathered, hemisquares_come_back) {
     const TestFolder folder;
-    std::vector<LightField> faces;
+    std::vector<LightFieldBuffer> faces;
     for (const Face face : {Face::front, Face::left, Face::right}) {
         LightFieldGrid grid = textured_planes(9, 10, face == Face::front ? 16 : 8, 1, 1).grid();
         grid.face = face;
         if (face != Face::front) grid.center_u = face == Face::left ? 0.5 : -0.5;
-        LightField& field = faces.emplace_back(grid, true);
-        const LightField textured = textured_planes(9, 10, grid.directions_u, 1, 1);
+        LightFieldBuffer& field = faces.emplace_back(grid, true);
+        const LightFieldBuffer textured = textured_planes(9, 10, grid.directions_u, 1, 1);
         std::ranges::copy(textured.radiance.elements(), field.radiance.elements().begin());
         for (std::size_t i = 0; i < field.depth.size(); ++i)
             field.depth.data()[i] = i % 5 == 0 ? std::numeric_limits<float>::infinity() : 1e-3f * float(i % 3);
@@ -235,7 +235,7 @@ TEST(Gathered, hemisquares_come_back) {
     const auto opened = open_stream_faces(folder / "a.hgl");
     ASSERT_EQ(opened.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
-        LightField back(opened[k]->grid(), true);
+        LightFieldBuffer back(opened[k]->grid(), true);
         EXPECT_EQ(back.grid(), faces[k].grid());
         copy(*opened[k], back);
         EXPECT_GE(sqnr_of(faces[k], back), 25);

@@ -15,11 +15,11 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t prefix = stream_magic.size() + 8;  // then version and length of the header
 constexpr std::size_t entry_bytes = 8, checksum_bytes = 4;
-constexpr std::uint32_t most_header = 1 << 24;
+constexpr std::uint32_t max_header = 1 << 24;
 
 bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
     if (tile.ns == 0 || tile.nt == 0 || tile.ns > grid.hogels_s || tile.nt > grid.hogels_t) return false;
-    std::size_t room = most_tile_samples;
+    std::size_t room = max_tile_samples;
     for (const std::size_t extent : {grid.channels, tile.ns, tile.nt, grid.directions_u, grid.directions_v})
         room /= extent;
     return room > 0;
@@ -78,7 +78,7 @@ StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& 
             throw Error(ErrorCode::usage,
                         fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field "
                                     "has, and at most {} samples in each",
-                                    path.string(), info.tile.ns, info.tile.nt, most_tile_samples));
+                                    path.string(), info.tile.ns, info.tile.nt, max_tile_samples));
 }
 
 void StreamWriter::restart() {
@@ -165,7 +165,7 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
     if (version == 0 || version > latest_version)
         damaged(fmt::format("it has version {} of the format, expected 1 to {}", version, latest_version));
     const auto length = begin.take<std::uint32_t>();
-    if (length > most_header || length + prefix + 4 > size) damaged("its header is longer than the file");
+    if (length > max_header || length + prefix + 4 > size) damaged("its header is longer than the file");
     header.resize(prefix + length + 4);
     file_.read(at + prefix, header.data() + prefix, length + 4);
     ByteReader end(std::span<const std::uint8_t>(header).last(4), what_);

@@ -29,7 +29,7 @@ class Tiling {
 };
 
 // The largest tile that a stream may have; what a damaged header can make a reader ask memory for.
-constexpr std::size_t most_tile_samples = std::size_t{1} << 28;
+constexpr std::size_t max_tile_samples = std::size_t{1} << 28;
 
 // The arrays of directions whose tiles a stream holds one after the other, all tiles of the first before those of the
 // second: its faces, or what they unfold into. Throws Error(usage) for faces that do not unfold.
@@ -59,7 +59,7 @@ class StreamWriter {
     std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
     // What a file of so many tiles, of all parts, has beside them.
     std::uint64_t overhead(std::size_t tiles) const;
-    // @param filler   by how many bytes the file is longer than size(): 0, or least_filler to most_filler
+    // @param filler   by how many bytes the file is longer than size(): 0, or min_filler to max_filler
     void finish(std::uint64_t filler = 0);
 
   private:

@@ -7,9 +7,9 @@
 namespace hogel::codec::format {
 namespace {
 
-constexpr std::uint32_t most_layers = 64;
+constexpr std::uint32_t max_layers = 64;
 constexpr std::string_view filler_name = "filler";
-static_assert(least_filler == 2 * sizeof(std::uint32_t) + filler_name.size());
+static_assert(min_filler == 2 * sizeof(std::uint32_t) + filler_name.size());
 
 constexpr std::array<std::pair<StreamLayout, std::string_view>, 3> layout_names{
     {{StreamLayout::faces, "faces"}, {StreamLayout::unfolded, "unfolded"}, {StreamLayout::gathered, "gathered"}}};
@@ -95,7 +95,7 @@ ToneCurve take_tone(ByteReader& part) {
 
 float take_chrominance(ByteReader& part) {
     const float chrominance = part.take_float();
-    if (!(chrominance > 1 && chrominance <= RadianceMapping::most_chrominance) || part.left() > 0)
+    if (!(chrominance > 1 && chrominance <= Companding::max_chrominance) || part.left() > 0)
         part.damaged("its header has an impossible factor of chrominance");
     return chrominance;
 }
@@ -110,7 +110,7 @@ StreamInfo::Depth take_depth(ByteReader& part) {
 }
 
 void take_parts(ByteReader& reader, StreamInfo& info) {
-    RadianceMapping& mapping = info.mapping;
+    Companding& mapping = info.mapping;
     while (reader.left() > 0) {
         const std::string name = reader.take_text();
         ByteReader part = reader.take_part(reader.take<std::uint32_t>());
@@ -140,7 +140,7 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     fields.put(std::string_view(info.method.coder));
     fields.put(std::string_view(info.method.transform));
     Metadata words = info.metadata;
-    if (info.filler > 0) words.emplace_back(filler_name, std::string(info.filler - least_filler, ' '));
+    if (info.filler > 0) words.emplace_back(filler_name, std::string(info.filler - min_filler, ' '));
     fields.put(static_cast<std::uint32_t>(words.size()));
     for (const auto& [name, value] : words) {
         fields.put(std::string_view(name));
@@ -176,13 +176,13 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
         std::string name = reader.take_text();
         std::string value = reader.take_text();
         if (name == filler_name)
-            info.filler += least_filler + value.size();
+            info.filler += min_filler + value.size();
         else
             info.metadata.emplace_back(std::move(name), std::move(value));
     }
     if (version > 1) take_sides(reader, info);
     const auto layers = version > 2 ? reader.take<std::uint32_t>() : 1;
-    if (layers == 0 || layers > most_layers) reader.damaged("its header has an impossible number of layers");
+    if (layers == 0 || layers > max_layers) reader.damaged("its header has an impossible number of layers");
     info.layer_ends.resize(layers);
     if (version > 3) take_parts(reader, info);
     return info;

@@ -14,11 +14,11 @@ namespace hogel::codec::format {
 class ToneCurve {
   public:
     static constexpr int low_bits = 20;  // of a point, which are 0
-    static constexpr std::size_t most_points = 512;
+    static constexpr std::size_t max_points = 512;
 
     /// @param first    the highest bits of the first point
     /// @param values   y at each point from the first on
-    /// Throws Error(bad_input) unless there are 2 to most_points points, all normal numbers, and values that increase,
+    /// Throws Error(bad_input) unless there are 2 to max_points points, all normal numbers, and values that increase,
     /// each within 2^±64 of its point.
     ToneCurve(std::uint32_t first, std::vector<float> values);
 

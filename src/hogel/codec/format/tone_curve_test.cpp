@@ -133,7 +133,7 @@ TEST(ToneCurve, that_is_none_is_refused) {
     EXPECT_TRUE(refused(7, {1e-30f, 2e-30f}));
     EXPECT_TRUE(refused(2039, {1e38f, 2e38f}));
     EXPECT_TRUE(refused(~std::uint32_t{0}, {1, 2}));
-    std::vector<float> many(ToneCurve::most_points + 1);
+    std::vector<float> many(ToneCurve::max_points + 1);
     std::iota(many.begin(), many.end(), 1.0f);
     EXPECT_TRUE(refused(one, many));
 }

@@ -11,16 +11,16 @@ namespace hogel::codec::format {
 namespace {
 
 // A hemicube around hogels that see a smooth sky: the same function of direction on all faces.
-std::vector<LightField> smooth_hemicube(std::size_t hogels, std::size_t directions_u, std::size_t directions_v) {
+std::vector<LightFieldBuffer> smooth_hemicube(std::size_t hogels, std::size_t directions_u, std::size_t directions_v) {
     const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, 1, 1, 1};
-    std::vector<LightField> faces;
+    std::vector<LightFieldBuffer> faces;
     for (const LightFieldGrid& face : hemicube(grid)) {
-        LightField& field = faces.emplace_back(face);
+        LightFieldBuffer& field = faces.emplace_back(face);
         for (std::size_t j = 0; j < hogels; ++j)
             for (std::size_t i = 0; i < hogels; ++i)
                 for (std::size_t l = 0; l < face.directions_v; ++l)
                     for (std::size_t k = 0; k < face.directions_u; ++k) {
-                        const Vec3 way = normalize(face.along(face.u(double(k)), face.v(double(l))));
+                        const Vec3 way = normalize(face.direction_of(face.u(double(k)), face.v(double(l))));
                         field.radiance(0, j, i, l, k) =
                             static_cast<float>(1 + 0.4 * std::sin(3 * way.x + 0.5 * double(i)) +
                                                0.3 * std::cos(2 * way.y - way.z + double(j)));
@@ -29,22 +29,22 @@ std::vector<LightField> smooth_hemicube(std::size_t hogels, std::size_t directio
     return faces;
 }
 
-std::vector<const LightFieldSource*> sources(const std::vector<LightField>& faces) {
+std::vector<const LightFieldSource*> sources(const std::vector<LightFieldBuffer>& faces) {
     std::vector<const LightFieldSource*> result;
-    for (const LightField& face : faces) result.push_back(&face);
+    for (const LightFieldBuffer& face : faces) result.push_back(&face);
     return result;
 }
 
-LightField unfolded(const std::vector<LightField>& faces) {
+LightFieldBuffer unfolded(const std::vector<LightFieldBuffer>& faces) {
     const auto source = unfold(sources(faces));
-    LightField whole(source->grid());
+    LightFieldBuffer whole(source->grid());
     copy(*source, whole);
     return whole;
 }
 
 TEST(Unfolding, has_the_faces_in_their_places) {
-    const std::vector<LightField> faces = smooth_hemicube(2, 40, 24);
-    const LightField whole = unfolded(faces);
+    const std::vector<LightFieldBuffer> faces = smooth_hemicube(2, 40, 24);
+    const LightFieldBuffer whole = unfolded(faces);
     ASSERT_EQ(whole.grid().directions_u, 80u);
     ASSERT_EQ(whole.grid().directions_v, 48u);
     EXPECT_NEAR(whole.grid().step_u(), faces[0].grid().step_u(), 1e-12);
@@ -59,11 +59,11 @@ TEST(Unfolding, has_the_faces_in_their_places) {
 // than the largest between neighbours on a face. Farther out a corner is one value.
 TEST(Unfolding, corners_continue_what_the_sides_show) {
     for (const auto& [n_u, n_v] : {std::pair{64u, 64u}, {64u, 48u}}) {
-        const std::vector<LightField> faces = smooth_hemicube(1, n_u, n_v);
-        const LightField whole = unfolded(faces);
+        const std::vector<LightFieldBuffer> faces = smooth_hemicube(1, n_u, n_v);
+        const LightFieldBuffer whole = unfolded(faces);
         const auto view = whole.radiance[0][0][0];
         double largest = 0;
-        for (const LightField& face : faces)
+        for (const LightFieldBuffer& face : faces)
             for (std::size_t l = 0; l < face.grid().directions_v; ++l)
                 for (std::size_t k = 0; k + 1 < face.grid().directions_u; ++k)
                     largest = std::max(
@@ -100,7 +100,7 @@ TEST(Unfolding, needs_five_faces_that_fit) {
 // All faces come back with the SQNR that was asked for, over all of them and without the corners.
 TEST(Hemicube, comes_back_in_either_layout) {
     const TestFolder folder;
-    const std::vector<LightField> faces = smooth_hemicube(5, 24, 16);
+    const std::vector<LightFieldBuffer> faces = smooth_hemicube(5, 24, 16);
     for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded})
         for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"ezw", "ai33"}, {"jpeg4d", "dct8"}}) {
             CompressionOptions options;
@@ -114,7 +114,7 @@ TEST(Hemicube, comes_back_in_either_layout) {
             double signal = 0, error = 0;
             for (std::size_t i = 0; i < 5; ++i) {
                 ASSERT_EQ(decoded[i]->grid(), faces[i].grid());
-                LightField other(faces[i].grid());
+                LightFieldBuffer other(faces[i].grid());
                 copy(*decoded[i], other);
                 for (std::size_t k = 0; k < other.radiance.size(); ++k) {
                     const double f = faces[i].radiance.data()[k], e = f - other.radiance.data()[k];
@@ -133,12 +133,12 @@ TEST(Hemicube, comes_back_in_either_layout) {
 // Whatever a file of faces is cut to or has changed in, reading it is an error.
 TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
-    const std::vector<LightField> faces = smooth_hemicube(2, 4, 4);
+    const std::vector<LightFieldBuffer> faces = smooth_hemicube(2, 4, 4);
     const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
         write_bytes(folder / "b.hgl", bytes);
         try {
             for (const auto& face : open_stream_faces(folder / "b.hgl")) {
-                LightField field(face->grid());
+                LightFieldBuffer field(face->grid());
                 copy(*face, field);
             }
         } catch (const Error& error) {

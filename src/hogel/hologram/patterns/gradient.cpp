@@ -78,7 +78,7 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOption
         progress.report(static_cast<double>(k) / static_cast<double>(options.iterations + 1));
         const auto bits =
             core::philox({static_cast<std::uint32_t>(k), 0, 0, 0},
-                   {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)});
+                         {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)});
         const Squares squares{side, bits[0] % side, bits[1] % side};
         const std::size_t rows = squares.rows(field.extent(0)), columns = squares.columns(field.extent(1));
         std::vector<Sums> sums(rows);

@@ -6,7 +6,6 @@
 
 namespace hogel {
 
-
 using namespace literals;
 
 const std::vector<Modulator>& modulators() {

@@ -27,7 +27,7 @@ class WindowBatch {
   public:
     static constexpr std::size_t hogels = 16;
     /// The largest side for which sums are quicker than transforms.
-    static constexpr std::size_t largest_side = 20;
+    static constexpr std::size_t max_side = 20;
 
     /// What the windows of one hologram share. Sides and hops in samples.
     struct Shared {
@@ -41,7 +41,7 @@ class WindowBatch {
 
     /// Phases in turns of the point (columns to the right, rows up) of each of the hogels; empty where points have
     /// none.
-    using PointTurns = std::function<void(const std::int32_t* columns, const std::int32_t* rows, float* turns)>;
+    using PointCycles = std::function<void(const std::int32_t* columns, const std::int32_t* rows, float* turns)>;
     /// Which hogels: columns s, s + 1, ... of row t; and the random phases of what meets nothing, which for a direction
     /// are the first word of Philox's draw {s, t, coefficient + 1, series}.
     struct At {
@@ -53,7 +53,7 @@ class WindowBatch {
     /// Rays of hogels that lie one after the other, `count` of them, [hogel][rays]. Where all are dark there is nothing
     /// to add, and this returns false.
     bool fill(const At& at, const float* radiance, const float* depth, std::size_t count, std::size_t rays,
-              const PointTurns& points);
+              const PointCycles& points);
 
     /// Samples to which windows are added: real and imaginary parts apart, and in a row those that are a hop apart side
     /// by side.

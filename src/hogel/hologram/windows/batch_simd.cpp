@@ -78,9 +78,9 @@ HWY_INLINE void StoreWave(D d, V amplitude, V turns, float* re, float* im) {
 #if HWY_TARGET == HWY_SCALAR
 void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* turns) {
     for (std::size_t i = 0; i < width; ++i)
-        turns[i] = static_cast<float>(core::philox({static_cast<std::uint32_t>(at.s + i), static_cast<std::uint32_t>(at.t),
-                                              coefficient + 1, at.series},
-                                             at.key)[0]) *
+        turns[i] = static_cast<float>(core::philox({static_cast<std::uint32_t>(at.s + i),
+                                                    static_cast<std::uint32_t>(at.t), coefficient + 1, at.series},
+                                                   at.key)[0]) *
                    0x1p-32f;
 }
 #else
@@ -101,7 +101,7 @@ void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float*
 #endif
 
 void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, const WindowBatch::At& at_hogels,
-                 const WindowBatch::PointTurns& points) {
+                 const WindowBatch::PointCycles& points) {
     const D d;
     const hn::RebindToSigned<D> whole;
     const auto& table = *shared.brightness;
@@ -282,7 +282,7 @@ WindowBatch::WindowBatch(const Shared& shared) : shared_(shared) {
 }
 
 bool WindowBatch::fill(const At& at, const float* radiance, const float* depth, std::size_t count, std::size_t rays,
-                       const PointTurns& points) {
+                       const PointCycles& points) {
     if (std::none_of(radiance, radiance + count * rays, [](float value) { return value > 0; })) return false;
     if (count < hogels) std::fill(work_.radiance.data(), work_.radiance.data() + work_.radiance.size(), 0.0f);
     const std::size_t used = work_.radiance.size() / hogels;
@@ -298,7 +298,7 @@ void WindowBatch::add(const At& at, Sum& sum) {
     const std::size_t y = at.t * shared_.hop, end = sum.first_y + sum.height;
     const std::size_t q0 = y < sum.first_y ? sum.first_y - y : 0, q1 = y < end ? std::min(shared_.side, end - y) : 0;
     if (q0 >= q1) return;
-    std::array<std::size_t, largest_side> places;
+    std::array<std::size_t, max_side> places;
     for (std::size_t p = 0; p < shared_.side; ++p)
         places[p] = (p % shared_.hop) * sum.row + at.s + p / shared_.hop - sum.first_x / shared_.hop;
     const std::size_t row = shared_.hop * sum.row, first = (y + q0 - sum.first_y) * row;

@@ -44,7 +44,7 @@ std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? 
 // stereograms", ACM TOG 38(6), 2019.
 class OverlapAdd final : public FieldSource {
   public:
-    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const StereogramOptions& options,
+    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const HologramOptions& options,
                bool one_by_one)
         : light_field_(light_field),
           options_(options),
@@ -59,7 +59,7 @@ class OverlapAdd final : public FieldSource {
         hogels_a_metre_ = 1 / light_field.grid().pitch;
         waves_a_metre_ = 1 / grid.wavelength;
         list_directions();
-        batches_ = !one_by_one && side_ <= WindowBatch::largest_side && !directions_.empty();
+        batches_ = !one_by_one && side_ <= WindowBatch::max_side && !directions_.empty();
     }
 
     const FieldGrid& grid() const override { return grid_; }
@@ -106,7 +106,7 @@ class OverlapAdd final : public FieldSource {
                         View<Complex, 2> out) const {
         std::fill(out.data(), out.data() + out.size(), Complex(0));
         Array<Complex, 2> window({side_, side_});
-        std::optional<PointTurns> points;
+        std::optional<PointCycles> points;
         if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             const HogelRange& range = tile.range;
@@ -150,7 +150,7 @@ class OverlapAdd final : public FieldSource {
             else
                 std::fill_n(part->data(), size, 0.0f);
         }
-        std::optional<PointTurns> points;
+        std::optional<PointCycles> points;
         if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             for (std::size_t j = 0; j < tile.range.nt; ++j)
@@ -165,10 +165,10 @@ class OverlapAdd final : public FieldSource {
             }
     }
 
-    void add_batch(const LightFieldTile& tile, std::size_t i, std::size_t j, std::size_t look, const PointTurns* points,
-                   Room& room) const {
+    void add_batch(const LightFieldTile& tile, std::size_t i, std::size_t j, std::size_t look,
+                   const PointCycles* points, Room& room) const {
         const std::size_t s = tile.range.s0 + i, t = tile.range.t0 + j;
-        WindowBatch::PointTurns turns_of_points;
+        WindowBatch::PointCycles turns_of_points;
         if (points)
             turns_of_points = [=](const std::int32_t* columns, const std::int32_t* rows, float* turns) {
                 for (std::size_t k = 0; k < WindowBatch::hogels; ++k)
@@ -194,7 +194,7 @@ class OverlapAdd final : public FieldSource {
                 const double cos2 = 1 - sx * sx - sy * sy;
                 if (cos2 <= 0) continue;
                 const double cosine = std::sqrt(cos2), U = -sx / cosine, V = -sy / cosine;
-                if (!rays.sees({U, V, 1})) continue;
+                if (!rays.covers({U, V, 1})) continue;
                 const auto nearest = [](double at, std::size_t count) {
                     return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, static_cast<double>(count) - 1));
                 };
@@ -213,7 +213,7 @@ class OverlapAdd final : public FieldSource {
     }
 
     void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
-              const PointTurns* points, View<Complex, 2> window) const {
+              const PointCycles* points, View<Complex, 2> window) const {
         std::fill(window.data(), window.data() + window.size(), Complex(0));
         for (const WindowDirection& direction : directions_) {
             const float light = radiance[direction.ray] * direction.share;
@@ -245,7 +245,7 @@ class OverlapAdd final : public FieldSource {
 
     // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
     double turns_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
-                          const PointTurns& points) const {
+                          const PointCycles& points) const {
         const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
         const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
         const double x = static_cast<double>(columns) * pitch, y = static_cast<double>(rows) * pitch;
@@ -285,7 +285,7 @@ class OverlapAdd final : public FieldSource {
     }
 
     const LightFieldSource& light_field_;
-    StereogramOptions options_;
+    HologramOptions options_;
     FieldGrid grid_;
     std::size_t hop_, side_;  // samples of a hogel's and a window's side
     math::Fft2 fft_;
@@ -297,13 +297,13 @@ class OverlapAdd final : public FieldSource {
     // What every ray would have to divide by.
     double hogels_a_metre_ = 0, waves_a_metre_ = 0;
     bool batches_ = false;  // windows of many hogels at once
-    mutable core::Reused<Room> rooms_;
+    mutable core::ObjectPool<Room> rooms_;
 };
 
 }  // namespace
 
 std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const StereogramOptions& options, bool one_by_one) {
+                                              const HologramOptions& options, bool one_by_one) {
     return std::make_unique<OverlapAdd>(light_field, grid, options, one_by_one);
 }
 

@@ -11,6 +11,6 @@ namespace hogel::hologram::windows {
 /// Stereograms whose windows overlap. One by one is the plain way, which is always taken where windows are large; the
 /// other makes windows of many hogels at once.
 std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const StereogramOptions& options, bool one_by_one = false);
+                                              const HologramOptions& options, bool one_by_one = false);
 
 }  // namespace hogel::hologram::windows

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include "hogel/hologram/windows/overlap_add.h"
 #include "hogel/hologram/hogel_synthesis.h"
+#include "hogel/hologram/windows/overlap_add.h"
 
 namespace hogel::hologram::windows {
 namespace {
@@ -14,9 +14,9 @@ namespace {
 using Complex = std::complex<float>;
 
 // Rays that are dark, that meet something on either side of the plane, and that meet nothing.
-LightField noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u, std::size_t directions_v,
-                 double pitch) {
-    LightField field({hogels_s, hogels_t, pitch, directions_u, directions_v, 0.035, 0.03, 3, 0.004, 0}, true);
+LightFieldBuffer noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u, std::size_t directions_v,
+                       double pitch) {
+    LightFieldBuffer field({hogels_s, hogels_t, pitch, directions_u, directions_v, 0.035, 0.03, 3, 0.004, 0}, true);
     std::mt19937 random(1);
     for (float& radiance : field.radiance.elements())
         radiance = random() % 5 == 0 ? 0.0f : static_cast<float>(random() % 1000) / 1000;
@@ -26,8 +26,8 @@ LightField noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t directi
     return field;
 }
 
-StereogramOptions options_of(Phases phases, double pitch) {
-    StereogramOptions options;
+HologramOptions options_of(Phases phases, double pitch) {
+    HologramOptions options;
     options.wavelength = 520e-9;
     options.pitch = pitch;
     options.channel = 1;
@@ -40,9 +40,9 @@ StereogramOptions options_of(Phases phases, double pitch) {
 TEST(OverlapAdd, windows_of_many_hogels_at_once_are_those_one_by_one) {
     for (const std::size_t hop : {1, 2, 3})
         for (const Phases phases : {Phases::fixed, Phases::random}) {
-            const LightField rays = noise(37, 21, 9, 6, static_cast<double>(hop) * 6e-6);
-            const StereogramOptions options = options_of(phases, 6e-6);
-            const FieldGrid grid = stereogram_grid(rays.grid(), options);
+            const LightFieldBuffer rays = noise(37, 21, 9, 6, static_cast<double>(hop) * 6e-6);
+            const HologramOptions options = options_of(phases, 6e-6);
+            const FieldGrid grid = hologram_grid(rays.grid(), options);
             const Region all{0, 0, grid.plane.width, grid.plane.height};
             Array<Complex, 2> plain({all.height, all.width}), fast = plain;
             make_overlap_add(rays, grid, options, true)->read(all, 1, plain);
@@ -58,8 +58,8 @@ TEST(OverlapAdd, windows_of_many_hogels_at_once_are_those_one_by_one) {
 }
 
 TEST(OverlapAdd, a_sample_is_the_same_whatever_the_region) {
-    const LightField rays = noise(70, 9, 9, 6, 12e-6);
-    const auto hologram = make_stereogram(rays, options_of(Phases::random, 6e-6));
+    const LightFieldBuffer rays = noise(70, 9, 9, 6, 12e-6);
+    const auto hologram = make_hologram(rays, options_of(Phases::random, 6e-6));
     const Region all{0, 0, 140, 18};
     Array<Complex, 2> whole({all.height, all.width});
     hologram->read(all, 0, whole);

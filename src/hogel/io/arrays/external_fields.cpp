@@ -34,7 +34,7 @@ std::vector<unsigned char> first_bytes(const std::filesystem::path& path) {
 
 }  // namespace
 
-void fail_foreign(const std::filesystem::path& path, const std::string& why) {
+void fail_external(const std::filesystem::path& path, const std::string& why) {
     throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", path.string(), why));
 }
 
@@ -84,56 +84,56 @@ double number_at(Number number, const unsigned char* at) {
     return value_at<double>(at);
 }
 
-Meaning::Meaning(const std::filesystem::path& path, const ForeignField& what, Number number, bool complex)
+Meaning::Meaning(const std::filesystem::path& path, const ExternalField& what, Number number, bool complex)
     : path_(path), values_(what.values), sign_(what.conjugate ? -1 : 1) {
-    using Values = ForeignField::Values;
-    if (complex && values_ != Values::complex)
+    using RayValues = ExternalField::RayValues;
+    if (complex && values_ != RayValues::complex)
         throw Error(ErrorCode::usage, fmt::format("'{}' holds complex numbers, not {}", path.string(),
-                                                  values_ == Values::phase ? "phases" : "amplitudes"));
-    if (!complex && values_ == Values::complex)
+                                                  values_ == RayValues::phase ? "phases" : "amplitudes"));
+    if (!complex && values_ == RayValues::complex)
         throw Error(ErrorCode::usage,
                     fmt::format("'{}' holds real numbers: are they amplitudes or phases?", path.string()));
     const bool whole = number != Number::single && number != Number::real;
-    if (whole && bytes_of(number) > 2 && values_ == Values::phase)
-        fail_foreign(path, "phases as whole numbers of more than 16 bits have no known unit");
+    if (whole && bytes_of(number) > 2 && values_ == RayValues::phase)
+        fail_external(path, "phases as whole numbers of more than 16 bits have no known unit");
     radians_ = whole ? 2 * std::numbers::pi / std::exp2(8.0 * static_cast<double>(bytes_of(number))) : 1;
 }
 
 std::complex<float> Meaning::operator()(double real, double imaginary) const {
     std::complex<double> value(real, imaginary);
-    if (values_ == ForeignField::Values::phase)
+    if (values_ == ExternalField::RayValues::phase)
         value = std::polar(1.0, std::fmod(real * radians_, 2 * std::numbers::pi));
     const std::complex<float> sample(std::complex<double>(value.real(), sign_ * value.imag()));
     if (!std::isfinite(sample.real()) || !std::isfinite(sample.imag()))
-        fail_foreign(path_, fmt::format("it holds the value {} + {}i, which no field has", real, imaginary));
+        fail_external(path_, fmt::format("it holds the value {} + {}i, which no field has", real, imaginary));
     return sample;
 }
 
-FieldGrid foreign_grid(const std::filesystem::path& path, const ForeignField& what, std::size_t width,
-                       std::size_t height) {
-    if (width == 0 || height == 0) fail_foreign(path, fmt::format("its array of {}x{} is empty", width, height));
+FieldGrid external_grid(const std::filesystem::path& path, const ExternalField& what, std::size_t width,
+                        std::size_t height) {
+    if (width == 0 || height == 0) fail_external(path, fmt::format("its array of {}x{} is empty", width, height));
     const FieldGrid grid{{width, height, what.pitch_x, what.pitch_y, 0, 0}, what.wavelength};
     validate(grid, ErrorCode::usage, fmt::format("'{}'", path.string()));
     return grid;
 }
 
-std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& path, const ForeignField& what) {
-    const auto number = [](const Codes& codes) {
+std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& path, const ExternalField& what) {
+    const auto number = [](const RawPixels& codes) {
         return codes.levels == 0 ? Number::single : codes.levels == 256 ? Number::uint8 : Number::uint16;
     };
-    const Codes real = read_codes(path);
+    const RawPixels real = read_raw_pixels(path);
     const std::size_t height = real.values.extent(0), width = real.values.extent(1);
     const bool complex = !what.imaginary.empty();
     const Meaning meaning(path, what, number(real), complex);
-    auto field = std::make_unique<Field>(foreign_grid(path, what, width, height));
+    auto field = std::make_unique<Field>(external_grid(path, what, width, height));
     Array<float, 2> imaginary(real.values.shape());
     if (complex) {
-        const Codes other = read_codes(what.imaginary);
+        const RawPixels other = read_raw_pixels(what.imaginary);
         if (real.levels != 0 || other.levels != 0)
-            fail_foreign(path, "real and imaginary parts are expected in pictures of floating point numbers");
+            fail_external(path, "real and imaginary parts are expected in pictures of floating point numbers");
         if (other.values.shape() != real.values.shape())
-            fail_foreign(what.imaginary, fmt::format("it has {}x{} pixels, but the real parts have {}x{}",
-                                                     other.values.extent(1), other.values.extent(0), width, height));
+            fail_external(what.imaginary, fmt::format("it has {}x{} pixels, but the real parts have {}x{}",
+                                                      other.values.extent(1), other.values.extent(0), width, height));
         imaginary = other.values;
     }
     for (std::size_t i = 0; i < real.values.size(); ++i)
@@ -147,12 +147,12 @@ namespace hogel {
 
 using namespace io::arrays;
 
-bool is_foreign_array(const std::filesystem::path& path) {
+bool is_external_array(const std::filesystem::path& path) {
     const std::vector<unsigned char> start = first_bytes(path);
     return is_npy(start) || is_mat(start);
 }
 
-std::unique_ptr<FieldSource> open_foreign_field(const std::filesystem::path& path, const ForeignField& what) {
+std::unique_ptr<FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what) {
     const std::vector<unsigned char> start = first_bytes(path);
     if (!is_npy(start) && !is_mat(start)) return open_picture_field(path, what);
     if (!what.imaginary.empty())

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Complex = std::complex<float>;
 using Bytes = std::vector<unsigned char>;
-using Values = ForeignField::Values;
+using RayValues = ExternalField::RayValues;
 
 class Foreign : public testing::Test {
   protected:
@@ -36,8 +36,8 @@ class Foreign : public testing::Test {
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_foreign_" + std::to_string(::getpid()));
 };
 
-ForeignField known(Values values = Values::complex) {
-    ForeignField what;
+ExternalField known(RayValues values = RayValues::complex) {
+    ExternalField what;
     what.pitch_x = what.pitch_y = 2e-6;
     what.wavelength = 633e-9;
     what.values = values;
@@ -185,7 +185,7 @@ void expect_example(const FieldSource& field, double sign = 1) {
 }
 
 TEST_F(Foreign, arrays_of_numpy_are_read_by_rows_and_by_columns) {
-    expect_example(*open_foreign_field(write("a.npy", npy_rows()), known()));
+    expect_example(*open_external_field(write("a.npy", npy_rows()), known()));
     const Bytes columns = npy("<c16", true, [](Bytes& bytes) {
         for (int column = 0; column < 2; ++column)
             for (int row = 0; row < 3; ++row) {
@@ -193,38 +193,38 @@ TEST_F(Foreign, arrays_of_numpy_are_read_by_rows_and_by_columns) {
                 put(bytes, double(2 * row + column + 6));
             }
     });
-    const auto field = open_foreign_field(write("b.npy", columns), known());
+    const auto field = open_external_field(write("b.npy", columns), known());
     expect_example(*field);
     Array<Complex, 2> corner({2, 1});
     field->read({1, 1, 1, 2}, 0, corner);
     EXPECT_EQ(corner(1, 0), Complex(5, 11));
-    ForeignField other = known();
+    ExternalField other = known();
     other.conjugate = true;
-    expect_example(*open_foreign_field(directory_ / "b.npy", other), -1);
-    EXPECT_TRUE(is_foreign_array(directory_ / "b.npy"));
+    expect_example(*open_external_field(directory_ / "b.npy", other), -1);
+    EXPECT_TRUE(is_external_array(directory_ / "b.npy"));
 }
 
 TEST_F(Foreign, arrays_are_written_as_numpy_writes_them) {
-    const auto field = open_foreign_field(write("a.npy", npy_rows()), known());
+    const auto field = open_external_field(write("a.npy", npy_rows()), known());
     write_npy(directory_ / "b.npy", all_of(*field));
     std::ifstream a(directory_ / "a.npy", std::ios::binary), b(directory_ / "b.npy", std::ios::binary);
     EXPECT_TRUE(std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b), {}));
 }
 
 TEST_F(Foreign, arrays_of_matlab_are_read_plain_and_compressed) {
-    expect_example(*open_foreign_field(write("a.mat", plain_mat()), known()));
-    expect_example(*open_foreign_field(write("b.mat", compressed_mat()), known()));
-    EXPECT_THROW(open_foreign_field(write("c.mat", two_arrays_mat()), known()), Error);
-    ForeignField which = known();
+    expect_example(*open_external_field(write("a.mat", plain_mat()), known()));
+    expect_example(*open_external_field(write("b.mat", compressed_mat()), known()));
+    EXPECT_THROW(open_external_field(write("c.mat", two_arrays_mat()), known()), Error);
+    ExternalField which = known();
     which.variable = "a";
-    expect_example(*open_foreign_field(directory_ / "c.mat", which));
-    expect_example(*open_foreign_field(write("d.mat", plain_mat73()), known()));
-    expect_example(*open_foreign_field(write("e.mat", chunked_mat73()), known()));
+    expect_example(*open_external_field(directory_ / "c.mat", which));
+    expect_example(*open_external_field(write("d.mat", plain_mat73()), known()));
+    expect_example(*open_external_field(write("e.mat", chunked_mat73()), known()));
     which.variable = "field";
-    expect_example(*open_foreign_field(directory_ / "e.mat", which));
+    expect_example(*open_external_field(directory_ / "e.mat", which));
     which.variable = "missing";
-    EXPECT_THROW(open_foreign_field(directory_ / "e.mat", which), Error);
-    EXPECT_THROW(open_foreign_field(directory_ / "c.mat", which), Error);
+    EXPECT_THROW(open_external_field(directory_ / "e.mat", which), Error);
+    EXPECT_THROW(open_external_field(directory_ / "c.mat", which), Error);
 }
 
 TEST_F(Foreign, real_numbers_are_amplitudes_or_phases_as_is_said) {
@@ -235,22 +235,22 @@ TEST_F(Foreign, real_numbers_are_amplitudes_or_phases_as_is_said) {
     };
     const fs::path radians = write("f.npy", reals("<f4", float())),
                    codes = write("u.npy", reals("<u2", std::uint16_t()));
-    EXPECT_THROW(open_foreign_field(radians, known()), Error);
-    EXPECT_THROW(open_foreign_field(write("a.npy", npy_rows()), known(Values::phase)), Error);
-    const auto at = [](const fs::path& path, Values values) {
-        return all_of(*open_foreign_field(path, known(values)))(2, 0);
+    EXPECT_THROW(open_external_field(radians, known()), Error);
+    EXPECT_THROW(open_external_field(write("a.npy", npy_rows()), known(RayValues::phase)), Error);
+    const auto at = [](const fs::path& path, RayValues values) {
+        return all_of(*open_external_field(path, known(values)))(2, 0);
     };
-    EXPECT_EQ(at(radians, Values::amplitude), Complex(4));
-    EXPECT_LT(std::abs(at(radians, Values::phase) - std::polar(1.0f, 4.0f)), 1e-6f);
-    EXPECT_LT(std::abs(at(codes, Values::phase) - std::polar(1.0f, float(2 * std::numbers::pi * 4 / 65536))), 1e-6f);
+    EXPECT_EQ(at(radians, RayValues::amplitude), Complex(4));
+    EXPECT_LT(std::abs(at(radians, RayValues::phase) - std::polar(1.0f, 4.0f)), 1e-6f);
+    EXPECT_LT(std::abs(at(codes, RayValues::phase) - std::polar(1.0f, float(2 * std::numbers::pi * 4 / 65536))), 1e-6f);
 }
 
 TEST_F(Foreign, pictures_are_codes_of_phases_amplitudes_or_two_parts) {
     Array<std::uint8_t, 3> levels({3, 2, 1});
     for (std::size_t i = 0; i < 6; ++i) levels.data()[i] = static_cast<std::uint8_t>(50 * i);
-    write_levels(directory_ / "p.png", levels);
-    const auto phases = all_of(*open_foreign_field(directory_ / "p.png", known(Values::phase)));
-    const auto amplitudes = all_of(*open_foreign_field(directory_ / "p.png", known(Values::amplitude)));
+    write_raw_pixels(directory_ / "p.png", levels);
+    const auto phases = all_of(*open_external_field(directory_ / "p.png", known(RayValues::phase)));
+    const auto amplitudes = all_of(*open_external_field(directory_ / "p.png", known(RayValues::amplitude)));
     for (std::size_t i = 0; i < 6; ++i) {
         const auto turn = static_cast<float>(2 * std::numbers::pi * 50.0 * double(i) / 256);
         EXPECT_LT(std::abs(phases.data()[i] - std::polar(1.0f, turn)), 1e-6f) << i;
@@ -263,12 +263,12 @@ TEST_F(Foreign, pictures_are_codes_of_phases_amplitudes_or_two_parts) {
     }
     write_image(directory_ / "r.exr", real);
     write_image(directory_ / "i.exr", imaginary);
-    ForeignField what = known();
+    ExternalField what = known();
     what.imaginary = directory_ / "i.exr";
-    expect_example(*open_foreign_field(directory_ / "r.exr", what));
+    expect_example(*open_external_field(directory_ / "r.exr", what));
     write_image(directory_ / "small.exr", Image(1, 3, 1));
     what.imaginary = directory_ / "small.exr";
-    EXPECT_THROW(open_foreign_field(directory_ / "r.exr", what), Error);
+    EXPECT_THROW(open_external_field(directory_ / "r.exr", what), Error);
 }
 
 // HDF5 leaves room for what a file might hold one day: zeros far from anything else, which nobody reads.
@@ -282,7 +282,7 @@ bool is_padding(const Bytes& bytes, std::size_t at) {
 // Damage is refused as such, or gives some field: nothing else.
 TEST_F(Foreign, damaged_files_are_refused_or_harmless) {
     const fs::path path = directory_ / "x";
-    ForeignField what = known();
+    ExternalField what = known();
     std::size_t refused = 0, read = 0;
     const auto attempt = [&](const Bytes& bytes) {
         {
@@ -291,7 +291,7 @@ TEST_F(Foreign, damaged_files_are_refused_or_harmless) {
             file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         }
         try {
-            const auto field = open_foreign_field(path, what);
+            const auto field = open_external_field(path, what);
             ASSERT_LE(field->grid().plane.samples(), 1000u);
             all_of(*field);
             ++read;

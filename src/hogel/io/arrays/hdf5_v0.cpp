@@ -11,7 +11,7 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 // No honest file of arrays comes near these; damaged ones may lead in circles.
-constexpr std::size_t most_members = 65536, most_nodes = 65536;
+constexpr std::size_t max_members = 65536, max_nodes = 65536;
 
 bool begins(std::span<const unsigned char> bytes, const char* signature) {
     return std::memcmp(bytes.data(), signature, std::strlen(signature)) == 0;
@@ -25,7 +25,7 @@ struct Link {
 // The members of a group: a tree (III.A.1) of nodes of symbols (III.B), with their names in a heap (III.D).
 class Group {
   public:
-    Group(const EarlyHdf5& file, std::uint64_t tree, std::uint64_t heap) : file_(file) {
+    Group(const Hdf5V0& file, std::uint64_t tree, std::uint64_t heap) : file_(file) {
         const Bytes head = file.at(heap, 32);
         if (!begins(head, "HEAP")) file.fail("its heap of names is damaged");
         ByteCursor rest(file, head);
@@ -40,7 +40,7 @@ class Group {
 
   private:
     void walk(std::uint64_t address, std::optional<std::uint64_t> above) {
-        if (++nodes_ > most_nodes) file_.fail("its tree of names is damaged");
+        if (++nodes_ > max_nodes) file_.fail("its tree of names is damaged");
         const Bytes head = file_.at(address, 24);
         if (begins(head, "SNOD")) return symbols(address, std::uint64_t{head[6]} | std::uint64_t{head[7]} << 8);
         const std::uint64_t level = head[5];
@@ -63,13 +63,13 @@ class Group {
             rest.skip(20);
             constexpr std::uint64_t symbolic = 2;
             if (kind == symbolic) continue;
-            if (name >= names_.size() || links.size() >= most_members) file_.fail("its names are damaged");
+            if (name >= names_.size() || links.size() >= max_members) file_.fail("its names are damaged");
             ByteCursor text(file_, std::span(names_).subspan(name));
             links.push_back({text.text(), header});
         }
     }
 
-    const EarlyHdf5& file_;
+    const Hdf5V0& file_;
     Bytes names_;
     std::size_t nodes_ = 0;
 };
@@ -97,7 +97,7 @@ std::string ByteCursor::text() {
     return {held.begin(), held.end()};
 }
 
-std::uint64_t EarlyDataset::samples() const {
+std::uint64_t Hdf5V0Dataset::samples() const {
     std::uint64_t n = 1;
     for (std::uint64_t extent : shape) {
         if (extent != 0 && n > (std::uint64_t{1} << 48) / extent) return std::uint64_t{1} << 48;
@@ -106,7 +106,7 @@ std::uint64_t EarlyDataset::samples() const {
     return n;
 }
 
-EarlyHdf5::EarlyHdf5(const std::filesystem::path& path) : file_(path, core::RawFile::Mode::read, path) {
+Hdf5V0::Hdf5V0(const std::filesystem::path& path) : file_(path, core::RawFile::Mode::read, path) {
     // The superblock (II.A) stands at the beginning or after a block of 512, 1024, … bytes.
     Bytes start;
     for (base_ = 512;; base_ *= 2) {
@@ -130,7 +130,7 @@ EarlyHdf5::EarlyHdf5(const std::filesystem::path& path) : file_(path, core::RawF
     root_ = rest.number(8);
 }
 
-std::vector<unsigned char> EarlyHdf5::at(std::uint64_t address, std::uint64_t bytes) const {
+std::vector<unsigned char> Hdf5V0::at(std::uint64_t address, std::uint64_t bytes) const {
     const std::uint64_t size = file_.size();
     if (base_ > size || address > size - base_ || bytes > size - base_ - address)
         fail(fmt::format("it leads beyond its own end of {} bytes", size));
@@ -139,11 +139,11 @@ std::vector<unsigned char> EarlyHdf5::at(std::uint64_t address, std::uint64_t by
     return held;
 }
 
-void EarlyHdf5::fail(const std::string& why) const { fail_foreign(file_.name(), why); }
+void Hdf5V0::fail(const std::string& why) const { fail_external(file_.name(), why); }
 
-std::vector<EarlyDataset> EarlyHdf5::datasets() const {
+std::vector<Hdf5V0Dataset> Hdf5V0::datasets() const {
     std::optional<std::pair<std::uint64_t, std::uint64_t>> table;
-    for_each_early_message(*this, root_, [&](std::uint64_t type, std::uint64_t, const Bytes& message) {
+    for_each_hdf5_v0_message(*this, root_, [&](std::uint64_t type, std::uint64_t, const Bytes& message) {
         constexpr std::uint64_t symbol_table = 0x11;
         if (type != symbol_table) return;
         ByteCursor rest(*this, message);
@@ -151,9 +151,9 @@ std::vector<EarlyDataset> EarlyHdf5::datasets() const {
         table = {tree, rest.number(8)};
     });
     if (!table) fail("its group of arrays is damaged or of a later version");
-    std::vector<EarlyDataset> list;
+    std::vector<Hdf5V0Dataset> list;
     for (const Link& link : Group(*this, table->first, table->second).links) {
-        EarlyDataset dataset = early_dataset(*this, link.name, link.header);
+        Hdf5V0Dataset dataset = hdf5_v0_dataset(*this, link.name, link.header);
         if (dataset.element_bytes > 0) list.push_back(std::move(dataset));  // others are groups
     }
     return list;

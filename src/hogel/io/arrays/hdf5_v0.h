@@ -12,7 +12,7 @@
 namespace hogel::io::arrays {
 
 /// A dataset of an early HDF5 file.
-struct EarlyDataset {
+struct Hdf5V0Dataset {
     struct Member {
         std::string name;  ///< empty where the elements are plain numbers
         Number number = Number::real;
@@ -46,14 +46,14 @@ struct EarlyDataset {
 /// reads, crashes where they are damaged. So what a file of arrays needs of them is read here (HDF5 file format
 /// specification 3.0): the datasets of the root group, whole, in one piece or in chunks, plain or by deflate, shuffle
 /// and fletcher32. All members throw Error(bad_input).
-class EarlyHdf5 {
+class Hdf5V0 {
   public:
-    explicit EarlyHdf5(const std::filesystem::path& path);
+    explicit Hdf5V0(const std::filesystem::path& path);
 
     /// The datasets of the root group, by name.
-    std::vector<EarlyDataset> datasets() const;
+    std::vector<Hdf5V0Dataset> datasets() const;
     /// All elements as they lie in the file's own order.
-    std::vector<unsigned char> read(const EarlyDataset& dataset) const;
+    std::vector<unsigned char> read(const Hdf5V0Dataset& dataset) const;
 
     /// So many bytes of the file from an address.
     std::vector<unsigned char> at(std::uint64_t address, std::uint64_t bytes) const;
@@ -65,17 +65,17 @@ class EarlyHdf5 {
 };
 
 /// The messages of an object's header, and of the blocks that continue it.
-void for_each_early_message(
-    const EarlyHdf5& file, std::uint64_t address,
+void for_each_hdf5_v0_message(
+    const Hdf5V0& file, std::uint64_t address,
     const std::function<void(std::uint64_t type, std::uint64_t flags, const std::vector<unsigned char>& message)>& use);
 
 /// The dataset whose header stands at an address; one of no bytes where that is a group.
-EarlyDataset early_dataset(const EarlyHdf5& file, const std::string& name, std::uint64_t header);
+Hdf5V0Dataset hdf5_v0_dataset(const Hdf5V0& file, const std::string& name, std::uint64_t header);
 
 /// Bytes taken one after the other; what would lie beyond their end is an error.
 class ByteCursor {
   public:
-    ByteCursor(const EarlyHdf5& file, std::span<const unsigned char> bytes)
+    ByteCursor(const Hdf5V0& file, std::span<const unsigned char> bytes)
         : file_(file), rest_(bytes), all_(bytes.size()) {}
 
     std::uint64_t number(std::size_t bytes);
@@ -88,7 +88,7 @@ class ByteCursor {
     std::size_t left() const { return rest_.size(); }
 
   private:
-    const EarlyHdf5& file_;
+    const Hdf5V0& file_;
     std::span<const unsigned char> rest_;
     std::size_t all_;
 };

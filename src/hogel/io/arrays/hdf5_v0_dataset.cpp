@@ -12,13 +12,13 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 constexpr std::uint64_t undefined = ~std::uint64_t{0};
-constexpr std::size_t most_axes = 32;
-constexpr std::size_t most_blocks = 1024;  // more than any honest header; damaged ones may lead in circles
+constexpr std::size_t max_axes = 32;
+constexpr std::size_t max_blocks = 1024;  // more than any honest header; damaged ones may lead in circles
 
-std::vector<std::uint64_t> extents(const EarlyHdf5& file, std::span<const unsigned char> message) {
+std::vector<std::uint64_t> extents(const Hdf5V0& file, std::span<const unsigned char> message) {
     ByteCursor rest(file, message);
     const std::uint64_t version = rest.number(1), rank = rest.number(1);
-    if ((version != 1 && version != 2) || rank > most_axes) file.fail("an array's extents are damaged");
+    if ((version != 1 && version != 2) || rank > max_axes) file.fail("an array's extents are damaged");
     rest.skip(version == 1 ? 6 : 2);
     std::vector<std::uint64_t> shape;
     for (std::uint64_t axis = 0; axis < rank; ++axis) shape.push_back(rest.number(8));
@@ -67,7 +67,7 @@ Type type_head(ByteCursor& rest) {
 }
 
 // Numbers, or a compound of them (IV.A.2.d); no members for anything else.
-void take_type(const EarlyHdf5& file, const Bytes& message, EarlyDataset& dataset) {
+void take_type(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     constexpr std::uint64_t compound = 6;
     ByteCursor rest(file, message);
     const Type type = type_head(rest);
@@ -78,9 +78,9 @@ void take_type(const EarlyHdf5& file, const Bytes& message, EarlyDataset& datase
         return;
     }
     if (type.version < 1 || type.version > 3) return;
-    std::vector<EarlyDataset::Member> members;
+    std::vector<Hdf5V0Dataset::Member> members;
     for (std::uint64_t i = 0; i < (type.bits & 0xffff); ++i) {
-        EarlyDataset::Member member;
+        Hdf5V0Dataset::Member member;
         const std::size_t begin = rest.taken();
         member.name = rest.text();
         if (type.version < 3) rest.skip((8 - (rest.taken() - begin) % 8) % 8);
@@ -101,7 +101,7 @@ void take_type(const EarlyHdf5& file, const Bytes& message, EarlyDataset& datase
     dataset.members = std::move(members);
 }
 
-void take_layout(const EarlyHdf5& file, const Bytes& message, EarlyDataset& dataset) {
+void take_layout(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     ByteCursor rest(file, message);
     if (rest.number(1) != 3) return;  // left unread, and refused when it is asked for
     const auto address = [&]() -> std::optional<std::uint64_t> {
@@ -110,20 +110,20 @@ void take_layout(const EarlyHdf5& file, const Bytes& message, EarlyDataset& data
     };
     switch (rest.number(1)) {
         case 0: {
-            dataset.layout = EarlyDataset::Layout::compact;
+            dataset.layout = Hdf5V0Dataset::Layout::compact;
             const auto held = rest.take(rest.number(2));
             dataset.compact.assign(held.begin(), held.end());
             break;
         }
         case 1:
-            dataset.layout = EarlyDataset::Layout::contiguous;
+            dataset.layout = Hdf5V0Dataset::Layout::contiguous;
             dataset.address = address();
             dataset.bytes = rest.number(8);
             break;
         case 2: {
-            dataset.layout = EarlyDataset::Layout::chunked;
+            dataset.layout = Hdf5V0Dataset::Layout::chunked;
             const std::uint64_t axes = rest.number(1);  // and one more for the bytes of an element
-            if (axes < 2 || axes > most_axes + 1) file.fail("an array's layout is damaged");
+            if (axes < 2 || axes > max_axes + 1) file.fail("an array's layout is damaged");
             dataset.address = address();
             for (std::uint64_t axis = 0; axis + 1 < axes; ++axis) dataset.chunk.push_back(rest.number(4));
             break;
@@ -133,13 +133,13 @@ void take_layout(const EarlyHdf5& file, const Bytes& message, EarlyDataset& data
     }
 }
 
-void take_filters(const EarlyHdf5& file, const Bytes& message, EarlyDataset& dataset) {
+void take_filters(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     ByteCursor rest(file, message);
     const std::uint64_t version = rest.number(1), count = rest.number(1);
     if (version != 1 && version != 2) file.fail("an array's filters are damaged");
     if (version == 1) rest.skip(6);
     for (std::uint64_t i = 0; i < count; ++i) {
-        EarlyDataset::Filter filter;
+        Hdf5V0Dataset::Filter filter;
         filter.id = rest.number(2);
         const std::uint64_t name_bytes = version == 1 || filter.id >= 256 ? rest.number(2) : 0;
         rest.skip(2);
@@ -151,7 +151,7 @@ void take_filters(const EarlyHdf5& file, const Bytes& message, EarlyDataset& dat
     }
 }
 
-void take_attribute(const EarlyHdf5& file, const Bytes& message, EarlyDataset& dataset) {
+void take_attribute(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     ByteCursor rest(file, message);
     const std::uint64_t version = rest.number(1), flags = rest.number(1);
     if (version < 1 || version > 3 || (version > 1 && flags != 0)) return;
@@ -176,8 +176,8 @@ void take_attribute(const EarlyHdf5& file, const Bytes& message, EarlyDataset& d
 }  // namespace
 
 // The messages of an object's header, version 1 (IV.A.1.a), and of the blocks that continue it.
-void for_each_early_message(
-    const EarlyHdf5& file, std::uint64_t address,
+void for_each_hdf5_v0_message(
+    const Hdf5V0& file, std::uint64_t address,
     const std::function<void(std::uint64_t type, std::uint64_t flags, const Bytes& message)>& use) {
     const Bytes prefix = file.at(address, 16);
     if (prefix[0] != 1) file.fail("an object's header is damaged or of a later version");
@@ -200,15 +200,15 @@ void for_each_early_message(
             ByteCursor more(file, message);
             const std::uint64_t offset = more.number(8);
             blocks.emplace_back(offset, more.number(8));
-            if (blocks.size() > most_blocks) file.fail("an object's header is damaged");
+            if (blocks.size() > max_blocks) file.fail("an object's header is damaged");
         }
     }
 }
 
-EarlyDataset early_dataset(const EarlyHdf5& file, const std::string& name, std::uint64_t header) {
-    EarlyDataset dataset;
+Hdf5V0Dataset hdf5_v0_dataset(const Hdf5V0& file, const std::string& name, std::uint64_t header) {
+    Hdf5V0Dataset dataset;
     dataset.name = name;
-    for_each_early_message(file, header, [&](std::uint64_t type, std::uint64_t flags, const Bytes& message) {
+    for_each_hdf5_v0_message(file, header, [&](std::uint64_t type, std::uint64_t flags, const Bytes& message) {
         constexpr std::uint64_t shared = 2;
         if ((flags & shared) != 0) return;  // lies elsewhere; a type so kept is one that this does not read
         if (type == 0x1) dataset.shape = extents(file, message);

@@ -14,9 +14,9 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 // Deflate reaches 1032.
-constexpr std::uint64_t most_expansion = 1040;
+constexpr std::uint64_t max_expansion = 1040;
 
-Bytes inflated(const EarlyHdf5& file, const Bytes& packed, std::size_t bytes) {
+Bytes inflated(const Hdf5V0& file, const Bytes& packed, std::size_t bytes) {
     Bytes plain(bytes);
     uLongf length = bytes;
     if (uncompress(plain.data(), &length, packed.data(), packed.size()) != Z_OK || length != bytes)
@@ -48,7 +48,7 @@ bool is_fletcher(std::uint32_t stored, std::span<const unsigned char> bytes) {
 // Puts the chunks of a dataset where they belong.
 class Chunks {
   public:
-    Chunks(const EarlyHdf5& file, const EarlyDataset& dataset) : file_(file), dataset_(dataset) {
+    Chunks(const Hdf5V0& file, const Hdf5V0Dataset& dataset) : file_(file), dataset_(dataset) {
         chunk_bytes_ = dataset.element_bytes;
         for (std::size_t axis = 0; axis < dataset.shape.size(); ++axis) {
             const std::uint64_t extent = dataset.chunk[axis];
@@ -95,7 +95,7 @@ class Chunks {
     Bytes plain(Bytes bytes, std::uint64_t left_out) const {
         constexpr std::uint64_t deflate = 1, shuffle = 2, checksum = 3;
         for (std::size_t i = dataset_.filters.size(); i-- > 0;) {
-            const EarlyDataset::Filter& filter = dataset_.filters[i];
+            const Hdf5V0Dataset::Filter& filter = dataset_.filters[i];
             if (i < 32 && (left_out >> i & 1) != 0) continue;
             if (filter.id == checksum) {
                 if (bytes.size() < 4) fail("has chunks that are damaged");
@@ -151,8 +151,8 @@ class Chunks {
         }
     }
 
-    const EarlyHdf5& file_;
-    const EarlyDataset& dataset_;
+    const Hdf5V0& file_;
+    const Hdf5V0Dataset& dataset_;
     std::uint64_t chunk_bytes_ = 0, missing_ = 1;
     std::size_t nodes_ = 0;
     Bytes all_;
@@ -161,12 +161,12 @@ class Chunks {
 
 }  // namespace
 
-std::vector<unsigned char> EarlyHdf5::read(const EarlyDataset& dataset) const {
-    using Layout = EarlyDataset::Layout;
+std::vector<unsigned char> Hdf5V0::read(const Hdf5V0Dataset& dataset) const {
+    using Layout = Hdf5V0Dataset::Layout;
     const auto refuse = [&](const char* why) { fail(fmt::format("its array '{}' {}", dataset.name, why)); };
     const std::uint64_t samples = dataset.samples();
     if (samples == 0) refuse("is empty");
-    if (samples / most_expansion > file_.size() / dataset.element_bytes)
+    if (samples / max_expansion > file_.size() / dataset.element_bytes)
         refuse("has more samples than the file can hold");
     const std::uint64_t bytes = samples * dataset.element_bytes;
     if (dataset.layout == Layout::compact) {

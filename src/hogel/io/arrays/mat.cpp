@@ -28,11 +28,11 @@ const MatArray& chosen(const std::filesystem::path& path, const std::vector<MatA
                        const std::string& name) {
     if (arrays.size() == 1) return arrays.front();
     if (arrays.empty())
-        fail_foreign(path, name.empty() ? "it holds no array of numbers with two axes"
-                                        : fmt::format("it holds no array '{}' of numbers with two axes", name));
+        fail_external(path, name.empty() ? "it holds no array of numbers with two axes"
+                                         : fmt::format("it holds no array '{}' of numbers with two axes", name));
     std::string names;
     for (const MatArray& array : arrays) names += fmt::format("{}{}", names.empty() ? "" : ", ", array.name);
-    fail_foreign(path, fmt::format("it holds several arrays; which one is meant of {}?", names));
+    fail_external(path, fmt::format("it holds several arrays; which one is meant of {}?", names));
 }
 
 }  // namespace
@@ -41,13 +41,13 @@ bool is_mat(std::span<const unsigned char> start) {
     return start.size() >= 128 && std::memcmp(start.data(), "MATLAB ", 7) == 0;
 }
 
-std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ForeignField& what) {
+std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ExternalField& what) {
     const std::vector<MatArray> arrays =
         is_version_73(path) ? read_mat73(path, what.variable) : read_mat5(path, all_bytes(path), what.variable);
     const MatArray& array = chosen(path, arrays, what.variable);
     const bool complex = !array.imaginary.empty();
     const Meaning meaning(path, what, array.floating ? Number::real : array.real_number, complex);
-    auto field = std::make_unique<Field>(foreign_grid(path, what, array.width, array.height));
+    auto field = std::make_unique<Field>(external_grid(path, what, array.width, array.height));
     const std::size_t real_bytes = bytes_of(array.real_number), imaginary_bytes = bytes_of(array.imaginary_number);
     for (std::size_t x = 0; x < array.width; ++x)
         for (std::size_t y = 0; y < array.height; ++y) {

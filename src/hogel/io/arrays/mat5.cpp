@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t type_int8 = 1, type_int32 = 5, type_uint32 = 6, type_array = 14, type_compressed = 15;
 constexpr std::size_t header_bytes = 128;
 // Deflate reaches 1032.
-constexpr std::size_t most_expansion = 1040;
+constexpr std::size_t max_expansion = 1040;
 
 struct Element {
     std::uint32_t type = 0;
@@ -30,17 +30,17 @@ class Elements {
     bool empty() const { return rest_.empty(); }
 
     Element next() {
-        if (rest_.size() < 8) fail_foreign(path_, "it ends inside an element");
+        if (rest_.size() < 8) fail_external(path_, "it ends inside an element");
         const std::uint32_t word = number(0);
         if (word >> 16 != 0) {  // small elements stand beside their type
             const std::size_t size = word >> 16;
-            if (size > 4) fail_foreign(path_, "a small element is damaged");
+            if (size > 4) fail_external(path_, "a small element is damaged");
             const Element small{word & 0xffff, rest_.subspan(4, size)};
             rest_ = rest_.subspan(8);
             return small;
         }
         const std::size_t size = number(4);
-        if (size > rest_.size() - 8) fail_foreign(path_, fmt::format("it ends inside an element of {} bytes", size));
+        if (size > rest_.size() - 8) fail_external(path_, fmt::format("it ends inside an element of {} bytes", size));
         const Element element{word, rest_.subspan(8, size)};
         const std::size_t padded = word == type_compressed ? size : (size + 7) / 8 * 8;
         rest_ = rest_.subspan(std::min(8 + padded, rest_.size()));
@@ -60,7 +60,7 @@ class Elements {
 
 std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span<const unsigned char> compressed) {
     z_stream stream{};
-    if (inflateInit(&stream) != Z_OK) fail_foreign(path, "zlib cannot start");
+    if (inflateInit(&stream) != Z_OK) fail_external(path, "zlib cannot start");
     struct End {
         z_stream& stream;
         ~End() { inflateEnd(&stream); }
@@ -77,13 +77,13 @@ std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span
             const int status = inflate(&stream, Z_NO_FLUSH);
             from += wanted - stream.avail_out;
             if (status == Z_STREAM_END ? from < bytes.size() : status != Z_OK)
-                fail_foreign(path, "a compressed array is damaged");
+                fail_external(path, "a compressed array is damaged");
         }
     };
     fill(0);
     std::uint32_t size = 0;
     std::memcpy(&size, &bytes[4], sizeof size);
-    if (size / most_expansion > compressed.size()) fail_foreign(path, "a compressed array is damaged");
+    if (size / max_expansion > compressed.size()) fail_external(path, "a compressed array is damaged");
     bytes.resize(8 + std::size_t{size});
     fill(8);
     return bytes;
@@ -107,7 +107,7 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
     Elements parts(path, bytes);
     const Element flags = parts.next(), extents = parts.next(), label = parts.next();
     if (flags.type != type_uint32 || flags.bytes.size() != 8 || extents.type != type_int32 || label.type != type_int8)
-        fail_foreign(path, "an array's head is damaged");
+        fail_external(path, "an array's head is damaged");
     constexpr unsigned char first_number = 6, last_number = 15, complex = 0x08;
     MatArray array;
     array.name.assign(label.bytes.begin(), label.bytes.end());
@@ -117,14 +117,14 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
     std::int32_t size[2];
     std::memcpy(size, extents.bytes.data(), sizeof size);
     if (size[0] <= 1 && size[1] <= 1 && name.empty()) return;  // a wavelength, say
-    if (size[0] <= 0 || size[1] <= 0) fail_foreign(path, fmt::format("its array '{}' is empty", array.name));
+    if (size[0] <= 0 || size[1] <= 0) fail_external(path, fmt::format("its array '{}' is empty", array.name));
     array.height = static_cast<std::size_t>(size[0]);
     array.width = static_cast<std::size_t>(size[1]);
     const auto take = [&](Number& number, std::vector<unsigned char>& to) {
         const Element numbers = parts.next();
         if (!number_of(numbers.type, number) || numbers.bytes.size() / bytes_of(number) / array.width != array.height ||
             numbers.bytes.size() != array.height * array.width * bytes_of(number))
-            fail_foreign(path, fmt::format("its array '{}' is damaged", array.name));
+            fail_external(path, fmt::format("its array '{}' is damaged", array.name));
         to.assign(numbers.bytes.begin(), numbers.bytes.end());
     };
     take(array.real_number, array.real);
@@ -139,8 +139,8 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
 std::vector<MatArray> read_mat5(const std::filesystem::path& path, std::span<const unsigned char> bytes,
                                 const std::string& name) {
     if (bytes.size() < header_bytes || bytes[126] != 'I' || bytes[127] != 'M')
-        fail_foreign(path, "it is not a little-endian MAT file");
-    if (bytes[125] != 1) fail_foreign(path, fmt::format("its MAT version {} is not known", bytes[125]));
+        fail_external(path, "it is not a little-endian MAT file");
+    if (bytes[125] != 1) fail_external(path, fmt::format("its MAT version {} is not known", bytes[125]));
     std::vector<MatArray> arrays;
     Elements elements(path, bytes.subspan(header_bytes));
     while (!elements.empty()) {

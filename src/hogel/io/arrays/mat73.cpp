@@ -13,7 +13,7 @@ namespace hogel::io::arrays {
 namespace {
 
 std::vector<unsigned char> numbers_of(const std::vector<unsigned char>& elements, std::size_t element_bytes,
-                                      const EarlyDataset::Member& member) {
+                                      const Hdf5V0Dataset::Member& member) {
     const std::size_t bytes = bytes_of(member.number), count = elements.size() / element_bytes;
     std::vector<unsigned char> numbers(count * bytes);
     for (std::size_t i = 0; i < count; ++i)
@@ -21,13 +21,13 @@ std::vector<unsigned char> numbers_of(const std::vector<unsigned char>& elements
     return numbers;
 }
 
-bool is_complex(const EarlyDataset& dataset) {
+bool is_complex(const Hdf5V0Dataset& dataset) {
     return dataset.element_bytes <= 16 && dataset.members.size() == 2 && dataset.members[0].name == "real" &&
            dataset.members[1].name == "imag";
 }
 
 // Texts and truth values are whole numbers too, and a cell is a list of places.
-bool is_numeric(const EarlyDataset& dataset) {
+bool is_numeric(const Hdf5V0Dataset& dataset) {
     static constexpr const char* classes[] = {"double", "single", "int8",   "uint8", "int16",
                                               "uint16", "int32",  "uint32", "int64", "uint64"};
     const auto named = dataset.texts.find("MATLAB_class");
@@ -38,9 +38,9 @@ bool is_numeric(const EarlyDataset& dataset) {
 }  // namespace
 
 std::vector<MatArray> read_mat73(const std::filesystem::path& path, const std::string& name) {
-    const EarlyHdf5 file(path);
+    const Hdf5V0 file(path);
     std::vector<MatArray> arrays;
-    for (const EarlyDataset& dataset : file.datasets()) {
+    for (const Hdf5V0Dataset& dataset : file.datasets()) {
         if (!is_numeric(dataset) || dataset.shape.size() != 2 || (!name.empty() && dataset.name != name)) continue;
         if (dataset.shape[0] <= 1 && dataset.shape[1] <= 1 && name.empty()) continue;  // a wavelength, say
         MatArray array;

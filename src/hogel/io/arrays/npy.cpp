@@ -75,15 +75,15 @@ void parse_type(const std::filesystem::path& path, std::string_view descr, Heade
     std::string shown(descr.substr(0, std::min<std::size_t>(descr.find(','), 12)));
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
-    fail_foreign(path,
-                 fmt::format("its numbers are of type {}; <c8, <c16, <f4, <f8 and whole numbers are read", shown));
+    fail_external(path,
+                  fmt::format("its numbers are of type {}; <c8, <c16, <f4, <f8 and whole numbers are read", shown));
 }
 
 Header read_header(const std::filesystem::path& path, const core::RawFile& file) {
     std::array<unsigned char, 12> start{};
     file.read(0, start.data(), 10);
     const int version = start[6];
-    if (version < 1 || version > 3) fail_foreign(path, fmt::format("its NPY version {} is not known", version));
+    if (version < 1 || version > 3) fail_external(path, fmt::format("its NPY version {} is not known", version));
     Header header;
     std::size_t length = start[8] + 256u * start[9];
     header.begin = 10;
@@ -93,7 +93,7 @@ Header read_header(const std::filesystem::path& path, const core::RawFile& file)
         header.begin = 12;
     }
     if (length > longest_header || header.begin + length > file.size())
-        fail_foreign(path, fmt::format("its header of {} bytes is damaged", length));
+        fail_external(path, fmt::format("its header of {} bytes is damaged", length));
     std::string text(length, '\0');
     file.read(header.begin, text.data(), length);
     header.begin += length;
@@ -105,20 +105,20 @@ Header read_header(const std::filesystem::path& path, const core::RawFile& file)
     const bool flat = take(shape, '(') && take_number(shape, header.height) && take(shape, ',') &&
                       take_number(shape, header.width) && (take(shape, ',') || true) && take(shape, ')');
     if (!flat || (!header.by_columns && !order.starts_with("False")))
-        fail_foreign(path, "an array of two axes, [row][column], was expected");
+        fail_external(path, "an array of two axes, [row][column], was expected");
     const std::uint64_t bytes = bytes_of(header.number) * (header.complex ? 2 : 1), held = file.size() - header.begin;
     if (header.width > 0 && header.height > held / bytes / header.width)
-        fail_foreign(path, fmt::format("it is truncated: {} bytes are too few for {}x{} numbers of {} bytes", held,
-                                       header.width, header.height, bytes));
+        fail_external(path, fmt::format("it is truncated: {} bytes are too few for {}x{} numbers of {} bytes", held,
+                                        header.width, header.height, bytes));
     return header;
 }
 
 class NpyField final : public FieldSource {
   public:
-    NpyField(const std::filesystem::path& path, const ForeignField& what)
+    NpyField(const std::filesystem::path& path, const ExternalField& what)
         : file_(path, core::RawFile::Mode::read, path),
           header_(read_header(path, file_)),
-          grid_(foreign_grid(path, what, header_.width, header_.height)),
+          grid_(external_grid(path, what, header_.width, header_.height)),
           meaning_(path, what, header_.number, header_.complex) {}
 
     const FieldGrid& grid() const override { return grid_; }
@@ -156,7 +156,7 @@ bool is_npy(std::span<const unsigned char> start) {
     return start.size() >= magic.size() && std::equal(magic.begin(), magic.end(), start.begin());
 }
 
-std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ForeignField& what) {
+std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ExternalField& what) {
     return std::make_unique<NpyField>(path, what);
 }
 

@@ -9,7 +9,7 @@ namespace hogel::io::hdf5 {
 namespace {
 
 constexpr std::size_t longest_text = 60000;  // an object header message of HDF5 holds 64 kB
-constexpr hsize_t most_attributes = 1000;
+constexpr hsize_t max_attributes = 1000;
 
 struct Attribute {
     Handle id, type;
@@ -109,9 +109,9 @@ Attributes root_attributes(const char* format, const Metadata& metadata) {
         const auto same_key = [&](const auto& attribute) { return attribute.first == key; };
         if (key.empty() || key.find('\0') != std::string::npos || std::ranges::any_of(attributes, same_key))
             throw Error(ErrorCode::usage, fmt::format("metadata '{}': the key is empty, reserved or there twice", key));
-        if (key.size() > 255 || text.size() >= longest_text || attributes.size() >= most_attributes)
+        if (key.size() > 255 || text.size() >= longest_text || attributes.size() >= max_attributes)
             throw Error(ErrorCode::usage, fmt::format("metadata '{}' is more than a file holds: {} entries of {} bytes",
-                                                      key, most_attributes, longest_text));
+                                                      key, max_attributes, longest_text));
         attributes.emplace_back(key, text);
     }
     return attributes;
@@ -121,7 +121,7 @@ Metadata read_metadata(hid_t file, const std::filesystem::path& path) {
     Metadata metadata;
     H5O_info_t info;
     if (H5Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) fail(path, reason());
-    for (hsize_t i = 0; i < std::min(info.num_attrs, most_attributes); ++i) {
+    for (hsize_t i = 0; i < std::min(info.num_attrs, max_attributes); ++i) {
         const Handle id(H5Aopen_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         std::string name(256, '\0');
         const ssize_t length = id.valid() ? H5Aget_name(id.id(), name.size(), name.data()) : -1;

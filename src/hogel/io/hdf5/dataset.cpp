@@ -15,7 +15,7 @@ using hdf5::Element;
 using hdf5::Handle;
 
 constexpr std::size_t piece = 32768;  // halves converted at a time: they stay in the nearest caches
-constexpr std::size_t largest_chunk = std::size_t{256} << 20;
+constexpr std::size_t max_chunk = std::size_t{256} << 20;
 
 // Calls run(index in the array, index in the box, samples) for each contiguous piece of a box of a row-major array.
 template <class Run>
@@ -124,8 +124,8 @@ void DatasetReader::check_storage(hid_t dataset, hid_t properties) {
         if (H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) != static_cast<int>(chunk.size()))
             fail("is damaged: " + hdf5::reason());
         for (const hsize_t extent : chunk) {
-            if (extent == 0 || extent > largest_chunk / chunk_bytes)
-                fail(fmt::format("has chunks of more than {} bytes", largest_chunk));
+            if (extent == 0 || extent > max_chunk / chunk_bytes)
+                fail(fmt::format("has chunks of more than {} bytes", max_chunk));
             chunk_bytes *= extent;
         }
     }

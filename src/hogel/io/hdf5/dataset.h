@@ -78,7 +78,7 @@ class DatasetFile {
     std::vector<std::uint64_t> offsets_;
     std::optional<core::RawFile> raw_;
     std::mutex writing_;
-    core::Reused<std::vector<std::uint16_t>> halves_;
+    core::ObjectPool<std::vector<std::uint16_t>> halves_;
     std::optional<core::Journal> journal_;  // goes first: it flushes the file
 };
 

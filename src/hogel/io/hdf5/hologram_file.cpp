@@ -11,8 +11,8 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-constexpr std::size_t most_fields = 64;
-constexpr float largest_half = 65504;
+constexpr std::size_t max_fields = 64;
+constexpr float max_half = 65504;
 
 std::string samples_name(std::size_t field) { return fmt::format("field{}/samples", field); }
 
@@ -98,10 +98,10 @@ class FieldWriter final : public FieldSink {
     void require_halves(std::span<const float> numbers) const {
         float largest = 0;
         for (const float number : numbers) largest = std::max(largest, std::abs(number));
-        if (largest > largest_half)
+        if (largest > max_half)
             throw Error(ErrorCode::usage, fmt::format("cannot write '{}': a sample of {} was found, and 16-bit floats "
                                                       "end at {}; 32-bit floats would do",
-                                                      shared_->file.path().string(), largest, largest_half));
+                                                      shared_->file.path().string(), largest, max_half));
     }
 
     FieldGrid grid_;
@@ -145,7 +145,7 @@ std::vector<FieldGrid> read_hologram_grids(hid_t file, const std::filesystem::pa
     std::vector<FieldGrid> grids;
     do {
         grids.push_back(read_field_grid(file, grids.size(), path));
-    } while (grids.size() < most_fields && hdf5::has_member(file, fmt::format("field{}", grids.size()).c_str(), path));
+    } while (grids.size() < max_fields && hdf5::has_member(file, fmt::format("field{}", grids.size()).c_str(), path));
     return grids;
 }
 
@@ -178,9 +178,9 @@ HologramFile open_hologram(const std::filesystem::path& path) {
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
                                                         std::span<const FieldGrid> grids,
                                                         const HologramFileOptions& options) {
-    if (grids.empty() || grids.size() > most_fields)
+    if (grids.empty() || grids.size() > max_fields)
         throw Error(ErrorCode::usage, fmt::format("hologram '{}': {} fields, but 1 to {} can be written", path.string(),
-                                                  grids.size(), most_fields));
+                                                  grids.size(), max_fields));
     const bool halves = options.type == SampleType::half;
     const Parts parts = halves ? Parts::axis : Parts::members;
     std::vector<hdf5::NewDataset> datasets;

@@ -101,7 +101,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
 
 void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<float, 2> intensity) const {
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
-    // Between nodes the intensities cross over linearly.
+    // Interpolation nodes the intensities cross over linearly.
     const auto weight = [](std::size_t k, std::size_t size, std::size_t at, std::size_t nodes) {
         const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(size) * static_cast<double>(nodes);
         const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);

@@ -55,7 +55,7 @@ class InterpolationTable {
 };
 
 /// Catmull and Rom's cubic through four neighbours of value(0 … count − 1) at a place between: intensities come with
-/// two samples to their finest wave, for which straight lines would be too coarse. Nothing outside. Values may be
+/// two samples to their finest wave, for which straight lines would be too coarse. Nothing outside. RayValues may be
 /// complex.
 template <class Value>
 auto cubic_at(std::size_t count, double place, const Value& value) {

@@ -21,7 +21,7 @@ void add_down_columns(const float* values, std::size_t stride, std::size_t heigh
                       float weight, std::span<float> out);
 
 /// out[k] += weight · r³ · the value of `line` at offset + scale · d/r, with d = first + k · pitch and
-/// r = √(d² + square): what lies in direction sine d/r. Values below zero count as zero.
+/// r = √(d² + square): what lies in direction sine d/r. RayValues below zero count as zero.
 struct LinePlaces {
     double first = 0, pitch = 0, square = 0;
     double scale = 0, offset = 0;

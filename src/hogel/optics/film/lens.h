@@ -105,7 +105,7 @@ class FilmLens {
     }
 
   private:
-    static constexpr double most_nodes = 33;
+    static constexpr double max_nodes = 33;
 
     struct Direction {
         Direction(double nx, double ny) : x(nx), y(ny), cosine(std::sqrt(1 - nx * nx - ny * ny)) {}
@@ -170,7 +170,7 @@ class FilmLens {
             change = std::max(change, std::abs(at(0.5) - at(-0.5)));
         }
         const double nodes = std::ceil(2 * std::numbers::pi * change / 0.5);
-        return static_cast<std::size_t>(std::clamp(nodes, 1.0, most_nodes));
+        return static_cast<std::size_t>(std::clamp(nodes, 1.0, max_nodes));
     }
 
     const SineGrid& sines_;

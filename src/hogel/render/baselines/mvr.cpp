@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/row_axes.h"
 #include "hogel/render/row_tile.h"
 #include "hogel/render/span.h"

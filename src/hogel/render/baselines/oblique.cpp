@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "hogel/render/baselines/oblique.h"
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/span.h"
 
@@ -27,7 +27,7 @@ struct TriangleInHogels {
         return samples_between(*low, *high, nt);
     }
 
-    // Between the outermost places where edges cross the row, or end within the margin of it.
+    // Interpolation the outermost places where edges cross the row, or end within the margin of it.
     Span columns(std::size_t row, std::size_t ns) const {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         const auto include = [&](double place) {

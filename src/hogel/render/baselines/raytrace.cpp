@@ -6,8 +6,8 @@
 
 #include "hogel/render/baselines/raytrace.h"
 #include "hogel/render/sample_store.h"
-#include "hogel/trace/ray_caster.h"
 #include "hogel/shading/triangles.h"
+#include "hogel/trace/ray_caster.h"
 
 namespace hogel::render::baselines {
 namespace {
@@ -60,7 +60,7 @@ class RaytraceRenderer final : public LightFieldSource {
         for (std::size_t v = 0; v < nv; ++v)
             for (std::size_t u = 0; u < nu; ++u) {
                 const Vec3 way =
-                    grid_.along(grid_.u(static_cast<double>(u0 + u)), grid_.v(static_cast<double>(v0 + v)));
+                    grid_.direction_of(grid_.u(static_cast<double>(u0 + u)), grid_.v(static_cast<double>(v0 + v)));
                 const Vec3 start = hogel + way * near;
                 // z = −ζ: with this direction the distance along the ray is counted in steps.
                 origins[v * nu + u] = {start.x, start.y, -start.z};

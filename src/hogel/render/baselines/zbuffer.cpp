@@ -50,7 +50,7 @@ class ZbufferRenderer final : public LightFieldSource {
         // Nearer to the plane than this a projection is no longer trusted to bound a triangle.
         double size = 0;
         for (const Vec3& p : scene_->positions) size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        least_depth_ = 1e-6 * size;
+        min_depth_ = 1e-6 * size;
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -83,7 +83,7 @@ class ZbufferRenderer final : public LightFieldSource {
     // The picture counts depth in steps forward.
     void store_in_metres(LightFieldTile& tile, VisiblePoint point, std::size_t t, std::size_t s, std::size_t v,
                          std::size_t u) const {
-        point.depth *= grid_.along(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))).z;
+        point.depth *= grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))).z;
         store(tile, *scene_, grid_, point, t, s, v, u);
     }
 
@@ -99,7 +99,7 @@ class ZbufferRenderer final : public LightFieldSource {
         double k0 = 0, k1 = static_cast<double>(grid_.directions_u) - 1;
         double l0 = 0, l1 = static_cast<double>(grid_.directions_v) - 1;
         const auto [shallow, deep] = std::minmax({a.depth, b.depth, c.depth});
-        if (shallow > least_depth_ || deep < -least_depth_) {
+        if (shallow > min_depth_ || deep < -min_depth_) {
             constexpr double rounding = 1e-6;
             k0 = std::max(k0, std::ceil(std::min({a.k, b.k, c.k}) - rounding));
             k1 = std::min(k1, std::floor(std::max({a.k, b.k, c.k}) + rounding));
@@ -137,7 +137,7 @@ class ZbufferRenderer final : public LightFieldSource {
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
-    double least_depth_ = 0;
+    double min_depth_ = 0;
 };
 
 }  // namespace

@@ -23,14 +23,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 // itself, a column of directions at once.
 constexpr float cost_of_vector = 20, cost_of_candidates = 12, cost_of_hit = 3, cost_of_row = 7;
 
-constexpr std::size_t most_lanes = HWY_MAX_BYTES / 4;
+constexpr std::size_t max_lanes = HWY_MAX_BYTES / 4;
 
 // Bounds of what a vector of strips can cover, and the way to go over each that takes least.
 struct Bounded {
-    enum Way : std::int32_t { nowhere, rows, directions, columns };
-    HWY_ALIGN float n_begin[most_lanes], n_end[most_lanes], per_z0[most_lanes], per_z1[most_lanes], margin[most_lanes],
-        K_begin[most_lanes], K_end[most_lanes];
-    HWY_ALIGN std::int32_t way[most_lanes], nearest[most_lanes];
+    enum PropagationOptions : std::int32_t { nowhere, rows, directions, columns };
+    HWY_ALIGN float n_begin[max_lanes], n_end[max_lanes], per_z0[max_lanes], per_z1[max_lanes], margin[max_lanes],
+        K_begin[max_lanes], K_end[max_lanes];
+    HWY_ALIGN std::int32_t way[max_lanes], nearest[max_lanes];
 };
 
 // Of the samples of a plane.
@@ -59,9 +59,9 @@ HWY_NOINLINE inline void bound_strips(const float* ends, const Extent& plane, Bo
     FloatMask seen = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
     if (plane.fronts_only) {
         // Beyond the rounding of c.
-        const Floats most_steps = hn::Max(hn::Abs(k_first), hn::Abs(k_last));
+        const Floats max_steps = hn::Max(hn::Abs(k_first), hn::Abs(k_last));
         const Floats size =
-            hn::Add(hn::Max(hn::Abs(x0), hn::Abs(x1)), hn::Mul(most_steps, hn::Max(hn::Abs(z0), hn::Abs(z1))));
+            hn::Add(hn::Max(hn::Abs(x0), hn::Abs(x1)), hn::Mul(max_steps, hn::Max(hn::Abs(z0), hn::Abs(z1))));
         const Floats back = hn::Mul(hn::Set(d, -1e-6f), size);
         seen = hn::And(seen, hn::Or(hn::Ge(hn::Sub(c[2], c[0]), back), hn::Ge(hn::Sub(c[3], c[1]), back)));
     }

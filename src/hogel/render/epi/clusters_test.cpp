@@ -116,7 +116,7 @@ TEST(EpipolarFrame, counts_in_samples) {
         for (std::size_t i = 0; i < frame.axes().fast_hogels(all); ++i)
             for (std::size_t k = 0; k < frame.axes().fast_directions(); ++k) {
                 const auto [t, s, v, u] = frame.axes().sample(2, i, 5, k);
-                const Vec3 way = g.along(g.u(double(u)), g.v(double(v)));
+                const Vec3 way = g.direction_of(g.u(double(u)), g.v(double(v)));
                 const double steps = 3e-3;
                 const Vec3 p =
                     frame.in_samples({g.s(double(s)) + steps * way.x, g.t(double(t)) + steps * way.y, -steps * way.z});

@@ -39,7 +39,7 @@ HeightScale::HeightScale(const ClusterBox& box, const RowRays& rays)
     const double last_slope = rays.slope + rays.step * static_cast<double>(rays.planes - 1);
     steepest = 1.000001f * static_cast<float>(std::max(std::abs(rays.slope), std::abs(last_slope)));
     error = 1.01f * (y_error + steepest * z_error);
-    rounding = 1e-6f * (std::abs(first) + 2 * static_cast<float>(RowRays::most_planes));
+    rounding = 1e-6f * (std::abs(first) + 2 * static_cast<float>(RowRays::max_planes));
     most = 0.25f * std::abs(per_slope) / z_error;
 }
 

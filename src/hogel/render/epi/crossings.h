@@ -12,10 +12,10 @@ namespace hogel::render::epi {
 /// n_last in directions from K_first to K_last (EpipolarFrame, EpipolarPlane).
 struct RowRays {
     double row, z0, slope, step;
-    std::size_t planes;  ///< from 1 to most_planes
+    std::size_t planes;  ///< from 1 to max_planes
     double shift, n_first, n_last, K_first, K_last;
 
-    static constexpr std::size_t most_planes = 256;
+    static constexpr std::size_t max_planes = 256;
 };
 
 /// The triangles of a cluster that a plane may cross: bit i for triangle i.

@@ -24,7 +24,7 @@ using Floats = hn::Vec<FloatTag>;
 // Heights are asked for so many clusters ahead.
 constexpr std::size_t clusters_ahead = 3;
 
-static_assert(RowRays::most_planes <= 256, "a plane's number fits a byte");
+static_assert(RowRays::max_planes <= 256, "a plane's number fits a byte");
 
 HWY_INLINE Floats steps_of(const std::uint16_t* steps) {
     const FloatTag d;
@@ -45,7 +45,7 @@ HWY_INLINE void find_planes(const ClusterHeights& heights, const HeightScale& sc
     const IntTag di;
     const hn::Rebind<std::uint8_t, FloatTag> d8;
     const Floats zero = hn::Zero(d), last = hn::Set(d, static_cast<float>(planes - 1));
-    const Floats highest = hn::Set(d, static_cast<float>(RowRays::most_planes - 1));
+    const Floats highest = hn::Set(d, static_cast<float>(RowRays::max_planes - 1));
     Floats least = highest, greatest = zero;
     for (std::size_t i = 0; i < cluster_size; i += hn::Lanes(d)) {
         Floats y[3], z[3], R[3], at[3];

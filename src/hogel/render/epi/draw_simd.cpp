@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // The directions of a vector in which interleaving makes words of neighbours, and the lanes in their own order.
 struct LaneOrder {
-    HWY_ALIGN float in_order[most_lanes], steps[most_lanes];
+    HWY_ALIGN float in_order[max_lanes], steps[max_lanes];
 
     LaneOrder() {
         const std::size_t half = hn::Lanes(FloatTag()) / 2;
@@ -79,8 +79,8 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
     const auto k_begin = static_cast<std::size_t>(K_begin - on.extent.k_first);
     const auto k_end = static_cast<std::size_t>(K_end - on.extent.k_first);
     const std::size_t row_end = k_end / cell_directions + 1;
-    HWY_ALIGN float firsts[most_lanes];
-    HWY_ALIGN std::int32_t columns[most_lanes], counts[most_lanes];
+    HWY_ALIGN float firsts[max_lanes];
+    HWY_ALIGN std::int32_t columns[max_lanes], counts[max_lanes];
     std::size_t drawn = 0;
     for (std::size_t group = k_begin / cell_directions; group < row_end; group += lanes) {
         Floats from, to;
@@ -194,7 +194,7 @@ void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane&
     Candidates candidates(plane, strips, first, hits);
     const std::size_t lanes = hn::Lanes(FloatTag());
     Bounded bounded;
-    HWY_ALIGN Strip last[most_lanes];
+    HWY_ALIGN Strip last[max_lanes];
     for (std::size_t begin = 0; begin < strips.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, strips.size() - begin);
         const Strip* some = strips.data() + begin;

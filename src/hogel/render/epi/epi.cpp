@@ -17,21 +17,21 @@ namespace hogel::render::epi {
 namespace {
 
 // So many samples of an epipolar plane are drawn at once that their words stay in the second level cache.
-constexpr std::size_t most_words = std::size_t{96} << 10;
+constexpr std::size_t max_words = std::size_t{96} << 10;
 
 // So many triangles, or a few more, are set up together.
-constexpr std::size_t most_waiting = 64;
+constexpr std::size_t max_waiting = 64;
 
 // What is known of clusters' boxes is asked for so many clusters ahead.
 constexpr std::size_t boxes_ahead = 8;
 
 // A thread that copies a light field holds one tile.
-constexpr std::size_t most_tile_bytes = std::size_t{384} << 20;
+constexpr std::size_t max_tile_bytes = std::size_t{384} << 20;
 
 // After so many strips, or more if a plane has many samples, it is looked again which samples are covered: often enough
 // to leave little in vain, and seldom enough to cost little. Strips that cover many cells are looked at sooner: as soon
 // as so much has been drawn as would fill the plane.
-constexpr std::size_t fewest_between_updates = 128, samples_between_updates = 256;
+constexpr std::size_t min_between_updates = 128, samples_between_updates = 256;
 
 class EpiRenderer final : public LightFieldSource {
   public:
@@ -53,7 +53,7 @@ class EpiRenderer final : public LightFieldSource {
         const HogelRange all{0, 0, grid_.hogels_s, grid_.hogels_t};
         const std::size_t length = axes_.fast_hogels(all);
         const std::size_t hogel_bytes = (grid_.channels + 1) * grid_.directions() * sizeof(float);
-        const std::size_t most = std::max<std::size_t>(1, most_tile_bytes / hogel_bytes);
+        const std::size_t most = std::max<std::size_t>(1, max_tile_bytes / hogel_bytes);
         const std::size_t parts = (length + most - 1) / most, part = (length + parts - 1) / parts;
         const std::size_t rows =
             std::min(axes_.slow_hogels(all), std::max<std::size_t>(1, default_tile(grid_).hogels() / part));
@@ -64,7 +64,7 @@ class EpiRenderer final : public LightFieldSource {
         const HogelRange& range = tile.range;
         const std::size_t hogels = axes_.fast_hogels(range), directions = axes_.fast_directions();
         const std::size_t columns =
-            std::min({hogels, std::max<std::size_t>(16, most_words / directions), CellColumns::most});
+            std::min({hogels, std::max<std::size_t>(16, max_words / directions), CellColumns::most});
         const std::size_t first_row = axes_.turned() ? range.s0 : range.t0;
         const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
         std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions + EpipolarPlane::spare,
@@ -84,7 +84,7 @@ class EpiRenderer final : public LightFieldSource {
                 const EpipolarFrame::Plane any = frame_.plane(first_row + row, 0);
                 work.boxes.begin_row(clusters_.boxes, plane, any.shift, any.z0);
                 for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
-                    const std::size_t of_slab = slow % RowRays::most_planes;
+                    const std::size_t of_slab = slow % RowRays::max_planes;
                     if (of_slab == 0) find_crossings(clusters_, rays_of(plane, first_row + row, slow), work.crossings);
                     draw_plane(plane, frame_.plane(first_row + row, slow), work.crossings[of_slab], work);
                     const First first{first_row + row, first_column + column, slow};
@@ -128,7 +128,7 @@ class EpiRenderer final : public LightFieldSource {
                 first.z0,
                 first.slope,
                 next.slope - first.slope,
-                std::min(RowRays::most_planes, axes_.slow_directions() - slow),
+                std::min(RowRays::max_planes, axes_.slow_directions() - slow),
                 first.shift,
                 n_first,
                 n_first + static_cast<double>(plane.columns) - 1,
@@ -149,7 +149,7 @@ class EpiRenderer final : public LightFieldSource {
         work.count = 1;
         if (needs_samples_) work.lit.clear(background_);
         std::size_t between_updates =
-            std::max(fewest_between_updates, plane.columns * plane.directions / samples_between_updates);
+            std::max(min_between_updates, plane.columns * plane.directions / samples_between_updates);
         std::size_t drawn = 1, updated = 1;
         const auto draw_rest = [&] {
             draw(std::span(work.strips).subspan(drawn, work.count - drawn), drawn, plane);
@@ -167,9 +167,9 @@ class EpiRenderer final : public LightFieldSource {
                 __builtin_prefetch(lines);
                 __builtin_prefetch(lines + 64);
             }
-            if (work.waiting.size() < most_waiting) continue;
+            if (work.waiting.size() < max_waiting) continue;
             add_strips(work, place);
-            if (work.count < drawn + fewest_between_updates) continue;
+            if (work.count < drawn + min_between_updates) continue;
             draw_rest();
             const bool after_many = work.count >= updated + between_updates;
             if (!after_many && cells.drawn < plane.columns * PlaneCells::rows(plane.directions)) continue;
@@ -253,7 +253,7 @@ class EpiRenderer final : public LightFieldSource {
         if (needs_samples_)
             shade_lit(plane, work.shades, work.lit, PlaneSamples(*this, work, first), out);
         else
-            shade(plane, std::span(work.shades).first(work.count), out);
+            shade_scene(plane, std::span(work.shades).first(work.count), out);
     }
 
     // What is worked out for single samples of a plane.
@@ -270,7 +270,7 @@ class EpiRenderer final : public LightFieldSource {
             const auto sample =
                 renderer_.axes_.sample(first_.slow_hogel, first_.fast_hogel + column, first_.slow_direction, k);
             const LightFieldGrid& grid = renderer_.grid_;
-            const Sight sight =
+            const ViewSample sight =
                 sight_along(grid, grid.u(static_cast<double>(sample.u)), grid.v(static_cast<double>(sample.v)), depth);
             return radiance_at(*renderer_.scene_, from.triangle, b0, b1, b2, sight);
         }

@@ -55,7 +55,7 @@ class EpipolarFrame {
         const Vec3 here = axes_.turned() ? Vec3{place, 0, 0} : Vec3{0, place, 0};
         const double z0 = axes_.seen(here, 0).forward * step_;
         const double direction_here = axes_.slow_direction(direction);
-        const Vec3 way = axes_.turned() ? grid_.along(direction_here, 0) : grid_.along(0, direction_here);
+        const Vec3 way = axes_.turned() ? grid_.direction_of(direction_here, 0) : grid_.direction_of(0, direction_here);
         return {-slope * z0, slope, z0, middle_fast_ * z0, way.z};
     }
 

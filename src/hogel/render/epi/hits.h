@@ -66,7 +66,7 @@ HWY_INLINE Ints ordered_bits_of(Floats z) {
 }
 
 // How many hits or candidates are kept before they are worked off, and what a vector may write beyond them.
-constexpr std::size_t most_waiting = 1024, vector_room = HWY_MAX_BYTES / 4;
+constexpr std::size_t max_waiting = 1024, vector_room = HWY_MAX_BYTES / 4;
 
 // Hits whose words lie anywhere. They are kept first, for a loop over the few hits of a vector at a time would end
 // where no processor expects it.
@@ -83,7 +83,7 @@ class Hits {
         hn::StoreInterleaved2(hn::Set(di, static_cast<std::int32_t>(number)), depths, di, seen_[count_]);
         hn::StoreU(hn::Compress(offsets, mask), di, offsets_ + count_);
         count_ += hn::CountTrue(FloatTag(), hit);
-        if (count_ >= most_waiting) draw();
+        if (count_ >= max_waiting) draw();
     }
 
     HWY_NOINLINE void draw() {
@@ -99,8 +99,8 @@ class Hits {
   private:
     std::uint64_t* words_;
     std::size_t count_ = 0;
-    HWY_ALIGN std::int32_t offsets_[most_waiting + vector_room];
-    HWY_ALIGN std::int32_t seen_[most_waiting + vector_room][2];  // as words
+    HWY_ALIGN std::int32_t offsets_[max_waiting + vector_room];
+    HWY_ALIGN std::int32_t seen_[max_waiting + vector_room][2];  // as words
 };
 
 // Samples that thin strips may cover. They are found for many strips before the first is tested: what is tested does
@@ -135,7 +135,7 @@ class Candidates {
     }
 
     // Whether they must be drawn before there are more.
-    static HWY_INLINE bool is_full(std::size_t count) { return count >= most_waiting; }
+    static HWY_INLINE bool is_full(std::size_t count) { return count >= max_waiting; }
 
     HWY_NOINLINE void draw() {
         const FloatTag d;
@@ -166,8 +166,8 @@ class Candidates {
     std::size_t first_;
     Hits& hits_;
     std::size_t vectors_ = 0;
-    HWY_ALIGN float n_[most_waiting + 4 * vector_room], k_[most_waiting + 4 * vector_room];
-    std::uint32_t of_[most_waiting + 4 * vector_room];
+    HWY_ALIGN float n_[max_waiting + 4 * vector_room], k_[max_waiting + 4 * vector_room];
+    std::uint32_t of_[max_waiting + 4 * vector_room];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -91,7 +91,7 @@ void find_farthest(const EpipolarPlane& plane);
 
 /// The values of what each sample of the plane sees, by the numbers of the strips. Afterwards nothing is seen in it.
 void shade_plain(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);
-void shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);
+void shade_scene(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out);
 
 /// The instruction sets of this processor that the vector kernels are built for, and a way to use but one of them, or
 /// with 0 the best again: for tests. Not while kernels run.

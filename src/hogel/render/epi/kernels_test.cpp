@@ -310,7 +310,7 @@ TEST_P(EveryTarget, vector_and_plain_shadings_are_the_same) {
             const std::vector<std::uint64_t> words = plane.words;
             std::vector<std::uint64_t> emptied = words;
             std::fill_n(emptied.begin(), size, EpipolarPlane::nothing);
-            shade(plane.plane, some, out(fast));
+            shade_scene(plane.plane, some, out(fast));
             ASSERT_EQ(plane.words, emptied) << directions;
             std::ranges::copy(words, plane.words.begin());
             shade_plain(plane.plane, some, out(plain));

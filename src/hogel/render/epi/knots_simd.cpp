@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 void MakeNodesOfSeen(std::span<const std::uint64_t>, std::span<const StripShades>, LitStrips&, const SampleSource&,
                      bool) {}
 #else
-constexpr std::size_t most_lanes = hn::MaxLanes(FloatTag());
+constexpr std::size_t max_lanes = hn::MaxLanes(FloatTag());
 
 // Takes the numbers of strips that wait, as words show them, and they no longer do.
 class Waiting {
@@ -68,9 +68,9 @@ HWY_INLINE std::size_t find_waiting(std::span<const std::uint64_t> words, std::u
 
 // A strip a lane, as StripLight.
 struct StripsOnGrids {
-    HWY_ALIGN float place[2][most_lanes], change[2][most_lanes], scale[2][most_lanes], last[2][most_lanes],
-        cells[most_lanes];
-    const shading::LightGrid* grids[most_lanes];
+    HWY_ALIGN float place[2][max_lanes], change[2][max_lanes], scale[2][max_lanes], last[2][max_lanes],
+        cells[max_lanes];
+    const shading::LightGrid* grids[max_lanes];
 };
 
 HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32_t* numbers, std::size_t count,
@@ -78,10 +78,10 @@ HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32
     const FloatTag d;
     const NumberTag du;
     const hn::RebindToSigned<FloatTag> di;
-    static_assert(offsetof(shading::LightGrid, rows) == 8 && offsetof(shading::LightGrid, corner) == 24 && sizeof(StripOrigin) == 16 &&
-                  offsetof(StripOrigin, lone) == 12);
-    const float *origins[most_lanes], *on[most_lanes];
-    for (std::size_t i = 0; i < most_lanes; ++i) {
+    static_assert(offsetof(shading::LightGrid, rows) == 8 && offsetof(shading::LightGrid, corner) == 24 &&
+                  sizeof(StripOrigin) == 16 && offsetof(StripOrigin, lone) == 12);
+    const float *origins[max_lanes], *on[max_lanes];
+    for (std::size_t i = 0; i < max_lanes; ++i) {
         const StripOrigin& origin = grids.of_strips[numbers[std::min(i, count - 1)]];
         to.grids[i] = &grids.of_triangles[origin.triangle];
         origins[i] = &origin.weight0;
@@ -114,7 +114,8 @@ HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32
     Floats most = zero;
     for (int i = 0; i < 2; ++i) {
         const Floats cells_there = hn::ConvertTo(d, hn::BitCast(di, grid[2 + i]));
-        const Floats on_axis = hn::Max(cells_there, one), scale = hn::Add(on_axis, hn::Set(d, 2 * shading::LightGrid::inset));
+        const Floats on_axis = hn::Max(cells_there, one),
+                     scale = hn::Add(on_axis, hn::Set(d, 2 * shading::LightGrid::inset));
         const Floats change = hn::Sub(ends[i][1], ends[i][0]);
         most = hn::Max(most, hn::IfThenElseZero(hn::Gt(cells_there, zero), hn::Mul(hn::Abs(change), scale)));
         hn::Store(ends[i][0], d, to.place[i]);
@@ -123,7 +124,7 @@ HWY_INLINE void put_on_grids(const SampleSource::Grids& grids, const std::uint32
         hn::Store(hn::Sub(on_axis, hn::Set(d, 1.25f)), d, to.last[i]);
     }
     const Floats cells =
-        hn::Min(hn::Mul(hn::Set(d, StripLight::per_cell), most), hn::Set(d, StripLight::most_cells - 1));
+        hn::Min(hn::Mul(hn::Set(d, StripLight::per_cell), most), hn::Set(d, StripLight::max_cells - 1));
     hn::Store(hn::Add(hn::ConvertTo(d, hn::ConvertTo(di, cells)), one), d, to.cells);
 }
 
@@ -179,7 +180,7 @@ class NodesOnGrids {
         }
         count_ = row.end;
     }
-    bool is_full() const { return count_ > most || row_count_ == most_rows; }
+    bool is_full() const { return count_ > most || row_count_ == max_rows; }
 
     HWY_INLINE void make(LitStrips::Node* nodes) {
         for (std::size_t k = 0; k < row_count_; ++k) {
@@ -189,7 +190,7 @@ class NodesOnGrids {
         count_ = row_count_ = 0;
     }
 
-    static constexpr std::size_t most_cells = 512;  // of a strip
+    static constexpr std::size_t max_cells = 512;  // of a strip
 
   private:
     struct Row {
@@ -220,10 +221,10 @@ class NodesOnGrids {
         if (!colour_) node = {luminance({node[0], node[1], node[2]}), 0, 0, node[3]};
     }
 
-    static constexpr std::size_t most = 256, most_rows = 64, room = most + most_cells + 1 + most_lanes;
+    static constexpr std::size_t most = 256, max_rows = 64, room = most + max_cells + 1 + max_lanes;
     bool colour_;
     std::size_t count_ = 0, row_count_ = 0;
-    Row rows_[most_rows];
+    Row rows_[max_rows];
     std::uint32_t upper_[room];
     float down_[room], right_[room], depth_[room];
 };
@@ -238,13 +239,13 @@ void MakeNodesOfSeen(std::span<const std::uint64_t> words, std::span<const Strip
     const SampleSource::Grids grids = samples.grids();
     StripsOnGrids on_grids;
     NodesOnGrids nodes(colour);
-    for (std::size_t first = 0; first < count; first += most_lanes) {
-        const std::size_t some = std::min(most_lanes, count - first);
+    for (std::size_t first = 0; first < count; first += max_lanes) {
+        const std::size_t some = std::min(max_lanes, count - first);
         put_on_grids(grids, &found[first], some, on_grids);
         for (std::size_t i = 0; i < some; ++i) {
             const std::size_t number = found[first + i];
             const float cells = on_grids.cells[i];
-            if (cells > NodesOnGrids::most_cells) {
+            if (cells > NodesOnGrids::max_cells) {
                 lit.add_unmade_nodes(number, cells);
                 continue;
             }

@@ -13,8 +13,9 @@ using Node = LitStrips::Node;
 
 constexpr float not_yet = std::numeric_limits<float>::quiet_NaN();
 
-shading::LightCache::Corners corners_of(const StripLight& light, const shading::LightGrid::Place& row, const shading::LightGrid::Place& column,
-                               std::size_t strip, const SampleSource& samples) {
+shading::LightCache::Corners corners_of(const StripLight& light, const shading::LightGrid::Place& row,
+                                        const shading::LightGrid::Place& column, std::size_t strip,
+                                        const SampleSource& samples) {
     const std::uint32_t* first =
         light.points + std::uint64_t{row.node} * light.down + std::uint64_t{column.node} * light.right;
     const std::array points{first, first + light.right, first + light.down, first + light.down + light.right};
@@ -64,7 +65,7 @@ StripLight::StripLight(const shading::LightGrid& grid, const StripOrigin& strip)
 float StripLight::cells() const {
     const float rows = down > 0 ? std::abs(change[0]) * axis[0].scale : 0,
                 columns = right > 0 ? std::abs(change[1]) * axis[1].scale : 0;
-    const float cells = std::min(per_cell * std::max(rows, columns), most_cells - 1);
+    const float cells = std::min(per_cell * std::max(rows, columns), max_cells - 1);
     return static_cast<float>(static_cast<std::int32_t>(cells) + 1);
 }
 

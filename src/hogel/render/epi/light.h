@@ -31,9 +31,9 @@ struct StripLight {
 
     StripLight(const shading::LightGrid& grid, const StripOrigin& strip);
     /// So many cells along the strip are at most half as long as those of the grid, unless they were more than
-    /// `most_cells`.
+    /// `max_cells`.
     float cells() const;
-    static constexpr float most_cells = 1 << 16, per_cell = 2;
+    static constexpr float max_cells = 1 << 16, per_cell = 2;
 };
 
 /// What is worked out for single samples, points and strips while a plane is shaded.

@@ -99,11 +99,11 @@ struct Strips final : SampleSource {
     }
 };
 
-struct Values {
+struct RayValues {
     std::vector<std::vector<float, CacheLineAllocator<float>>> rows;
     ShadedPlane plane{};
 
-    Values(std::size_t size, std::size_t directions, std::size_t offset, bool colour, bool depth) : rows(4) {
+    RayValues(std::size_t size, std::size_t directions, std::size_t offset, bool colour, bool depth) : rows(4) {
         for (std::size_t i = 0; i < 4; ++i) {
             rows[i].assign(size + 1, -1);
             plane.values[i] = (i == 3 ? depth : colour || i == 0) ? &rows[i][offset] : nullptr;
@@ -136,7 +136,7 @@ TEST_P(EveryTargetOfLight, vector_and_plain_shadings_are_the_same_and_show_what_
         for (const bool colour : {true, false})
             for (const bool depth : {true, false})
                 for (const std::size_t offset : {0, 1}) {
-                    Values fast(size, directions, offset, colour, depth),
+                    RayValues fast(size, directions, offset, colour, depth),
                         plain(size, directions, offset, colour, depth);
                     // In the first round the points have yet to be made.
                     const std::vector<std::uint64_t> before = words, emptied(words.size(), EpipolarPlane::nothing);
@@ -188,7 +188,7 @@ TEST(EpipolarLight, shows_a_wave_to_second_order) {
             if (strips.from[number] != LightFrom::points || strips.origins[number].triangle % 5 != 0) continue;
             std::vector<std::uint64_t> words(256, std::uint64_t{12345} << 32 | number);
             const EpipolarPlane plane{words.data(), nullptr, 4, 64, -2, -31.5f};
-            Values values(words.size(), 64, 0, true, false);
+            RayValues values(words.size(), 64, 0, true, false);
             shade_lit_plain(plane, strips.shades, lit, strips, values.plane);
             for (std::size_t i = 0; i < words.size(); ++i) {
                 const float part = part_of_strip(strips.shades[number], -2 + float(i / 64), -31.5f + float(i % 64));

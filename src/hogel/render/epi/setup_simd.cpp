@@ -33,16 +33,16 @@ using HalfTag = hn::Rebind<float, Tag>;  // as many floats
 using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-constexpr std::size_t most_lanes = hn::MaxLanes(Tag());
+constexpr std::size_t max_lanes = hn::MaxLanes(Tag());
 
 // Two numbers that stand so far behind each of these places.
 HWY_INLINE void load_pairs(const double* const* places, std::size_t behind, Doubles& first, Doubles& second) {
     const Tag d;
     // Of every other place, from this one on.
     const auto blocks = [&](std::size_t i) HWY_ATTR {
-        if constexpr (most_lanes == 2) {
+        if constexpr (max_lanes == 2) {
             return hn::LoadDup128(d, places[i] + behind);
-        } else if constexpr (most_lanes == 4) {
+        } else if constexpr (max_lanes == 4) {
             return hn::OddEvenBlocks(hn::LoadDup128(d, places[i + 2] + behind), hn::LoadDup128(d, places[i] + behind));
         } else {
             // Half by half, for the compiler, as load_blocks().
@@ -88,13 +88,13 @@ void SetUp(const TriangleClusters& clusters, std::span<const std::uint32_t> plac
     const IndexTag di;
     const HalfTag df;
     const std::size_t lanes = hn::Lanes(d);
-    HWY_ALIGN float ends[most_lanes][4], steps[most_lanes][4], weights0[most_lanes], weights1[most_lanes],
-        depths0[most_lanes], depths1[most_lanes];
-    HWY_ALIGN std::int64_t lones[most_lanes], nexts[most_lanes];
+    HWY_ALIGN float ends[max_lanes][4], steps[max_lanes][4], weights0[max_lanes], weights1[max_lanes],
+        depths0[max_lanes], depths1[max_lanes];
+    HWY_ALIGN std::int64_t lones[max_lanes], nexts[max_lanes];
     for (std::size_t begin = 0; begin < places.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, places.size() - begin);
-        const TriangleCorners* triangles[most_lanes];
-        const double* numbers_of[most_lanes];
+        const TriangleCorners* triangles[max_lanes];
+        const double* numbers_of[max_lanes];
         for (std::size_t i = 0; i < lanes; ++i) {
             triangles[i] = &clusters.corners[places[begin + std::min(i, count - 1)]];
             numbers_of[i] = triangles[i]->y;

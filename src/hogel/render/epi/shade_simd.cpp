@@ -167,7 +167,7 @@ namespace hogel::render::epi {
 
 HWY_EXPORT(Shade);
 
-void shade(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
+void shade_scene(const EpipolarPlane& plane, std::span<const StripShades> strips, const ShadedPlane& out) {
     HWY_DYNAMIC_DISPATCH(Shade)(plane, strips, out);
 }
 

@@ -1,7 +1,7 @@
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/simplex/simplex.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/simplex/scan.h"
-#include "hogel/render/simplex/simplex.h"
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/volume.h"
 
@@ -11,7 +11,7 @@ namespace {
 class SimplexRenderer final : public LightFieldSource {
   public:
     SimplexRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), triangles_(baselines::triangles_with_area(*scene_)) {
+        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
         near_ = near_plane(*scene_, "simplex");
         // Only on a side of a hemicube: in front the triangles are cut.
         if (grid.face != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
@@ -22,7 +22,7 @@ class SimplexRenderer final : public LightFieldSource {
 
     // Source: [K] fig. 5.21.
     void read(LightFieldTile& tile) const override {
-        Array<baselines::NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
+        Array<NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
         std::vector<Simplex<4>> simplices;
         for (std::uint32_t index : triangles_) {
             // Half of the near plane's depth: what lies before it is decided ray by ray.
@@ -46,19 +46,19 @@ class SimplexRenderer final : public LightFieldSource {
   private:
     // Source: [K] 5.7.3, 5.7.4.
     void scan_convert(std::uint32_t index, const Simplex<4>& simplex, const HogelRange& range,
-                      Array<baselines::NearestTriangle, 4>& buffer) const {
+                      Array<NearestTriangle, 4>& buffer) const {
         slice_at_samples(simplex, axis::v, [&](double v, const Simplex<3>& at_v) {
             slice_at_samples(at_v, axis::u, [&](double u, const Simplex<2>& at_uv) {
                 const SliceInHogels slice(at_uv);
                 const Span rows = slice.rows(range.nt);
                 if (rows.first == rows.end) return;
-                const baselines::ObliqueTriangle triangle(*scene_, index, grid_, u, v);
-                const View<baselines::NearestTriangle, 2> hogels =
+                const ObliqueTriangle triangle(*scene_, index, grid_, u, v);
+                const View<NearestTriangle, 2> hogels =
                     buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
                 for (std::size_t t = rows.first; t < rows.end; ++t) {
                     const Span columns = slice.columns(t, range.ns);
                     for (std::size_t s = columns.first; s < columns.end; ++s)
-                        baselines::see(hogels(t, s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)),
+                        see(hogels(t, s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)),
                             grid_.t(static_cast<double>(range.t0 + t)), near_);
                 }
             });

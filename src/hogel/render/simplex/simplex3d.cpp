@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/row_tile.h"
 #include "hogel/render/simplex/slice.h"
@@ -15,7 +15,7 @@ namespace {
 class Simplex3dRenderer final : public LightFieldSource {
   public:
     Simplex3dRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), triangles_(baselines::triangles_with_area(*scene_)) {
+        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
         near_ = near_plane(*scene_, "simplex3d");
         // Only on a side of a hemicube: in front the triangles are cut.
         if (grid.face != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
@@ -26,10 +26,10 @@ class Simplex3dRenderer final : public LightFieldSource {
     HogelRange preferred_tile() const override { return row_tile(grid_); }
 
     void read(LightFieldTile& tile) const override {
-        Array<baselines::NearestTriangle, 3> buffer(simplex3d_buffer(grid_, tile.range));
+        Array<NearestTriangle, 3> buffer(simplex3d_buffer(grid_, tile.range));
         std::vector<Simplex<3>> simplices;
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
-            std::ranges::fill(buffer.elements(), baselines::NearestTriangle{});
+            std::ranges::fill(buffer.elements(), NearestTriangle{});
             for (std::uint32_t index : triangles_)
                 for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                     simplices.clear();
@@ -48,18 +48,18 @@ class Simplex3dRenderer final : public LightFieldSource {
 
   private:
     void scan_convert(std::uint32_t index, const Simplex<3>& simplex, std::size_t t, const HogelRange& range,
-                      Array<baselines::NearestTriangle, 3>& buffer) const {
+                      Array<NearestTriangle, 3>& buffer) const {
         const double hogel_t = grid_.t(static_cast<double>(range.t0 + t));
         slice_at_samples(simplex, axis::v, [&](double v, const Simplex<2>& at_v) {
             slice_at_samples(at_v, axis::u, [&](double u, const Simplex<1>& at_uv) {
                 const double s0 = at_uv[0][axis::s] / at_uv[0][axis::q], s1 = at_uv[1][axis::s] / at_uv[1][axis::q];
                 const Span columns = samples_between(std::min(s0, s1), std::max(s0, s1), range.ns);
                 if (columns.first == columns.end) return;
-                const baselines::ObliqueTriangle triangle(*scene_, index, grid_, u, v);
-                const View<baselines::NearestTriangle, 1> hogels =
+                const ObliqueTriangle triangle(*scene_, index, grid_, u, v);
+                const View<NearestTriangle, 1> hogels =
                     buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
                 for (std::size_t s = columns.first; s < columns.end; ++s)
-                    baselines::see(hogels(s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)), hogel_t, near_);
+                    see(hogels(s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)), hogel_t, near_);
             });
         });
     }

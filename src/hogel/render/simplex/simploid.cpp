@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "hogel/render/baselines/oblique_triangle.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/row_axes.h"
 #include "hogel/render/span.h"
@@ -34,7 +34,7 @@ struct SlidTriangle {
     std::array<double, 3> row;
     std::array<StripPoint, 3> at;
 
-    // Between the places where edges cross the row, and corners within the margin of it.
+    // Interpolation the places where edges cross the row, and corners within the margin of it.
     ThinStrip cut(double level) const {
         ThinStrip strip;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -50,10 +50,10 @@ struct SlidTriangle {
 };
 
 // In this file t, V, s and U are the slow and fast axes of RowAxes: on the left and right of a hemicube s, U, t and V.
-class SimplexStripRenderer final : public LightFieldSource {
+class SimploidRenderer final : public LightFieldSource {
   public:
-    SimplexStripRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(baselines::triangles_with_area(*scene_)) {}
+    SimploidRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
+        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(triangles_with_area(*scene_)) {}
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
@@ -62,9 +62,9 @@ class SimplexStripRenderer final : public LightFieldSource {
         const std::size_t rows = axes_.slow_hogels(tile.range), hogels = axes_.fast_hogels(tile.range);
         const std::size_t directions = axes_.fast_directions();
         // One V at a time, so that what the triangles of a neighbourhood write to stays close together.
-        Array<baselines::NearestTriangle, 3> buffer(simplex_strip_buffer(axes_, tile.range));
+        Array<NearestTriangle, 3> buffer(simplex_strip_buffer(axes_, tile.range));
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
-            std::ranges::fill(buffer.elements(), baselines::NearestTriangle{});
+            std::ranges::fill(buffer.elements(), NearestTriangle{});
             const Slab slab(*this, tile.range, slow);
             for (std::uint32_t index : triangles_) slab.scan_convert(index, buffer);
             for (std::size_t row = 0; row < rows; ++row)
@@ -80,12 +80,12 @@ class SimplexStripRenderer final : public LightFieldSource {
     // The rays of a tile with one V.
     class Slab {
       public:
-        Slab(const SimplexStripRenderer& renderer, const HogelRange& range, std::size_t slow)
+        Slab(const SimploidRenderer& renderer, const HogelRange& range, std::size_t slow)
             : scene_(*renderer.scene_), grid_(renderer.grid_), axes_(renderer.axes_), range_(range), slow_(slow) {
             const double pitch = grid_.pitch;
             for (std::size_t k = 0; k < axes_.fast_directions(); ++k) {
                 const auto [t, s, v, u] = axes_.sample(0, 0, slow, k);
-                const Vec3 way = grid_.along(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v)));
+                const Vec3 way = grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v)));
                 slopes_.push_back({way.x / way.z, way.y / way.z});
                 // dx/dζ of the fast axis, and of the slow one, which is the same for all k.
                 fast_slopes_.push_back((axes_.turned() ? slopes_[k].y : slopes_[k].x) * axes_.fast_sign());
@@ -97,7 +97,7 @@ class SimplexStripRenderer final : public LightFieldSource {
             hogels_ = axes_.fast_hogels(range);
         }
 
-        void scan_convert(std::uint32_t index, Array<baselines::NearestTriangle, 3>& buffer) const {
+        void scan_convert(std::uint32_t index, Array<NearestTriangle, 3>& buffer) const {
             const SlidTriangle slid = slide(index);
             const auto [low, high] = std::minmax({slid.row[0], slid.row[1], slid.row[2]});
             const Span rows = samples_between(low, high, rows_);
@@ -124,7 +124,7 @@ class SimplexStripRenderer final : public LightFieldSource {
         }
 
         void scan_convert(std::uint32_t index, const ThinStrip& strip, std::size_t row,
-                          View<baselines::NearestTriangle, 2> buffer) const {
+                          View<NearestTriangle, 2> buffer) const {
             const Span columns = columns_of_directions(strip);
             for (std::size_t k = columns.first; k < columns.end; ++k) {
                 double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -135,10 +135,10 @@ class SimplexStripRenderer final : public LightFieldSource {
                 }
                 const Span hogels = samples_between(low, high, hogels_);
                 if (hogels.first == hogels.end) continue;
-                const baselines::ObliqueTriangle triangle(scene_, index, slopes_[k].x, slopes_[k].y);
+                const ObliqueTriangle triangle(scene_, index, slopes_[k].x, slopes_[k].y);
                 for (std::size_t i = hogels.first; i < hogels.end; ++i) {
                     const auto [at_t, at_s, at_v, at_u] = axes_.sample(row, i, slow_, k);
-                    baselines::see(buffer(i, k), index, triangle, grid_.s(static_cast<double>(range_.s0 + at_s)),
+                    see(buffer(i, k), index, triangle, grid_.s(static_cast<double>(range_.s0 + at_s)),
                         grid_.t(static_cast<double>(range_.t0 + at_t)));
                 }
             }
@@ -184,9 +184,9 @@ class SimplexStripRenderer final : public LightFieldSource {
 };
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_simplex_strip_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                              const LightFieldGrid& grid) {
-    return std::make_unique<SimplexStripRenderer>(std::move(scene), grid);
+std::unique_ptr<LightFieldSource> make_simploid_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                         const LightFieldGrid& grid) {
+    return std::make_unique<SimploidRenderer>(std::move(scene), grid);
 }
 
 }  // namespace hogel::render::simplex

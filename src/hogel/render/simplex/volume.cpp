@@ -127,8 +127,9 @@ double nearest_forward(const LightFieldGrid& grid, double near) {
     double steepest = 0;
     for (const double u : {-1.0, 1.0})
         for (const double v : {-1.0, 1.0})
-            steepest = std::max(steepest,
-                                grid.along(grid.center_u + u * grid.tan_half_u, grid.center_v + v * grid.tan_half_v).z);
+            steepest =
+                std::max(steepest,
+                         grid.direction_of(grid.center_u + u * grid.tan_half_u, grid.center_v + v * grid.tan_half_v).z);
     return near / steepest;
 }
 

@@ -10,7 +10,7 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{4} << 30;
+constexpr std::uintmax_t max_file = std::uintmax_t{4} << 30;
 
 std::string extension(const std::filesystem::path& path) {
     std::string text = path.extension().string();
@@ -56,7 +56,7 @@ void check_mesh_file(const std::filesystem::path& path) {
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error) reject_file(file, error.message(), "a readable mesh file");
     if (size == 0) reject_file(file, "empty", "a mesh file");
-    if (size > largest_file) reject_file(file, "more than 4 GiB", "a smaller mesh file");
+    if (size > max_file) reject_file(file, "more than 4 GiB", "a smaller mesh file");
     // assimp chooses its reader by the first bytes too, not by the name alone.
     char magic[4] = {};
     std::ifstream(path, std::ios::binary).read(magic, sizeof magic);

@@ -20,9 +20,9 @@ using namespace scene::mesh_files;
 
 namespace {
 
-constexpr std::size_t most_triangles = std::size_t{1} << 28;
-constexpr std::size_t most_instances = std::size_t{1} << 20;
-constexpr unsigned most_corners = 4096;  // of a polygon: cutting it into triangles takes the square of that
+constexpr std::size_t max_triangles = std::size_t{1} << 28;
+constexpr std::size_t max_instances = std::size_t{1} << 20;
+constexpr unsigned max_corners = 4096;  // of a polygon: cutting it into triangles takes the square of that
 constexpr double crease = 60 * std::numbers::pi / 180;  // normals that a file lacks are smooth up to this angle
 
 struct Placed {
@@ -45,8 +45,8 @@ std::vector<Placed> place_meshes(const aiScene& source, const std::string& file)
     while (!todo.empty()) {
         const Visit visit = todo.back();
         todo.pop_back();
-        if (++nodes > most_instances || placed.size() > most_instances)
-            reject_file(file, fmt::format("more than {} nodes or mesh instances", most_instances),
+        if (++nodes > max_instances || placed.size() > max_instances)
+            reject_file(file, fmt::format("more than {} nodes or mesh instances", max_instances),
                         "a scene that is not an instance bomb");
         for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) {
             const unsigned index = visit.node->mMeshes[i];
@@ -55,7 +55,7 @@ std::vector<Placed> place_meshes(const aiScene& source, const std::string& file)
             if (!has_faces(mesh)) continue;
             triangles += mesh.mNumFaces;
             vertices += mesh.mNumVertices;
-            if (triangles > most_triangles || vertices > 2 * most_triangles)
+            if (triangles > max_triangles || vertices > 2 * max_triangles)
                 reject_file(file, "more than 2^28 triangles once its instances are counted", "a smaller scene");
             placed.push_back({&mesh, visit.to_world});
         }
@@ -121,9 +121,9 @@ void import_triangles(const aiMesh& source, bool mirrored, const std::string& fi
             if (index >= source.mNumVertices)
                 reject_file(file, fmt::format("mesh '{}': vertex index {}", mesh.name, index),
                             fmt::format("less than {}", source.mNumVertices));
-        if (corners.size() > most_corners)
+        if (corners.size() > max_corners)
             reject_file(file, fmt::format("a face with {} corners", corners.size()),
-                        fmt::format("at most {}", most_corners));
+                        fmt::format("at most {}", max_corners));
         if (corners.size() < 3) continue;
         const auto add = [&](std::array<std::uint32_t, 3> triangle) {
             if (mirrored) std::swap(triangle[1], triangle[2]);
