@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Prints how many lines of each module the tests reach.
+
+usage: coverage_by_module.py FILE      FILE: what `gcovr --json-summary` wrote
+A module is a folder of src/hogel; the public headers count as one.
+"""
+import collections
+import json
+import pathlib
+import sys
+
+
+def module(path):
+    parts = pathlib.PurePath(path).parts
+    return parts[2] if parts[:2] == ("src", "hogel") else "public headers"
+
+
+def main():
+    lines, reached = collections.Counter(), collections.Counter()
+    for file in json.loads(pathlib.Path(sys.argv[1]).read_text())["files"]:
+        for name in (module(file["filename"]), "all"):
+            lines[name] += file["line_total"]
+            reached[name] += file["line_covered"]
+    print(f"{'module':<16}{'lines':>8}{'reached':>9}")
+    for name in sorted(lines, key=lambda name: (name == "all", name)):
+        print(f"{name:<16}{lines[name]:>8}{reached[name] / max(1, lines[name]):>9.1%}")
+    return 0 if lines["all"] else 1
+
+
+sys.exit(main())
