@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The same field through hogel and through plain scipy: to another plane, and photographed through a lens.
 
 usage: camera_against_scipy.py HOGEL      HOGEL: the program, built for release

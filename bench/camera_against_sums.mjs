@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same field through hogel and through plain sums, in another language and without a transform: to another plane by
 // Rayleigh's and Sommerfeld's first integral, and photographed through a lens by the sum over every sample, point of the pupil
 // and point of the film (docs/notation.md, section 4). Written for this comparison, of the published equations alone.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The camera's speed on a field of noise in memory.
 //   camera_bench [samples across=6144] [threads=1] [rounds=3]
 // Printed: how fast the narrow band takes a hologram in; what a new focus then takes at 1024 x 1024 pixels, from a film

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every method on the same scenes: quality of the photograph and time, as a Markdown table.
 //   hologram_bench [samples=256] [looks=2] [methods...]
 // A small patch, a wide surface of one radiance, a textured plane tilted by 15 degrees, and a near plane that hides

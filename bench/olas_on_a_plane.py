@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Overlapping windows on a textured plane: the hologram carried back to the plane's depth, against the texture.
 
 usage: olas_on_a_plane.py HOGEL      HOGEL: the program, built for release

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every encoding for a modulator of the same hologram: what its photograph is worth, the light that it uses, and time.
 //   pattern_bench [samples=512] [iterations=40]
 // A wavy picture 10 mm behind a hologram of samples × samples at 8 µm, 633 nm, as a stereogram of hogels of 16 samples

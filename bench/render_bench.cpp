@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Samples a second of every renderer, whole rows of hogels at a time, of a displaced sphere behind the hologram or of
 // eight wavy sheets one behind the other, which fill the view and of which the first hides the others.
 //   render_bench [sphere|sheets] [triangles=20000] [threads=1] [rounds=5] [hogels=64] [directions=256] [tile=hogels]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The floor that stereogram_bench is compared with: a stereogram's transforms and random phases in plain NumPy and scipy.
 
 usage: stereogram_against_scipy.py [MEGASAMPLES]      default 16

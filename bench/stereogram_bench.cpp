@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast plain stereograms are made, beside the bare Fourier transforms that they cannot do without.
 //   stereogram_bench [samples across=4096] [rounds=5]
 // A Markdown row for each size of hogel, one thread, million samples per second of processor time: the stereogram with

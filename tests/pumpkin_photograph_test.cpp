@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole way from a scene to a photograph: what an eye sees in front of the hologram is what geometric optics says.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only file of the command line that knows Embree.
 #include <embree3/rtcore.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only file that knows EGL and OpenGL.
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks a folder of `hogel make`: the report stands alone, and tells of the files that are there.
 
 usage: check_report.py FOLDER

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Decodes a compressed light field (.hgl) of the coders "hogel", "lossless", "bounded" and "jpeg4d" as docs/format.md
 says, slowly and plainly, and compares it with what `hogel decompress --float` made of it: every sample must be the same,
 to the last bit; with "jpeg4d", whose sums are in no order, to rounding; and every depth, where there is depth. Corners

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs a command-line script and compares what it prints, and its exit status, with what the script says.
 
 usage: run.py HOGEL SCRIPT      HOGEL: the program under test

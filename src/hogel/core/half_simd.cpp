@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiled for every instruction set and chosen when first called: by the processor's own conversions where it has
 // them, elsewhere by loops of half_of() and float_of(), whose branches the compiler does away with.
 #undef HWY_TARGET_INCLUDE

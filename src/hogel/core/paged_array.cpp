@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/core/paged_array.h"
 
 #include <fcntl.h>

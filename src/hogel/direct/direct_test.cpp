@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Methods from scenes to fields against each other, and photographs of their holograms against geometry.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twin of add_wave_plain, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/direct/exact_sums_simd.cpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Basis fringes against one transform a hogel with the same phases.
 #include <gtest/gtest.h>
 

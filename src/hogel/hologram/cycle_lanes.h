@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sixteen rows of sixteen numbers turned into columns, for files that are compiled once for every instruction set;
 // included after hwy/highway.h.
 #if defined(HOGEL_HOLOGRAM_TURN_LANES) == defined(HWY_TARGET_TOGGLE)

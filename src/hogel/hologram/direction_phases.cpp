@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/hologram/direction_phases.h"
 #include "hogel/hologram/designed_phase.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws of stereograms of all kinds of light fields: hemicubes, frequency grids, one row of directions.
 #include <gtest/gtest.h>
 

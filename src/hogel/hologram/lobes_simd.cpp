@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twins of average_lobes_plain and transpose_plain, compiled for every instruction set and chosen when first
 // called.
 #include <algorithm>

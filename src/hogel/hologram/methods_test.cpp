@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws that every way from a light field to fringes has to keep, with what theory says of each.
 #include <gtest/gtest.h>
 

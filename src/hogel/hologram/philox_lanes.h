@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A draw of Philox (core/random.h) a lane, for files that are compiled once for every instruction set; included after
 // hwy/highway.h.
 #if defined(HOGEL_HOLOGRAM_PHILOX_LANES) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/hologram/point_cycles.h"
 #include "hogel/core/random.h"
 

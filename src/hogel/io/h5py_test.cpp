@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What docs/files.md promises to users of h5py: its examples run, values arrive, and files made by h5py are read.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only file that knows which FFT library is linked: any library with FFTW's single-precision interface will do.
 #include "hogel/math/fft.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every renderer on the built-in scenes: against closed forms, and against each other.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every renderer against rays, over combinations of what can be asked for: numbers of hogels and directions down to
 // one, faces and off-centre views, samples a ray, culling, and every model of shading, on textures, gloss and shadows.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sides of a hemicube, and directions that are not centred: what a renderer makes of them against the front of the
 // same scene turned, where geometry alone says what is to be seen.
 #include <gtest/gtest.h>

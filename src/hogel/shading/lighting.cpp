@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/illumination.h"
 

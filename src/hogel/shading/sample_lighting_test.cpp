@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lighting at samples against closed forms, against lighting at vertices, and against rays.
 #include <gtest/gtest.h>
 

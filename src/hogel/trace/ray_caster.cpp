@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/trace/ray_caster.h"
 
 #include <embree3/rtcore.h>

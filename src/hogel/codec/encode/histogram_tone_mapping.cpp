@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/codec/encode/histogram_tone_mapping.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/codec/encode/step_search.h"
 
 #include <cmath>

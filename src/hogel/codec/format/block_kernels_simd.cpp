@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twins of block_kernels.cpp, compiled for every instruction set and chosen when first called. Products are
 // rounded before they are added, as there.
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 // Compiled for every instruction set and chosen when first called. The plain twin is OverlapAdd's way hogel by hogel.

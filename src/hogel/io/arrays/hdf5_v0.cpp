@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/io/arrays/hdf5_v0.h"
 
 #include <fmt/format.h>

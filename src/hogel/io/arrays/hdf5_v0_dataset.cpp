@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the header of an object of an early HDF5 file says of it (HDF5 file format specification 3.0, IV.A).
 #include <fmt/format.h>
 

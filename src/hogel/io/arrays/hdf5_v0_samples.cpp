@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The samples of an early HDF5 file's datasets: chunks, in a tree of their own (HDF5 file format specification
 // III.A.1), through their filters (IV.A.2.l) backwards.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MAT files of version 5 (MATLAB 5 to 7.2, and what most programs write): a header of 128 bytes and elements, each a
 // type, a length and so many bytes, padded to eight. An array is an element of elements: flags, extents, name, real
 // parts, imaginary parts. Version 7 compresses whole arrays with zlib.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MAT files of version 7.3: HDF5 files behind MATLAB's header of 512 bytes. Each array is a dataset of the root group
 // whose axes are MATLAB's backwards, because MATLAB counts down the columns first; complex numbers are compounds {real,
 // imag}; an attribute MATLAB_class says what the array is for MATLAB.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NumPy's array format, versions 1 to 3: "\x93NUMPY", two bytes of version, the length of a header (2 bytes, or 4 from
 // version 2 on), the header as the text of a Python dictionary, and the numbers.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/optics/narrow_band/kernels.h"
 
 namespace hogel::optics::narrow_band {

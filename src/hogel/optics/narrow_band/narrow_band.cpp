@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/optics/narrow_band/narrow_band.h"
 
 #include <fmt/format.h>

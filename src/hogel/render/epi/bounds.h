@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What epi_draw_simd.cpp knows of strips before it draws them; included after hwy/highway.h, once for every instruction
 // set.
 #if defined(HOGEL_RENDER_EPI_BOUNDS) == defined(HWY_TARGET_TOGGLE)

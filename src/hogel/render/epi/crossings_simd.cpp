@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twin of find_crossings_plain in epi_crossings.cpp, compiled for every instruction set and chosen when
 // first called.
 #undef HWY_TARGET_INCLUDE

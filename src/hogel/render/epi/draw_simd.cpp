@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twin of draw_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/draw_simd.cpp"

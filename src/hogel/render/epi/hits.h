@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What epi_draw_simd.cpp does with samples that strips cover, or may cover; included after hwy/highway.h, once for
 // every instruction set.
 #if defined(HOGEL_RENDER_EPI_HITS) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The nodes of strips on which light is kept, made for all that part of a plane shows before any of it is shaded;
 // compiled for every instruction set and chosen when first called. The plain twin makes each when it is needed.
 #undef HWY_TARGET_INCLUDE

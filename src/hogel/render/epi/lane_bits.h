@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Masks as whole numbers; included after hwy/highway.h, once for every instruction set.
 #if defined(HOGEL_RENDER_LANE_BITS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_LANE_BITS

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twins of find_farthest_plain in epi_kernels.cpp and of see_box_plain and cells_hide_plain in
 // epi_occlusion.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE

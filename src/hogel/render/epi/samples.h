@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What epi_shade_simd.cpp and epi_light_simd.cpp do with vectors of samples; included after hwy/highway.h, once for
 // every instruction set.
 #if defined(HOGEL_RENDER_EPI_SAMPLES) == defined(HWY_TARGET_TOGGLE)

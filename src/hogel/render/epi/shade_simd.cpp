@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twins of epi_kernels.cpp that turn what is seen into values, compiled for every instruction set and chosen
 // when first called.
 #undef HWY_TARGET_INCLUDE

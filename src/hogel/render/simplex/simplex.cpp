@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hogel/render/simplex/simplex.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
