@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/error.h"
 #include "hogel/hologram.h"
 #include "hogel/hologram/frequency_grid.h"
@@ -132,7 +133,9 @@ TEST(Basis, refuses_what_cannot_be) {
     EXPECT_THROW(make_hologram(fine, options_for(Method::basis, "cdf97")), Error);
 }
 
-TEST(Fringes, sum_alike_plainly_and_fast) {
+HOGEL_TEST_ON_EVERY_TARGET(Fringes);
+
+TEST_P(Fringes, sum_alike_plainly_and_fast) {
     const std::size_t size = 1000;
     Array<Complex, 2> fringes({5, size}), plain({1, size}), fast({1, size});
     for (std::size_t i = 0; i < fringes.size(); ++i)

@@ -39,11 +39,6 @@ struct GlossyPoint {
 LightInLobe gloss_plain(const LampTable& lamps, const float* lit, const GlossyPoint& point);
 LightInLobe gloss(const LampTable& lamps, const float* lit, const GlossyPoint& point);
 
-/// The instruction sets of this processor that the vector twin is built for, and a way to use but one of them, or with
-/// 0 the best again: for tests. Not while it runs.
-std::vector<std::int64_t> gloss_targets();
-void use_gloss_target(std::int64_t target);
-
 /// A point's numbers as the twins need them.
 struct GlossyFloats {
     float px, py, pz, nx, ny, nz, vx, vy, vz;
