@@ -221,6 +221,7 @@ std::vector<Image> photograph(const LightFieldSource& light_field, std::span<con
 
 std::vector<Image> photograph(std::span<const LightFieldSource* const> faces, std::span<const Camera> cameras,
                               std::size_t pupil_samples, const Progress& progress) {
+    const core::StopScope scope(progress);
     const std::vector<LightFieldGrid> grids = grids_of(faces);
     std::vector<Exposure> exposures;
     for (const Camera& camera : cameras) {

@@ -274,6 +274,7 @@ void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progre
 
 std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
                                     const Progress& progress, const FullCameraOptions& options) {
+    const core::StopScope scope(progress);
     require_full(hologram, cameras, options.film_distance);
     std::vector<Image> images;
     for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
@@ -292,6 +293,7 @@ std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const
 std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
                                                           std::span<const Camera> cameras, const Progress& progress,
                                                           const FullCameraOptions& options) {
+    const core::StopScope scope(progress);
     if (options.film_distance != 0)
         throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
     require_full(hologram, cameras, 0);

@@ -133,6 +133,7 @@ using namespace optics;
 
 void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look,
                const ScratchOptions& scratch, const Progress& progress) {
+    const core::StopScope scope(progress);
     const Grid& plane = source.grid().plane;
     validate(source.grid(), ErrorCode::usage, "propagated field");
     if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));

@@ -137,6 +137,7 @@ void give(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>& values
 }  // namespace
 
 Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
     for (const Mesh& mesh : scene.meshes)

@@ -131,6 +131,7 @@ double shadow_map_bytes(const Scene& scene, const ShadingOptions& options) {
 }
 
 ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     ShadedScene shaded = geometry(scene, options.filter_textures);
     if (options.model == ShadingModel::given) require_given(scene);
     if (options.model == ShadingModel::vertex) light_vertices(scene, shaded);

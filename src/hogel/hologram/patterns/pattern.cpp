@@ -172,6 +172,7 @@ bool is_phase_only(Encoding encoding) {
 }
 
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     require_fitting(source.grid(), options);
     Array<Complex, 2> field = fit(source, options.modulator);
     normalise(field, options.clip);
