@@ -79,6 +79,7 @@ void light_vertices(const Scene& scene, ShadedScene& shaded) {
         core::parallel_for(tasks, [&](std::size_t task) {
             const std::size_t first = task * vertices_per_task;
             for (std::size_t i = first; i < std::min(n, first + vertices_per_task); ++i) {
+                core::throw_if_stopped();
                 Rgb light = scene.ambient;
                 if (!mesh.normals.empty())
                     light += reflected * irradiance(scene, caster, offset, mesh.positions[i], mesh.normals[i]);
