@@ -65,10 +65,10 @@ void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& ser
             random_waves(series, row, some, side_, waves);
         else
             shared_waves({phases_[look].data() + 2 * row * side_, columns}, some, waves);
-        fft_.backward_apart(waves);
+        fft_.backward_split(waves);
         turn_rows(waves, side_, square + row * square_column, columns);
     }
-    fft_.backward_apart(square, to, to_row, side_);
+    fft_.backward_split(square, to, to_row, side_);
 }
 
 }  // namespace hogel::hologram

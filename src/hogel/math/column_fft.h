@@ -32,12 +32,12 @@ class ColumnFft {
 
     /// Sums with e^{+2πi jm/n} down sixteen columns in split layout, in place: [row][part][column], aligned to a cache
     /// line.
-    void backward_apart(float* columns) const;
+    void backward_split(float* columns) const;
 
     /// The same down many columns [column/16][row][part][column mod 16], with the results interleaved as those of
     /// transform(). Where rows of the result begin at cache lines and are part of a larger array, they are written past
     /// the caches.
-    void backward_apart(const float* from, std::complex<float>* to, std::size_t to_row, std::size_t columns) const;
+    void backward_split(const float* from, std::complex<float>* to, std::size_t to_row, std::size_t columns) const;
 
     struct Factor {
         float re, im;

@@ -238,9 +238,9 @@ void ColumnFft::transform(bool forward, const std::complex<float>* from, std::si
      2 * columns);
 }
 
-void ColumnFft::backward_apart(float* columns) const { HWY_DYNAMIC_DISPATCH(TransformSplit)(plan_, columns); }
+void ColumnFft::backward_split(float* columns) const { HWY_DYNAMIC_DISPATCH(TransformSplit)(plan_, columns); }
 
-void ColumnFft::backward_apart(const float* from, std::complex<float>* to, std::size_t to_row,
+void ColumnFft::backward_split(const float* from, std::complex<float>* to, std::size_t to_row,
                                std::size_t columns) const {
     HWY_DYNAMIC_DISPATCH(TransformSplitToInterleaved)
     (plan_, from, reinterpret_cast<float*>(to), 2 * to_row, 2 * columns);

@@ -43,8 +43,8 @@ TEST(Fft2, backward_is_the_sum_of_waves_with_a_positive_exponent) {
         }
 }
 
-// Large transforms go by rows and columns: against the sums along one row of them, and back again.
-TEST(Fft2, large_ones_are_the_same_sum) {
+// Large arrays are transformed by rows and columns: compared with some of the sums, and transformed back.
+TEST(Fft2, large_arrays_give_the_same_sum) {
     const std::size_t height = 150, width = 203;
     const Array<Complex, 2> spectrum = noise(height, width);
     Array<Complex, 2> values = spectrum;
@@ -64,8 +64,8 @@ TEST(Fft2, large_ones_are_the_same_sum) {
         ASSERT_LT(std::abs(values.data()[i] / float(height * width) - spectrum.data()[i]), 1e-5f);
 }
 
-// Lengths of powers of two have columns transformed by other code than FFTW's: against sums along columns.
-TEST_P(ColumnFftKernels, is_the_sum_of_waves_for_every_length_and_either_way) {
+// Columns whose length is a power of two are not transformed by FFTW: compared with sums along columns.
+TEST_P(ColumnFftKernels, give_the_sum_of_waves_for_every_length_and_direction) {
     for (std::size_t length = ColumnFft::shortest; length <= 512; length *= 2) {
         const std::size_t columns = 2 * ColumnFft::together, row = columns + 3;
         if (!ColumnFft::can(length, columns)) return;  // a target without vectors leaves all to FFTW
@@ -92,8 +92,8 @@ TEST_P(ColumnFftKernels, is_the_sum_of_waves_for_every_length_and_either_way) {
     EXPECT_FALSE(ColumnFft::can(64, 24));
 }
 
-// The same numbers with their parts apart, in place and to rows of an array, beside one that has room for them alone.
-TEST_P(ColumnFftKernels, does_the_same_where_parts_lie_apart) {
+// In place, and to rows of an array that may be wider than the columns.
+TEST_P(ColumnFftKernels, give_the_same_in_split_layout) {
     const std::size_t length = 32, columns = 32;
     if (!ColumnFft::can(length, columns)) return;  // a target without vectors leaves all to FFTW
     const Array<Complex, 2> from = noise(length, columns);
@@ -108,19 +108,19 @@ TEST_P(ColumnFftKernels, does_the_same_where_parts_lie_apart) {
     fft.transform(false, from.data(), columns, expected.data(), columns, columns);
     for (const std::size_t row : {columns, columns + 8, columns + 3}) {
         Array<Complex, 2> to({length, row}, Complex(7, 7));
-        fft.backward_apart(apart.data(), to.data(), row, columns);
+        fft.backward_split(apart.data(), to.data(), row, columns);
         for (std::size_t r = 0; r < length; ++r) {
             for (std::size_t c = 0; c < columns; ++c) ASSERT_EQ(to(r, c), expected(r, c)) << row;
             for (std::size_t c = columns; c < row; ++c) ASSERT_EQ(to(r, c), Complex(7, 7)) << row;
         }
     }
-    fft.backward_apart(&apart(1, 0, 0, 0));
+    fft.backward_split(&apart(1, 0, 0, 0));
     for (std::size_t r = 0; r < length; ++r)
         for (std::size_t c = 0; c < 16; ++c)
             ASSERT_EQ(Complex(apart(1, r, 0, c), apart(1, r, 1, c)), expected(r, 16 + c));
 }
 
-TEST(Fft2, puts_the_result_elsewhere) {
+TEST(Fft2, backward_writes_its_result_to_another_array) {
     for (const std::size_t n : {20, 64}) {
         Array<Complex, 2> values = noise(n, n), same = values, out({n, n + 5});
         const Fft2 fft(n, n);
@@ -131,7 +131,7 @@ TEST(Fft2, puts_the_result_elsewhere) {
     }
 }
 
-TEST(Fft2, forward_undoes_backward_also_on_unaligned_data) {
+TEST(Fft2, forward_undoes_backward_on_unaligned_data_too) {
     const std::size_t n = 40;
     const Array<Complex, 2> original = noise(n, n);
     std::vector<Complex> storage(n * n + 1);
@@ -144,7 +144,7 @@ TEST(Fft2, forward_undoes_backward_also_on_unaligned_data) {
         EXPECT_LT(std::abs(odd.data()[i] / float(n * n) - original.elements()[i]), 1e-5f);
 }
 
-// A large array is transformed line by line: against sums along one row and one column of waves of its own.
+// A large array is transformed line by line.
 TEST(Fft2, a_large_array_is_transformed_as_a_small_one) {
     const std::size_t height = 270, width = 251;
     Array<Complex, 2> values({height, width});
