@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "defaults.h"
+#include "hogel/pipeline.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
 

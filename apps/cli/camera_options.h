@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "arguments.h"
-#include "defaults.h"
+#include "hogel/pipeline.h"
 #include "hogel/camera.h"
 
 namespace hogel::cli {
