@@ -17,7 +17,7 @@ int main() {
     const LightField light_field = render_light_field(load_scene("sphere", request), request);
 
     HologramOptions options;
-    options.channel = mono(532_nm);
+    options.channel = {532_nm};
     options.pitch = modulator.pitch;
     const auto field = make_hologram(light_field, options);
 

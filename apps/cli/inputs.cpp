@@ -80,11 +80,11 @@ HologramMethod HologramChoices::hologram_method() const {
         if (phases == Phases::random) refuse("basis fringes have the same phases in all hogels; expected fixed or designed");
         return Basis{.transform = basis.empty() ? std::string(defaults.basis) : basis,
                      .tolerance = tolerance,
-                     .phases = phases};
+                     .phases = phases == Phases::designed ? SharedPhases::designed : SharedPhases::fixed};
     }
     if (method == "olas") {
         if (phases == Phases::designed) refuse("is not for --method olas; expected random or fixed");
-        return OverlapAdd{phases};
+        return OverlapAdd{phases == Phases::fixed ? PointPhases::fixed : PointPhases::random};
     }
     if (lines > 0) return Lines{.line_pitch = lines, .phases = phases, .average = lobes};
     return Fourier{.phases = phases, .average = lobes};

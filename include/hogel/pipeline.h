@@ -89,7 +89,7 @@ struct LightFieldRequest {
 
 /// How a light field becomes holograms, one a channel.
 struct HologramRequest {
-    std::vector<Channel> channels = rgb();
+    std::vector<Channel> channels = rgb(defaults.red, defaults.green, defaults.blue);
     double pitch = defaults.pitch;  ///< of the samples, metres; rounded to divide a hogel
     HologramMethod method = Fourier();
     std::size_t looks = 1;

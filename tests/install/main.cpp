@@ -33,7 +33,7 @@ int exceptions() {
 // The whole chain in one expression of temporaries: each piece holds what it is made of.
 int temporaries() {
     const Camera camera = camera_for(8 * 64e-6, 8 * 64e-6, 4);
-    const auto field = make_holograms(LightField(std::make_shared<const Uniform>()), {.channels = {mono(633e-9)}});
+    const auto field = make_holograms(LightField(std::make_shared<const Uniform>()), {.channels = mono(633e-9)});
     const Image seen = photograph_colours(field, {&camera, 1}).front();
     return seen.width() == 4 && seen.pixels(2, 2, 0) > 0 ? 0 : 2;
 }
