@@ -19,14 +19,15 @@ using Complex = std::complex<float>;
 // is what the frequency grid sums over its lobes (docs/notation.md, section 3).
 class PhaseAddedSynthesis final : public HogelSynthesis {
   public:
-    PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options)
+    PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
+                        bool exact)
         : light_field_(light_field),
-          options_(options),
+          wavelength_(options.channel.wavelength),
           samples_(samples),
           pitch_(light_field.pitch / static_cast<double>(samples)),
-          cells_(light_field.step_u(), light_field.step_v(), options.seed, options.channel),
+          cells_(light_field.step_u(), light_field.step_v(), options.seed, options.channel.index),
           fft_(samples, samples) {
-        if (options.phases == Phases::phase_added_exact) waves_.emplace(samples);
+        if (exact) waves_.emplace(samples);
         for (std::size_t l = 0; l < light_field.directions_v; ++l)
             for (std::size_t k = 0; k < light_field.directions_u; ++k) {
                 const double U = light_field.u(static_cast<double>(k)), V = light_field.v(static_cast<double>(l));
@@ -86,12 +87,12 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
             const SurfacePoint point = cells_.find(s + U * depth, t + V * depth, depth, look);
             U = (point.x - s) / point.depth;
             V = (point.y - t) / point.depth;
-            turns = point.turns + point.depth * std::sqrt(1 + U * U + V * V) / options_.wavelength;
+            turns = point.turns + point.depth * std::sqrt(1 + U * U + V * V) / wavelength_;
         } else {
             // Nothing is a surface far away: neighbouring hogels see different cells of it.
             turns = cells_.find(s + U, t + V, 1.0, look).turns;
         }
-        const double to_frequency = pitch_ / (options_.wavelength * std::sqrt(1 + U * U + V * V));
+        const double to_frequency = pitch_ / (wavelength_ * std::sqrt(1 + U * U + V * V));
         return {-U * to_frequency, V * to_frequency, turns};
     }
 
@@ -120,7 +121,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
     }
 
     LightFieldGrid light_field_;
-    HologramOptions options_;
+    double wavelength_;
     std::size_t samples_;
     double pitch_;
     SurfaceCells cells_;
@@ -132,8 +133,8 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
 }  // namespace
 
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                           const HologramOptions& options) {
-    return std::make_unique<PhaseAddedSynthesis>(light_field, samples, options);
+                                                           const HologramOptions& options, bool exact) {
+    return std::make_unique<PhaseAddedSynthesis>(light_field, samples, options, exact);
 }
 
 }  // namespace hogel::hologram
