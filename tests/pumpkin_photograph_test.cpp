@@ -42,11 +42,10 @@ struct Photographs {
                 cameras.push_back(camera);
             }
         HologramOptions options;
-        options.wavelength = 532_nm;
+        options.channel = {532_nm, 1};
         options.pitch = size / pixels / 32;
-        options.channel = 1;
         options.looks = 16;
-        waves = photograph(*make_hologram(light_field, options), cameras);
+        waves = photograph(*make_hologram(borrow(light_field), options), cameras);
         for (const Image& colour : photograph(borrow(light_field), cameras)) {
             Image green(pixels, pixels, 1);
             for (std::size_t i = 0; i < green.pixels.size(); ++i)

@@ -54,7 +54,7 @@ const FieldGrid small{{96, 80, 2_um, 2_um, 0, 0}, 633_nm};
 
 Field make(std::string_view method, const ShadedScene& scene, const FieldGrid& grid,
            const SceneHologramOptions& options = {}) {
-    return find_scene_method(method)->make(scene, grid, options, {});
+    return scene_hologram_methods().find(method).make(scene, grid, options, {});
 }
 
 TEST(TiledPoints, are_the_exact_sum_wherever_the_expansion_holds_and_elsewhere) {
@@ -224,10 +224,10 @@ TEST(AddWave, twins_agree_with_and_without_a_normal_behind_and_before_the_hologr
 }
 
 // A field is cut into tiles for the threads; what they draw is keyed by the point, never by the order of work.
-TEST(SceneMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_another_seed) {
+TEST(SceneHologramMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_another_seed) {
     // Far enough for all of them, and small enough for the far field.
     const ShadedScene scene = card_at(12_mm, 0.03_mm, 1, 0.1);
-    for (const SceneMethod& method : scene_methods()) {
+    for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
         SceneHologramOptions options;
         options.planes = 3;
         const auto make_with = [&](std::size_t threads) {
@@ -245,7 +245,7 @@ TEST(SceneMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_
     }
 }
 
-TEST(SceneMethods, refuse_what_they_cannot_do) {
+TEST(SceneHologramMethods, refuse_scenes_and_grids_that_they_cannot_take) {
     const auto message = [](const char* method, const ShadedScene& scene) -> std::string {
         try {
             make(method, scene, small);
@@ -258,7 +258,7 @@ TEST(SceneMethods, refuse_what_they_cannot_do) {
     EXPECT_NE(message("fresnel", card_at(0.5_mm, 0.1_mm)).find("expected a depth of"), std::string::npos);
     EXPECT_NE(message("fresnel", card_at(0, 0.1_mm)).find("lies on the hologram"), std::string::npos);
     EXPECT_NE(message("fraunhofer", card_at(5_mm, 0.1_mm)).find("is in the far field from"), std::string::npos);
-    EXPECT_EQ(find_scene_method("wavy"), nullptr);
+    EXPECT_THROW(scene_hologram_methods().find("wavy"), Error);
 }
 
 }  // namespace

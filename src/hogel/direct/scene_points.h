@@ -100,7 +100,7 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
 Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
                        const std::function<std::complex<double>(Vec3 place)>& wave);
 
-// The methods; scene_methods.cpp lists them by name.
+// The methods, which scene_hologram_methods() lists by name.
 Field exact_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field exact_visible_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field tiled_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);

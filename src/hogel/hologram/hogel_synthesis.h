@@ -42,11 +42,12 @@ class HogelSynthesis {
 /// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2). The rays of a
 /// hogel are those of all faces, one face after the other.
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                       const HologramOptions& options);
+                                                       const HologramOptions& options, const Fourier& method);
 
 /// The same with horizontal parallax only: each of a hogel's lines for itself, by one FFT along it, [K] (3.23).
 std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                    std::size_t lines, const HologramOptions& options);
+                                                    std::size_t lines, const HologramOptions& options,
+                                                    const Lines& method);
 
 /// What a synthesis gets as the values of a light field's rays.
 enum class RayValues {
@@ -57,10 +58,11 @@ enum class RayValues {
 /// A sum of basis fringes weighted with coefficients: [K] (3.24).
 /// Throws Error(usage) for a transform that does not exist, and where the fringes would not fit into memory.
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                     const HologramOptions& options, RayValues values);
+                                                     const HologramOptions& options, const Basis& method,
+                                                     RayValues values);
 
 /// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                           const HologramOptions& options);
+                                                           const HologramOptions& options, bool exact);
 
 }  // namespace hogel::hologram

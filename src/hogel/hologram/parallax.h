@@ -10,7 +10,7 @@ namespace hogel::hologram {
 inline constexpr double max_parallax = 4;
 
 /// How far, in samples of a hologram of this pitch, neighbouring directions see the same surface apart: |ζ|ΔU/Δ for the
-/// largest depth that some hogels spread over the light field meet. Nought without depth.
+/// largest depth that some hogels spread over the light field meet. Zero without depth.
 double neighbouring_parallax(const LightFieldSource& light_field, double pitch);
 
 }  // namespace hogel::hologram

@@ -158,7 +158,7 @@ TEST(Photograph, by_the_full_chain_is_the_same_picture) {
             camera.focus_depth = focus;
             camera.picture = {52, 48, 20_um, 20_um, 0.1_mm, -0.1_mm};
         }
-    const auto narrow = photograph(field, cameras), full = photograph_fully(field, cameras);
+    const auto narrow = photograph(field, cameras), full = photograph_by_plane_waves(field, cameras);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         // Aslant it is 0.9994 where the pupil's disc is not bent among the frequencies.
         EXPECT_GT(correlation(narrow[c], full[c]), 0.9997) << c;
@@ -191,10 +191,10 @@ TEST(Photograph, waves_in_focus_have_the_phases_of_their_ways) {
             if (std::hypot(x, y) > 0.6 * cell) continue;
             EXPECT_LT(std::abs(std::arg(here(row, column) / here(15, 15))), 0.2) << row << ' ' << column;
         }
-    FullCameraOptions film;
+    PlaneWaveCameraOptions film;
     film.film_distance = 10_mm;
     Field any({{64, 64, 0.8_um, 0.8_um, 0, 0}, 633_nm});
-    EXPECT_THROW(waves_in_focus(any, 0, std::span(&camera, 1), {}, film), Error);
+    EXPECT_THROW(waves_in_focus(any, 0, std::span(&camera, 1), film), Error);
 }
 
 // A plane in focus that is tilted is one plane wave for another in the full chain, and a phase of the pupil that
@@ -211,11 +211,11 @@ TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
         camera.focus_slope_y = -0.8;
         camera.picture = {40, 36, 14_um, 14_um, 0.1_mm, -0.1_mm};
         const Image narrow = photograph(field, std::span(&camera, 1))[0],
-                    full = photograph_fully(field, std::span(&camera, 1))[0];
+                    full = photograph_by_plane_waves(field, std::span(&camera, 1))[0];
         EXPECT_GT(correlation(narrow, full), 0.999) << eye.x;
         EXPECT_NEAR(sum(narrow) / sum(full), 1, 1e-2) << eye.x;
         camera.focus_slope_y = 0.8;
-        EXPECT_LT(correlation(photograph_fully(field, std::span(&camera, 1))[0], full), 0.99) << eye.x;
+        EXPECT_LT(correlation(photograph_by_plane_waves(field, std::span(&camera, 1))[0], full), 0.99) << eye.x;
     }
 }
 
@@ -230,8 +230,8 @@ TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
         camera.pupil = pupil;
         camera.focus_depth = focus;
         camera.picture = {40, 36, 10_um, 10_um, 50_um, 0};
-        const Image perfect = photograph_fully(field, std::span(&camera, 1))[0];
-        const Image thin = photograph_fully(field, std::span(&camera, 1), {}, {{}, film_distance})[0];
+        const Image perfect = photograph_by_plane_waves(field, std::span(&camera, 1))[0];
+        const Image thin = photograph_by_plane_waves(field, std::span(&camera, 1), {{}, film_distance})[0];
         // A blurred point sends some of its light beside the film.
         EXPECT_NEAR(sum(thin) / sum(perfect), 1, pupil < 1_mm ? 1e-2 : 3e-2) << pupil << " " << film_distance;
         return correlation(perfect, thin);
@@ -259,7 +259,7 @@ TEST(Photograph, in_windows_is_the_same_picture) {
     const PhotographPlan plan = plan_photographs(grid, cameras, double(little.memory));
     EXPECT_LE(plan.bytes, double(little.memory));
     EXPECT_GT(plan.windows.size(), 1u);
-    const auto parts = photograph(field, cameras, {}, little);
+    const auto parts = photograph(field, cameras, little);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         EXPECT_GT(correlation(parts[c], whole[c]), 0.9998) << c;
         EXPECT_NEAR(sum(parts[c]) / sum(whole[c]), 1, 2e-3) << c;
@@ -301,7 +301,7 @@ TEST(Photograph, an_eye_where_no_light_goes_is_refused_with_a_pitch_that_would_d
     camera.eye = {0, 30_mm, 100_mm};
     camera.picture = {8, 8, 20_um, 20_um, 0, 0};
     try {
-        photograph_fully(Field(grid), std::span(&camera, 1));
+        photograph_by_plane_waves(Field(grid), std::span(&camera, 1));
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);

@@ -131,14 +131,17 @@ namespace hogel {
 
 using namespace optics;
 
-void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look,
-               const ScratchOptions& scratch, const Progress& progress) {
+void propagate(const FieldSource& source, double distance, FieldSink& sink, const PropagateOptions& options,
+               const Progress& progress) {
+    const ScratchOptions& scratch = options.scratch;
     const Grid& plane = source.grid().plane;
     validate(source.grid(), ErrorCode::usage, "propagated field");
-    if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));
+    if (!std::isfinite(distance))
+        throw Error(ErrorCode::usage,
+                    fmt::format("a field cannot be propagated by {} m; the distance must be finite", distance));
     Spectrum waves =
-        spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), scratch,
-                    [&](double done) { return !progress || progress(0.4 * done); });
+        spectrum_of(source, options.look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane),
+                    scratch, [&](double done) { return !progress || progress(0.4 * done); });
     propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
     progress.report(0.6);
     const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
@@ -154,9 +157,9 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, std:
     progress.report(1);
 }
 
-Field propagate(const FieldSource& source, double distance, std::size_t look) {
+Field propagate(const FieldSource& source, double distance, const PropagateOptions& options, const Progress& progress) {
     Field result(source.grid());
-    propagate(source, distance, result, look, {SIZE_MAX, {}});
+    propagate(source, distance, result, options, progress);
     return result;
 }
 

@@ -153,22 +153,29 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
 
 }  // namespace
 
-const std::map<std::string, Encoding>& encodings() {
-    static const std::map<std::string, Encoding> all{{"phase", Encoding::phase},
-                                                     {"double-phase", Encoding::double_phase},
-                                                     {"gerchberg-saxton", Encoding::gerchberg_saxton},
-                                                     {"gradient", Encoding::gradient},
-                                                     {"intensity", Encoding::intensity},
-                                                     {"bipolar", Encoding::bipolar},
-                                                     {"burckhardt", Encoding::burckhardt},
-                                                     {"lee", Encoding::lee},
-                                                     {"binary", Encoding::binary}};
-    return all;
-}
-
 bool is_phase_only(Encoding encoding) {
     return encoding == Encoding::phase || encoding == Encoding::double_phase ||
            encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
+}
+
+Table<EncodingInfo>& encodings() {
+    const auto row = [](const char* name, const char* text, Encoding encoding) {
+        return EncodingInfo{name, text, encoding, is_phase_only(encoding)};
+    };
+    static Table<EncodingInfo> table(
+        "encoding",
+        {
+            row("phase", "the field's own phase, its modulus forgotten", Encoding::phase),
+            row("double-phase", "the modulus as two phases on a checkerboard", Encoding::double_phase),
+            row("gerchberg-saxton", "phases by alternating projections", Encoding::gerchberg_saxton),
+            row("gradient", "phases by stochastic gradient descent", Encoding::gradient),
+            row("intensity", "amplitudes of the interference with a reference wave", Encoding::intensity),
+            row("bipolar", "amplitudes of the real part with a reference wave, raised", Encoding::bipolar),
+            row("burckhardt", "amplitudes of three real components in successive columns", Encoding::burckhardt),
+            row("lee", "amplitudes of four real components in successive columns", Encoding::lee),
+            row("binary", "amplitudes 0 and 1 by the sign of the real part with a reference wave", Encoding::binary),
+        });
+    return table;
 }
 
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {

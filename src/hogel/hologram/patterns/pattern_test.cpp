@@ -236,8 +236,8 @@ TEST(Pattern, that_cannot_be_is_refused_with_what_would_do) {
     options = options_for(Encoding::gerchberg_saxton);
     options.window = 500;
     expect_usage(speckle(0.2), options, "500");
-    EXPECT_THROW(find_modulator("zeus"), Error);
-    EXPECT_EQ(find_modulator("leto").width, 1920u);
+    EXPECT_THROW(modulators().find("zeus"), Error);
+    EXPECT_EQ(modulators().find("leto").width, 1920u);
 }
 
 }  // namespace

@@ -43,21 +43,23 @@ std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? 
 // transform with the waves of its directions, each in the phase of a spherical wave from the point that it meets; all
 // windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
 // stereograms", ACM TOG 38(6), 2019.
-class OverlapAdd final : public FieldSource {
+class OverlapAddHologram final : public FieldSource {
   public:
-    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const HologramOptions& options,
-               bool one_by_one)
-        : light_field_(light_field),
+    OverlapAddHologram(LightField::Source light_field, const FieldGrid& grid, const HologramOptions& options,
+                       PointPhases phases, bool one_by_one)
+        : source_(std::move(light_field)),
+          light_field_(*source_),
+          phases_(phases),
           options_(options),
           grid_(grid),
-          hop_(grid.plane.width / light_field.grid().hogels_s),
-          side_(window_side(light_field.grid(), grid, hop_)),
+          hop_(grid.plane.width / light_field_.grid().hogels_s),
+          side_(window_side(light_field_.grid(), grid, hop_)),
           fft_(side_, side_),
           window_(hann_window(side_)),
-          brightness_(light_field.grid(), grid, hop_, window_) {
+          brightness_(light_field_.grid(), grid, hop_, window_) {
         for (const float row : window_)
             for (const float column : window_) square_.push_back(row * column);
-        hogels_a_metre_ = 1 / light_field.grid().pitch;
+        hogels_a_metre_ = 1 / light_field_.grid().pitch;
         waves_a_metre_ = 1 / grid.wavelength;
         list_directions();
         batches_ = !one_by_one && side_ <= WindowBatch::max_side && !directions_.empty();
@@ -108,12 +110,12 @@ class OverlapAdd final : public FieldSource {
         std::fill(out.data(), out.data() + out.size(), Complex(0));
         Array<Complex, 2> window({side_, side_});
         std::optional<PointCycles> points;
-        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
+        if (phases_ == PointPhases::random) points.emplace(turn_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             const HogelRange& range = tile.range;
             for (std::size_t j = 0; j < range.nt; ++j)
                 for (std::size_t i = 0; i < range.ns; ++i) {
-                    fill(tile.radiance.view()[options_.channel][j][i].elements(), tile.depth[j][i].elements(),
+                    fill(tile.radiance.view()[options_.channel.index][j][i].elements(), tile.depth[j][i].elements(),
                          {range.s0 + i, range.t0 + j, look}, points ? &*points : nullptr, window);
                     fft_.backward(window);
                     add(window, range.s0 + i, range.t0 + j, region, out);
@@ -152,7 +154,7 @@ class OverlapAdd final : public FieldSource {
                 std::fill_n(part->data(), size, 0.0f);
         }
         std::optional<PointCycles> points;
-        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
+        if (phases_ == PointPhases::random) points.emplace(turn_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             for (std::size_t j = 0; j < tile.range.nt; ++j)
                 for (std::size_t i = 0; i < tile.range.ns; i += together)
@@ -179,7 +181,7 @@ class OverlapAdd final : public FieldSource {
         const TurnSeries turns = turn_series(look);
         const WindowBatch::At at{s, t, turns.series, turns.key};
         const std::size_t count = std::min(WindowBatch::hogels, tile.range.ns - i);
-        if (room.batch->fill(at, &tile.radiance(options_.channel, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
+        if (room.batch->fill(at, &tile.radiance(options_.channel.index, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
                              light_field_.grid().directions(), turns_of_points))
             room.batch->add(at, room.sum);
     }
@@ -235,7 +237,7 @@ class OverlapAdd final : public FieldSource {
 
     TurnSeries turn_series(std::size_t look) const {
         return {{static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)},
-                static_cast<std::uint32_t>(look * 4 + options_.channel)};
+                static_cast<std::uint32_t>(look * 4 + options_.channel.index)};
     }
 
     // Nothing is a surface far away, of which neighbouring windows see different points.
@@ -285,7 +287,9 @@ class OverlapAdd final : public FieldSource {
         }
     }
 
+    LightField::Source source_;
     const LightFieldSource& light_field_;
+    PointPhases phases_;
     HologramOptions options_;
     FieldGrid grid_;
     std::size_t hop_, side_;  // samples of a hogel's and a window's side
@@ -303,9 +307,10 @@ class OverlapAdd final : public FieldSource {
 
 }  // namespace
 
-std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const HologramOptions& options, bool one_by_one) {
-    return std::make_unique<OverlapAdd>(light_field, grid, options, one_by_one);
+std::shared_ptr<const FieldSource> make_overlap_add(const LightField::Source& light_field, const FieldGrid& grid,
+                                                    const HologramOptions& options, PointPhases phases,
+                                                    bool one_by_one) {
+    return std::make_shared<OverlapAddHologram>(light_field, grid, options, phases, one_by_one);
 }
 
 }  // namespace hogel::hologram::windows

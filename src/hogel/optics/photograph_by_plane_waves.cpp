@@ -31,7 +31,7 @@ constexpr double edge_room = 1.1;
 struct Chain {
     const FieldSource& hologram;
     std::size_t look;
-    const FullCameraOptions& options;
+    const PlaneWaveCameraOptions& options;
 };
 
 bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
@@ -128,7 +128,7 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
 // nothing else. So light goes back to that plane, through nothing; the film shows it as large as the film is. A thin
 // lens instead bends the light towards a film behind it, for good or ill.
 Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
-                      const FullCameraOptions& options) {
+                      const PlaneWaveCameraOptions& options) {
     const double wavelength = at_lens.wavelength, R = camera.eye.z;
     const double m = focus_ratio(camera, hologram.center_x, hologram.center_y), b = options.film_distance;
     const double focal_length = b > 0 ? 1 / (1 / (m * R) + 1 / b) : 0;
@@ -237,7 +237,7 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
     return result;
 }
 
-void require_full(const FieldSource& hologram, std::span<const Camera> cameras, double film) {
+void require_photographable(const FieldSource& hologram, std::span<const Camera> cameras, double film) {
     if (!std::isfinite(film) || film < 0)
         throw Error(ErrorCode::usage, fmt::format("a film {} m behind its lens: it must be positive and finite", film));
     for (const Camera& camera : cameras) {
@@ -272,9 +272,9 @@ void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progre
 
 }  // namespace
 
-std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const Camera> cameras,
-                                    const Progress& progress, const FullCameraOptions& options) {
-    require_full(hologram, cameras, options.film_distance);
+std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::span<const Camera> cameras,
+                                             const PlaneWaveCameraOptions& options, const Progress& progress) {
+    require_photographable(hologram, cameras, options.film_distance);
     std::vector<Image> images;
     for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
     const auto looks = static_cast<double>(hologram.looks());
@@ -290,11 +290,12 @@ std::vector<Image> photograph_fully(const FieldSource& hologram, std::span<const
 }
 
 std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
-                                                          std::span<const Camera> cameras, const Progress& progress,
-                                                          const FullCameraOptions& options) {
+                                                          std::span<const Camera> cameras,
+                                                          const PlaneWaveCameraOptions& options,
+                                                          const Progress& progress) {
     if (options.film_distance != 0)
         throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
-    require_full(hologram, cameras, 0);
+    require_photographable(hologram, cameras, 0);
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
     focus_all({hologram, look, options}, cameras, progress, [&](std::size_t i, const Focused& focused) {
         waves[i] = wave_at_pixels(focused, cameras[i], Rectangle(hologram.grid().plane));

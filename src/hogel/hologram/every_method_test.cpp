@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws that every way from a light field to fringes has to keep, with what theory says of each.
+// Laws that every method from a light field to fringes has to keep, against theory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 
 #include "hogel/error.h"
 #include "hogel/hologram.h"
@@ -43,10 +44,9 @@ LightFieldBuffer light_field_of(const LightFieldGrid& grid, std::span<const Card
     return light_field;
 }
 
-HologramOptions options_for(Method method, Phases phases, double pitch) {
+HologramOptions options_for(const HologramMethod& method, double pitch) {
     HologramOptions options;
     options.method = method;
-    options.phases = phases;
     options.pitch = pitch;
     return options;
 }
@@ -134,18 +134,18 @@ class PointFocus : public testing::TestWithParam<double> {
 
     const Vec3 point{cell / 2, cell / 2, -depth};
 
-    std::unique_ptr<FieldSource> hologram(Phases phases, std::size_t looks = 1) const {
-        HologramOptions options = options_for(Method::fourier, phases, 2_um);
+    std::shared_ptr<const FieldSource> hologram(const HologramMethod& method, std::size_t looks = 1) const {
+        HologramOptions options = options_for(method, 2_um);
         options.looks = looks;
-        return make_hologram(light_field, options);
+        return make_hologram(borrow(light_field), options);
     }
 };
 
 // A slit of sine ±s makes sinc², 0.886 λ/2s wide at half maximum.
-TEST_P(PointFocus, is_as_narrow_as_the_whole_fan_of_rays_allows_with_added_phases) {
+TEST_P(PointFocus, with_added_phases_is_as_narrow_as_the_whole_fan_of_rays_allows) {
     const double fan = 0.886 * wavelength / (2 * tan_half / std::hypot(1, tan_half));
-    for (Phases phases : {Phases::phase_added, Phases::phase_added_exact}) {
-        const Peak peak = peak_of(focus_of(*hologram(phases), point, 20_um));
+    for (const bool exact : {false, true}) {
+        const Peak peak = peak_of(focus_of(*hologram(PhaseAdded{exact}), point, 20_um));
         EXPECT_NEAR(peak.width * 20_um / fan, 1, 0.1);
         EXPECT_NEAR(peak.at * 20_um, 0, 0.3_um);
     }
@@ -153,7 +153,7 @@ TEST_P(PointFocus, is_as_narrow_as_the_whole_fan_of_rays_allows_with_added_phase
 
 // One hogel is a slit as wide as itself, sinc² with its first zero at λζ/d; and the frequency grid spreads the ray over
 // its lobes: by the hat that interpolates rays and the width of a lobe.
-TEST_P(PointFocus, is_as_wide_as_one_hogel_makes_it_in_a_plain_stereogram) {
+TEST_P(PointFocus, without_added_phases_is_as_wide_as_one_hogel_diffracts) {
     const double zero = wavelength * std::abs(depth) / grid.pitch;
     const double hat = grid.step_u() / (wavelength / grid.pitch);  // in lobes
     std::vector<double> expected(161);
@@ -165,19 +165,19 @@ TEST_P(PointFocus, is_as_wide_as_one_hogel_makes_it_in_a_plain_stereogram) {
                 const int place = i + 80;
                 expected[std::size_t(place)] += sinc * sinc * (1 - std::abs(ray) / 10.0);
             }
-    EXPECT_NEAR(inner_half(focus_of(*hologram(Phases::random, 6), point, zero)), inner_half(expected), 0.05);
-    EXPECT_GT(inner_half(focus_of(*hologram(Phases::phase_added_exact), point, zero)), 0.97);
+    EXPECT_NEAR(inner_half(focus_of(*hologram(Fourier{}, 6), point, zero)), inner_half(expected), 0.05);
+    EXPECT_GT(inner_half(focus_of(*hologram(PhaseAdded{true}), point, zero)), 0.97);
 }
 
 // With frequencies of their own the waves are those of the point, but for what a hogel hides of a sphere's curvature.
 // On the nearest frequencies of the transform they err by a uniform half step along x, and 0.405 of a step in y here.
-TEST_P(PointFocus, is_the_exact_sum_where_each_wave_has_its_own_frequency) {
-    const auto exactly = hologram(Phases::phase_added_exact);
+TEST_P(PointFocus, with_exact_added_phases_is_the_exact_sum) {
+    const auto exactly = hologram(PhaseAdded{true});
     const PointSource source{point};
     const Field exact = point_hologram({&source, 1}, exactly->grid());
     EXPECT_GT(likeness(*exactly, exact), 0.985);
-    EXPECT_NEAR(likeness(*hologram(Phases::phase_added), exact), std::pow(0.873 * 0.752, 2), 0.03);
-    EXPECT_LT(likeness(*hologram(Phases::random), exact), 0.05);
+    EXPECT_NEAR(likeness(*hologram(PhaseAdded{false}), exact), std::pow(0.873 * 0.752, 2), 0.03);
+    EXPECT_LT(likeness(*hologram(Fourier{}), exact), 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(BehindAndInFront, PointFocus, testing::Values(1, -1));
@@ -189,7 +189,7 @@ TEST_P(OverlapAddPoint, is_focused_as_narrowly_as_the_fan_of_rays_allows) {
     const LightFieldGrid grid{201, 39, 4_um, 17, 17, Perspective{tan_half, tan_half}, 1};
     const Card card{depth, -2_um, 2_um, -2_um, 2_um};
     const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
-    const auto hologram = make_hologram(light_field, options_for(Method::overlap_add, Phases::random, 4_um));
+    const auto hologram = make_hologram(borrow(light_field), options_for(OverlapAdd{}, 4_um));
     const Peak peak = peak_of(focus_of(*hologram, {0, 0, -depth}, 30_um));
     // Seventeen directions, 1/W apart, W = 19 samples.
     const double fan = 0.886 / (17 / (19 * 4_um));
@@ -199,22 +199,23 @@ TEST_P(OverlapAddPoint, is_focused_as_narrowly_as_the_fan_of_rays_allows) {
 
 INSTANTIATE_TEST_SUITE_P(Depths, OverlapAddPoint, testing::Values(2e-3, 4e-3, -4e-3));
 
-struct PropagationOptions {
-    Method method;
-    Phases phases;
+struct NamedMethod {
+    const char* name;
+    HologramMethod method;
 };
+void PrintTo(const NamedMethod& named, std::ostream* out) { *out << named.name; }
 
-class EveryWay : public testing::TestWithParam<PropagationOptions> {
+class EveryMethod : public testing::TestWithParam<NamedMethod> {
   protected:
-    HologramOptions options(double pitch) const { return options_for(GetParam().method, GetParam().phases, pitch); }
+    HologramOptions options(double pitch) const { return options_for(GetParam().method, pitch); }
 };
 
-TEST_P(EveryWay, gives_the_same_bytes_in_any_tiling) {
+TEST_P(EveryMethod, gives_the_same_bytes_in_any_tiling) {
     const LightFieldGrid grid{9, 7, 48_um, 20, 22, Perspective{0.12, 0.13}, 1};
     const Card cards[] = {{3e-3, 0, 1, -1, 1, 0.5f}, {-2e-3, -1, 1, 0, 0.1e-3, 2}};
     LightFieldBuffer light_field = light_field_of(grid, cards);
     light_field.radiance(0, 2, 2, 3, 3) = 7;  // light from nowhere
-    const auto source = make_hologram(light_field, options(2_um));
+    const auto source = make_hologram(borrow(light_field), options(2_um));
     const Array<Complex, 2> all = whole(*source);
     double energy = 0;
     for (const Complex& value : all.elements()) energy += std::norm(value);
@@ -228,32 +229,32 @@ TEST_P(EveryWay, gives_the_same_bytes_in_any_tiling) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, EveryWay,
-                         testing::Values(PropagationOptions{Method::fourier, Phases::random},
-                                         PropagationOptions{Method::fourier, Phases::fixed},
-                                         PropagationOptions{Method::fourier, Phases::designed},
-                                         PropagationOptions{Method::fourier, Phases::phase_added},
-                                         PropagationOptions{Method::fourier, Phases::phase_added_exact},
-                                         PropagationOptions{Method::overlap_add, Phases::random},
-                                         PropagationOptions{Method::overlap_add, Phases::fixed},
-                                         PropagationOptions{Method::basis, Phases::fixed},
-                                         PropagationOptions{Method::basis, Phases::designed}));
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
+                         testing::Values(NamedMethod{"fourier random", Fourier{Phases::random}},
+                                         NamedMethod{"fourier fixed", Fourier{Phases::fixed}},
+                                         NamedMethod{"fourier designed", Fourier{Phases::designed}},
+                                         NamedMethod{"phase-added", PhaseAdded{false}},
+                                         NamedMethod{"phase-added-exact", PhaseAdded{true}},
+                                         NamedMethod{"overlap-add random", OverlapAdd{PointPhases::random}},
+                                         NamedMethod{"overlap-add fixed", OverlapAdd{PointPhases::fixed}},
+                                         NamedMethod{"basis fixed", Basis{"cdf97", 0, SharedPhases::fixed}},
+                                         NamedMethod{"basis designed", Basis{"cdf97", 0, SharedPhases::designed}}));
 
 // Those that send light everywhere, as a diffuse surface does.
-class DiffuseWay : public EveryWay {
+class DiffuseMethod : public EveryMethod {
   protected:
-    const bool overlapping = GetParam().method == Method::overlap_add;
+    const bool overlapping = std::holds_alternative<OverlapAdd>(GetParam().method);
     const LightFieldGrid grid = overlapping ? LightFieldGrid{120, 120, 8_um, 11, 11, Perspective{0.06, 0.06}, 1}
                                             : LightFieldGrid{20, 20, 50_um, 20, 20, Perspective{0.1, 0.1}, 1};
-    std::unique_ptr<FieldSource> hologram(const LightFieldBuffer& light_field, std::size_t looks) const {
+    std::shared_ptr<const FieldSource> hologram(const LightFieldBuffer& light_field, std::size_t looks) const {
         HologramOptions chosen = options(overlapping ? 4_um : 2_um);
         chosen.looks = looks;
-        return make_hologram(light_field, chosen);
+        return make_hologram(borrow(light_field), chosen);
     }
 };
 
 // No method makes light brighter or darker than the light field says, at any depth.
-TEST_P(DiffuseWay, photographs_a_uniform_plane_as_bright_as_it_is) {
+TEST_P(DiffuseMethod, photographs_a_uniform_plane_as_bright_as_it_is) {
     for (double depth : {0.0, 0.4e-3, 1.5e-3, -3e-3}) {
         const Card card{depth};
         const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
@@ -271,7 +272,7 @@ TEST_P(DiffuseWay, photographs_a_uniform_plane_as_bright_as_it_is) {
 
 // A near card hides the left half of a far plane. Photographs by waves and by rays must agree with either in focus,
 // but for speckle and the pixel beside the edge.
-TEST_P(DiffuseWay, photographs_a_card_before_a_plane_as_rays_do) {
+TEST_P(DiffuseMethod, photographs_a_card_before_a_plane_as_rays_do) {
     const Card cards[] = {{0.5e-3, -1, 0, -1, 1, 1}, {3e-3, -1, 1, -1, 1, 0.25f}};
     const LightFieldBuffer light_field = light_field_of(grid, cards);
     for (double focus : {0.5e-3, 3e-3}) {
@@ -288,7 +289,7 @@ TEST_P(DiffuseWay, photographs_a_card_before_a_plane_as_rays_do) {
     }
 }
 
-TEST(OverlapAdd, parallax_of_neighbouring_directions_is_known_beforehand) {
+TEST(OverlapAdd, neighbouring_parallax_is_the_largest_depth_times_the_step_of_directions) {
     const LightFieldGrid grid{40, 30, 6.4_um, 9, 9, Perspective{0.045, 0.036}, 1};
     const Card cards[] = {{-3e-3, -1, 0, -1, 1}, {2e-3}};
     const LightFieldBuffer light_field = light_field_of(grid, cards);
@@ -298,7 +299,7 @@ TEST(OverlapAdd, parallax_of_neighbouring_directions_is_known_beforehand) {
 }
 
 // A fan of directions to one side, as of an off-axis camera: as bright as the same fan straight ahead.
-TEST(OverlapAdd, photographs_a_plane_as_bright_as_it_is_along_a_fan_to_one_side) {
+TEST(OverlapAdd, an_off_axis_plane_photographs_as_bright_as_it_is) {
     for (const double center : {0.5, -0.5}) {
         LightFieldGrid grid{100, 60, 4.8_um, 9, 9, Perspective{0.09, 0.09}, 1};
         grid.range().center_u = center;
@@ -310,7 +311,7 @@ TEST(OverlapAdd, photographs_a_plane_as_bright_as_it_is_along_a_fan_to_one_side)
             camera.pupil = 3_mm;
             camera.focus_depth = depth;
             camera.picture = {6, 4, 40_um, 40_um, 0, 0};
-            const auto hologram = make_hologram(light_field, options_for(Method::overlap_add, Phases::random, 0.6_um));
+            const auto hologram = make_hologram(borrow(light_field), options_for(OverlapAdd{}, 0.6_um));
             const Image image = photograph(*hologram, std::span(&camera, 1))[0];
             double mean = 0;
             for (float value : image.pixels.elements()) mean += value / 24;
@@ -319,13 +320,13 @@ TEST(OverlapAdd, photographs_a_plane_as_bright_as_it_is_along_a_fan_to_one_side)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, DiffuseWay,
-                         testing::Values(PropagationOptions{Method::fourier, Phases::random},
-                                         PropagationOptions{Method::fourier, Phases::fixed},
-                                         PropagationOptions{Method::fourier, Phases::designed},
-                                         PropagationOptions{Method::fourier, Phases::phase_added},
-                                         PropagationOptions{Method::fourier, Phases::phase_added_exact},
-                                         PropagationOptions{Method::overlap_add, Phases::random}));
+INSTANTIATE_TEST_SUITE_P(Methods, DiffuseMethod,
+                         testing::Values(NamedMethod{"fourier random", Fourier{Phases::random}},
+                                         NamedMethod{"fourier fixed", Fourier{Phases::fixed}},
+                                         NamedMethod{"fourier designed", Fourier{Phases::designed}},
+                                         NamedMethod{"phase-added", PhaseAdded{false}},
+                                         NamedMethod{"phase-added-exact", PhaseAdded{true}},
+                                         NamedMethod{"overlap-add random", OverlapAdd{PointPhases::random}}));
 
 double peak_over_mean(std::span<const Complex> field) {
     double mean = 0, peak = 0;
@@ -337,12 +338,12 @@ double peak_over_mean(std::span<const Complex> field) {
 }
 
 // The highest of N random sums is about ln N times the mean.
-TEST(Phases, designed_ones_flatten_the_fringe) {
+TEST(DesignedPhases, flatten_the_fringe) {
     const LightFieldGrid grid{4, 4, 64_um, 24, 24, Perspective{0.12, 0.12}, 1};
     LightFieldBuffer light_field(grid);
     std::ranges::fill(light_field.radiance.elements(), 1.0f);
     const auto ratio = [&](Phases phases) {
-        const Array<Complex, 2> field = whole(*make_hologram(light_field, options_for(Method::fourier, phases, 2_um)));
+        const Array<Complex, 2> field = whole(*make_hologram(borrow(light_field), options_for(Fourier{phases}, 2_um)));
         return peak_over_mean(field.elements());
     };
     EXPECT_NEAR(ratio(Phases::random), std::log(16384), 3);
@@ -351,7 +352,7 @@ TEST(Phases, designed_ones_flatten_the_fringe) {
 
 void expect_usage(const LightFieldSource& light_field, const HologramOptions& options, const std::string& part) {
     try {
-        make_hologram(light_field, options);
+        make_hologram(borrow(light_field), options);
         ADD_FAILURE() << "expected: " << part;
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -359,15 +360,14 @@ void expect_usage(const LightFieldSource& light_field, const HologramOptions& op
     }
 }
 
-TEST(Stereogram, what_a_method_cannot_do_is_refused_with_what_would_do) {
+TEST(MakeHologram, names_a_light_field_that_would_do_where_it_refuses_one) {
     const LightFieldBuffer flat({4, 4, 64_um, 25, 25, Perspective{0.12, 0.12}, 1});
-    expect_usage(flat, options_for(Method::fourier, Phases::phase_added, 2_um), "needs the depth of every ray");
-    expect_usage(flat, options_for(Method::overlap_add, Phases::random, 2_um), "needs the depth of every ray");
+    expect_usage(flat, options_for(PhaseAdded{}, 2_um), "needs the depth of every ray");
+    expect_usage(flat, options_for(OverlapAdd{}, 2_um), "needs the depth of every ray");
     const LightFieldBuffer coarse({4, 4, 64_um, 24, 12, Perspective{0.12, 0.12}, 1}, true);
-    expect_usage(coarse, options_for(Method::fourier, Phases::phase_added, 2_um), "need 25x25 directions or more");
+    expect_usage(coarse, options_for(PhaseAdded{}, 2_um), "need 25x25 directions or more");
     const LightFieldBuffer deep({4, 4, 64_um, 25, 25, Perspective{0.12, 0.12}, 1}, true);
-    expect_usage(deep, options_for(Method::overlap_add, Phases::designed, 2_um), "random or fixed");
-    EXPECT_NO_THROW(make_hologram(deep, options_for(Method::fourier, Phases::phase_added, 2_um)));
+    EXPECT_NO_THROW(make_hologram(borrow(deep), options_for(PhaseAdded{}, 2_um)));
 }
 
 }  // namespace

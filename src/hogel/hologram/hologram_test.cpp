@@ -32,10 +32,10 @@ const LightFieldGrid small{8, 6, 64_um, 24, 24, Perspective{0.15, 0.15}, 1};
 // f = −(U,V)/(λ√(1+U²+V²)), over every hogel, with |F|² = L (λ/d)²/cos θ.
 TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) {
     HologramOptions options;
-    options.wavelength = 633_nm;
+    options.channel.wavelength = 633_nm;
     options.pitch = 2_um;
     // Radiance only at the sample nearest to frequency (+3, −2)/d: U and V have the opposite signs.
-    const double step = options.wavelength / small.pitch, sx = 3 * step, sy = -2 * step;
+    const double step = options.channel.wavelength / small.pitch, sx = 3 * step, sy = -2 * step;
     const double cosine = std::sqrt(1 - sx * sx - sy * sy);
     LightFieldGrid grid = small;
     // A grid of directions so fine that one sample lies within one lobe.
@@ -46,7 +46,7 @@ TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) 
                l = static_cast<std::size_t>(std::lround(75 - V / grid.step_v()));
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s) light_field.radiance(0, t, s, l, k) = 1;
-    const auto stereogram = make_hologram(light_field, options);
+    const auto stereogram = make_hologram(borrow(light_field), options);
     const Grid& plane = stereogram->grid().plane;
     Array<Complex, 2> field({plane.height, plane.width});
     stereogram->read({0, 0, plane.width, plane.height}, 0, field);
@@ -71,8 +71,8 @@ TEST(Stereogram, carries_the_energy_of_its_light_field) {
     const LightFieldBuffer light_field = uniform(small, 0.7f);
     HologramOptions options;
     options.pitch = 1.6_um;  // 40 samples a hogel
-    const auto stereogram = make_hologram(light_field, options);
-    const double step = options.wavelength / small.pitch;
+    const auto stereogram = make_hologram(borrow(light_field), options);
+    const double step = options.channel.wavelength / small.pitch;
     double expected = 0;
     for (int j = -19; j <= 19; ++j)
         for (int i = -19; i <= 19; ++i) {
@@ -97,7 +97,7 @@ TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_
     HologramOptions options;
     options.pitch = 1.6_um;
     options.looks = 2;
-    const auto stereogram = make_hologram(light_field, options);
+    const auto stereogram = make_hologram(borrow(light_field), options);
     const Grid& plane = stereogram->grid().plane;
     Array<Complex, 2> whole({plane.height, plane.width});
     stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
@@ -124,7 +124,7 @@ TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_
     EXPECT_NEAR(correlation(*stereogram, 0), 1, 1e-6);
     EXPECT_LT(correlation(*stereogram, 1), 0.03);
     options.seed = 2;
-    EXPECT_LT(correlation(*make_hologram(light_field, options), 0), 0.03);
+    EXPECT_LT(correlation(*make_hologram(borrow(light_field), options), 0), 0.03);
 }
 
 // Rays that are made where they are asked for, and notes of how many were asked for at once.
@@ -156,7 +156,7 @@ TEST(Stereogram, reads_no_more_rays_at_once_than_fit) {
         HologramOptions options;
         options.pitch = 2_um;
         options.looks = looks;
-        const auto stereogram = make_hologram(source, options);
+        const auto stereogram = make_hologram(borrow(source), options);
         const Grid& plane = stereogram->grid().plane;
         Array<Complex, 2> whole({plane.height, plane.width}), row({32, plane.width});
         source.max_bytes = source.hogels = 0;
@@ -178,7 +178,7 @@ TEST(Stereogram, a_uniform_light_field_photographs_as_its_radiance_from_every_si
     HologramOptions options;
     options.pitch = 1_um;
     options.looks = 4;
-    const auto stereogram = make_hologram(light_field, options);
+    const auto stereogram = make_hologram(borrow(light_field), options);
     for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.025, 0, 0.1}, Vec3{-0.01, 0.02, 0.1}}) {
         Camera camera;
         camera.eye = eye;
@@ -196,15 +196,15 @@ TEST(Stereogram, a_pitch_too_coarse_for_the_field_of_view_is_refused_with_one_th
     HologramOptions options;
     options.pitch = 4_um;  // diffracts to asin(633/8000) = 4.5 degrees, the light field reaches 8.5
     try {
-        make_hologram(light_field, options);
+        make_hologram(borrow(light_field), options);
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
         EXPECT_NE(std::string(error.what()).find("a pitch of 2.13"), std::string::npos) << error.what();
     }
     options.pitch = 2_um;
-    options.channel = 1;
-    EXPECT_THROW(make_hologram(light_field, options), Error);
+    options.channel.index = 1;
+    EXPECT_THROW(make_hologram(borrow(light_field), options), Error);
 }
 
 // The resampling keeps constants and, away from borders, the means of linear functions.

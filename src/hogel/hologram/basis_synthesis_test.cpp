@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Basis fringes against one transform a hogel with the same phases.
+// Basis fringes against one Fourier transform a hogel with the same phases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,16 +29,19 @@ LightFieldBuffer smooth_light_field() {
     return light_field;
 }
 
-HologramOptions options_for(Method method, const std::string& transform) {
+HologramOptions options_for(const HologramMethod& method) {
     HologramOptions options;
     options.method = method;
-    options.phases = Phases::fixed;
-    options.average = LobeAverage::amplitude;
     options.pitch = 2_um;
-    options.transform = transform;
     options.looks = 2;
     return options;
 }
+
+HologramOptions basis_options(std::string_view transform, double tolerance = 0) {
+    return options_for(Basis{std::string(transform), tolerance});
+}
+
+const Fourier fixed_amplitudes{Phases::fixed, LobeAverage::amplitude};
 
 Array<Complex, 2> whole(const FieldSource& source, std::size_t look) {
     const Grid& plane = source.grid().plane;
@@ -56,59 +59,57 @@ double difference(const Array<Complex, 2>& a, const Array<Complex, 2>& b) {
     return std::sqrt(error / energy);
 }
 
-TEST(Basis, gives_what_one_transform_a_hogel_gives_whatever_the_transform_of_the_directions) {
+TEST(BasisSynthesis, equals_one_fourier_transform_a_hogel_for_every_transform_of_the_directions) {
     const LightFieldBuffer light_field = smooth_light_field();
-    for (const Phases phases : {Phases::fixed, Phases::designed}) {
-        HologramOptions fourier = options_for(Method::fourier, "");
-        fourier.phases = phases;
-        const auto expected = make_hologram(light_field, fourier);
+    for (const SharedPhases phases : {SharedPhases::fixed, SharedPhases::designed}) {
+        const bool designed = phases == SharedPhases::designed;
+        const Fourier fourier{designed ? Phases::designed : Phases::fixed, LobeAverage::amplitude};
+        const auto expected = make_hologram(borrow(light_field), options_for(fourier));
         for (const std::string_view name : transform::transform_names()) {
-            if (phases == Phases::designed && name != "ai33") continue;
-            HologramOptions options = options_for(Method::basis, std::string(name));
-            options.phases = phases;
-            const auto basis = make_hologram(light_field, options);
+            if (designed && name != "ai33") continue;
+            const auto basis = make_hologram(borrow(light_field), options_for(Basis{std::string(name), 0, phases}));
             for (std::size_t look : {0, 1})
                 EXPECT_LT(difference(whole(*expected, look), whole(*basis, look)), 1e-5) << name << " " << look;
         }
     }
 }
 
-// What carries a share of the amplitude is left out, and the fringes differ by no more than about that.
-TEST(Basis, leaves_out_what_does_not_matter) {
+// The fringes differ by about the share of the amplitude that the coefficients left out carry.
+TEST(BasisSynthesis, tolerance_bounds_the_error_of_leaving_out_small_coefficients) {
     const LightFieldBuffer light_field = smooth_light_field();
-    const Array<Complex, 2> all = whole(*make_hologram(light_field, options_for(Method::basis, "cdf97")), 0);
+    const Array<Complex, 2> all = whole(*make_hologram(borrow(light_field), basis_options("cdf97")), 0);
     for (const double tolerance : {0.3, 0.05, 0.01}) {
-        HologramOptions options = options_for(Method::basis, "cdf97");
-        options.tolerance = tolerance;
-        const double error = difference(all, whole(*make_hologram(light_field, options), 0));
+        const HologramOptions options = basis_options("cdf97", tolerance);
+        const double error = difference(all, whole(*make_hologram(borrow(light_field), options), 0));
         EXPECT_LT(error, 1.2 * tolerance);
         EXPECT_GT(error, 0.05 * tolerance);
     }
 }
 
-TEST(Basis, takes_coefficients_as_they_are) {
+TEST(BasisSynthesis, coefficients_and_radiances_make_the_same_hologram) {
     const LightFieldBuffer light_field = smooth_light_field();
     LightFieldBuffer coefficients = light_field;
     for (float& value : coefficients.radiance.elements()) value = std::sqrt(value);
     transform::transform("cdf42").forward(transform::Pyramid::separate({6, 18, 20}, {{1, 2}}),
                                           coefficients.radiance.elements());
-    const HologramOptions options = options_for(Method::basis, "cdf42");
-    const auto expected = make_hologram(light_field, options);
-    EXPECT_LT(difference(whole(*expected, 1), whole(*make_hologram_of_coefficients(coefficients, options), 1)), 1e-6);
+    const HologramOptions options = basis_options("cdf42");
+    const auto expected = make_hologram(borrow(light_field), options);
+    EXPECT_LT(difference(whole(*expected, 1), whole(*make_hologram_of_coefficients(borrow(coefficients), options), 1)),
+              1e-6);
 }
 
 // Lucente's basis: a direction's fringe is the transform of the part of each lobe that its cell covers. The cells cover
 // all lobes within the field of view, so the fringes of a uniform hogel add up to that of linear interpolation.
-TEST(Basis, of_pieces_is_one_cell_of_directions_each) {
+TEST(BasisSynthesis, each_fringe_of_the_piecewise_basis_lights_one_cell_of_directions) {
     const LightFieldGrid grid{1, 1, 48_um, 20, 18, Perspective{0.14, 0.13}, 1};
     LightFieldBuffer uniform(grid), one(grid);
     std::ranges::fill(uniform.radiance.elements(), 2.0f);
-    const auto of = [&](const LightFieldBuffer& light_field, Method method) {
-        return whole(*make_hologram(light_field, options_for(method, "pieces")), 0);
+    const auto of = [&](const LightFieldBuffer& light_field, const HologramOptions& options) {
+        return whole(*make_hologram(borrow(light_field), options), 0);
     };
-    EXPECT_LT(difference(of(uniform, Method::fourier), of(uniform, Method::basis)), 1e-5);
+    EXPECT_LT(difference(of(uniform, options_for(fixed_amplitudes)), of(uniform, basis_options("pieces"))), 1e-5);
     one.radiance(0, 0, 0, 9, 4) = 1;
-    Array<Complex, 2> spectrum = of(one, Method::basis);
+    Array<Complex, 2> spectrum = of(one, basis_options("pieces"));
     math::Fft2(24, 24).forward(spectrum);
     // The cell's light lies within its cell of frequencies, half a step of theirs around it.
     const double step = 633_nm / 48_um, u = grid.u(4), v = grid.v(9);
@@ -122,17 +123,15 @@ TEST(Basis, of_pieces_is_one_cell_of_directions_each) {
         }
 }
 
-TEST(Basis, refuses_what_cannot_be) {
+TEST(BasisSynthesis, refuses_unknown_transforms_other_methods_and_fringes_beyond_the_memory) {
     const LightFieldBuffer light_field = smooth_light_field();
-    HologramOptions options = options_for(Method::basis, "cdf97");
-    options.phases = Phases::random;
-    EXPECT_THROW(make_hologram(light_field, options), Error);
-    EXPECT_THROW(make_hologram(light_field, options_for(Method::basis, "wavy")), Error);
+    EXPECT_THROW(make_hologram(borrow(light_field), basis_options("wavy")), Error);
+    EXPECT_THROW(make_hologram_of_coefficients(borrow(light_field), options_for(Fourier{})), Error);
     const LightFieldBuffer fine({1, 1, 512_um, 256, 256, Perspective{0.14, 0.13}, 1});
-    EXPECT_THROW(make_hologram(fine, options_for(Method::basis, "cdf97")), Error);
+    EXPECT_THROW(make_hologram(borrow(fine), basis_options("cdf97")), Error);
 }
 
-TEST(Fringes, sum_alike_plainly_and_fast) {
+TEST(SumFringes, equals_its_plain_version) {
     const std::size_t size = 1000;
     Array<Complex, 2> fringes({5, size}), plain({1, size}), fast({1, size});
     for (std::size_t i = 0; i < fringes.size(); ++i)
