@@ -19,11 +19,11 @@ INSTANTIATE_TEST_SUITE_P(CrossedTriangles, CrossedOnEveryTarget, ::testing::Valu
 // Light fields of the front, with directions to one side, with more directions than RowPlanes has planes, and of sides
 // of a hemicube.
 std::vector<LightFieldGrid> grids() {
-    const LightFieldGrid front{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
+    const LightFieldGrid front{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
     LightFieldGrid aside = front, tall = front;
-    aside.center_v = -0.7;
+    aside.range().center_v = -0.7;
     tall.directions_v = 300;
-    const std::vector<LightFieldGrid> cube = hemicube({8, 9, 0.5e-3, 20, 30, 1, 1, 3});
+    const std::vector<LightFieldGrid> cube = hemicube({8, 9, 0.5e-3, 20, 30, Perspective{1, 1}, 3});
     return {front, aside, tall, cube[1], cube[3]};
 }
 
@@ -92,7 +92,7 @@ TEST(CrossedTriangles, hold_all_that_show_and_few_others) {
                 }
             }
             EXPECT_GT(separated, 20u);
-            EXPECT_LT(found, separated + separated / 2) << int(grid.face) << " " << size;
+            EXPECT_LT(found, separated + separated / 2) << int(grid.face()) << " " << size;
         }
     EXPECT_GT(shown, 1000u);
 }
@@ -117,7 +117,7 @@ TEST(CrossedTriangles, may_show_only_where_their_box_is_seen) {
 
 // Triangles whose corners lie very close to a plane, very different ones in each cluster.
 TEST(CrossedTriangles, include_narrow_ones) {
-    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, 0.5, 0.4, 3};
+    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, Perspective{0.5, 0.4}, 3};
     const EpipolarFrame frame(grid);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> depth(0.5e-3, 9e-3), height(-1e-9, 1e-9);
@@ -149,7 +149,7 @@ TEST(CrossedTriangles, include_narrow_ones) {
 
 // Where no triangle touches the hologram plane, hardly any is found in vain.
 TEST(CrossedTriangles, are_nearly_exact_behind_the_hologram) {
-    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, 0.5, 0.4, 3};
+    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, Perspective{0.5, 0.4}, 3};
     const EpipolarFrame frame(grid);
     ShadedScene scene = scattered_triangles(5000, 0.05e-3);
     for (Vec3& p : scene.positions) p.z -= 8e-3;
