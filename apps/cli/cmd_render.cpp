@@ -51,11 +51,15 @@ class InRegions final : public LightFieldSource {
 double renderer_bytes(const Options& options, const LightFieldGrid& grid, const HogelRange& region,
                       const HogelRange& block, std::size_t values) {
     const SamplesPerRay samples = options.render.samples_per_ray();
-    if (samples.count() == 1) return depth_buffer_bytes(options.render.algorithm, grid, region);
+    const RendererInfo& renderer = renderers().find(options.render.algorithm);
+    const auto buffer_bytes = [&](const LightFieldGrid& rendered, const HogelRange& hogels) {
+        return renderer.depth_buffer_bytes ? renderer.depth_buffer_bytes(rendered, hogels) : 0.0;
+    };
+    if (samples.count() == 1) return buffer_bytes(grid, region);
     const LightFieldGrid fine = finer(grid, samples);
     const HogelRange part{0, 0, samples.hogel * std::min(region.ns, block.ns),
                           samples.hogel * std::min(region.nt, block.nt)};
-    return depth_buffer_bytes(options.render.algorithm, fine, part) +
+    return buffer_bytes(fine, part) +
            static_cast<double>(values * fine.directions()) * static_cast<double>(part.hogels()) * sizeof(float);
 }
 

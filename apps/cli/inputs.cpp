@@ -18,7 +18,7 @@
 #include "hogel/scene_hologram.h"
 #include "hogel/scenes.h"
 #include "hogel/shading.h"
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 #include "hogel/transform/transform.h"
 
 namespace hogel::cli {
@@ -115,14 +115,14 @@ std::vector<LightFieldGrid> RenderOptions::grids() const {
 void add_render_options(CLI::App* command, RenderOptions& options) {
     const auto group = [](CLI::Option* option) { option->group("Light field of a scene"); };
     std::string algorithms;
-    for (const RendererInfo& renderer : renderers())
-        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.description);
+    for (const RendererInfo& renderer : renderers().rows())
+        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.text);
     group(command->add_option("--algorithm", options.algorithm, "Renderer:" + algorithms)
               ->type_name("NAME")
               ->capture_default_str());
     std::string shadings;
-    for (const ShadingInfo& shading : shading_models())
-        shadings += fmt::format("\n{}: {}", shading.name, shading.description);
+    for (const ShadingInfo& shading : shading_models().rows())
+        shadings += fmt::format("\n{}: {}", shading.name, shading.text);
     group(command->add_option("--shading", options.shading, "Where light is worked out:" + shadings)
               ->type_name("NAME")
               ->capture_default_str());
@@ -288,7 +288,7 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
 std::shared_ptr<const ShadedScene> shade_scene(const Session& session, const Scene& scene,
                                                const RenderOptions& options) {
     ShadingOptions shading;
-    shading.model = shading_model(options.shading);
+    shading.model = options.shading;
     shading.shadow_map = options.shadow_map;
     if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
@@ -296,9 +296,10 @@ std::shared_ptr<const ShadedScene> shade_scene(const Session& session, const Sce
     auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, shading, stage.progress()));
     shaded->fronts_only = options.fronts_only;
     if (options.cache_spacing > 0)
-        shading::cache_light(*shaded, render::cache_spacing(*shaded, finer(options.grid(), options.samples_per_ray()),
-                                                            options.cache_spacing));
-    if (const auto& cache = shaded->light_cache)
+        shading::add_radiance_cache(
+            *shaded,
+            render::cache_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.cache_spacing));
+    if (const auto& cache = shaded->radiance_cache)
         session.detail(fmt::format("light on surfaces: at most {}; no room for that of {} of {} triangles",
                                    format_bytes(cache->bytes()), cache->triangles_without_room(),
                                    shaded->triangles.size()));

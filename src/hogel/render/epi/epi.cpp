@@ -58,7 +58,7 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t parts = (length + most - 1) / most, part = (length + parts - 1) / parts;
         const std::size_t rows =
             std::min(axes_.slow_hogels(all), std::max<std::size_t>(1, default_tile(grid_).hogels() / part));
-        return axes_.turned() ? HogelRange{0, 0, rows, part} : HogelRange{0, 0, part, rows};
+        return axes_.transposed() ? HogelRange{0, 0, rows, part} : HogelRange{0, 0, part, rows};
     }
 
     void read(LightFieldTile& tile) const override {
@@ -66,8 +66,8 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t hogels = axes_.fast_hogels(range), directions = axes_.fast_directions();
         const std::size_t columns =
             std::min({hogels, std::max<std::size_t>(16, max_words / directions), CellColumns::most});
-        const std::size_t first_row = axes_.turned() ? range.s0 : range.t0;
-        const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
+        const std::size_t first_row = axes_.transposed() ? range.s0 : range.t0;
+        const std::size_t first_column = axes_.transposed() ? range.t0 : range.s0;
         std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(columns * directions + EpipolarPlane::spare,
                                                                             EpipolarPlane::nothing);
         PlaneCells cells;
@@ -89,7 +89,7 @@ class EpiRenderer final : public LightFieldSource {
                     if (of_slab == 0) find_crossings(clusters_, rays_of(plane, first_row + row, slow), work.crossings);
                     draw_plane(plane, frame_.plane(first_row + row, slow), work.crossings[of_slab], work);
                     const First first{first_row + row, first_column + column, slow};
-                    if (axes_.turned())
+                    if (axes_.transposed())
                         shade_turned_plane(tile, plane, work, first);
                     else
                         shade_plane(tile, plane, work, first);
@@ -101,9 +101,9 @@ class EpiRenderer final : public LightFieldSource {
     // Where the light of a triangle's strips comes from.
     LightFrom light_from(std::uint32_t triangle) const {
         if (!scene_->needs_samples(triangle)) return LightFrom::ends;
-        if (!scene_->light_cache || scene_->triangles[triangle].texture != ShadedScene::no_texture)
+        if (!scene_->radiance_cache || scene_->triangles[triangle].texture != ShadedScene::no_texture)
             return LightFrom::samples;
-        const shading::LightGrid& grid = scene_->light_cache->grid(triangle);
+        const shading::LightGrid& grid = scene_->radiance_cache->grid(triangle);
         return grid.points && grid.is_radiance ? LightFrom::points : LightFrom::samples;
     }
 
@@ -198,7 +198,7 @@ class EpiRenderer final : public LightFieldSource {
             }
             work.lit.add_lit(work.shades[first + i], from);
             if (from == LightFrom::points)
-                __builtin_prefetch(&scene_->light_cache->grid(work.origins[first + i].triangle));
+                __builtin_prefetch(&scene_->radiance_cache->grid(work.origins[first + i].triangle));
         }
         work.waiting.clear();
     }
@@ -272,15 +272,17 @@ class EpiRenderer final : public LightFieldSource {
                 renderer_.axes_.sample(first_.slow_hogel, first_.fast_hogel + column, first_.slow_direction, k);
             const LightFieldGrid& grid = renderer_.grid_;
             const ViewSample sight =
-                sight_along(grid, grid.u(static_cast<double>(sample.u)), grid.v(static_cast<double>(sample.v)), depth);
+                view_sample(grid, grid.u(static_cast<double>(sample.u)), grid.v(static_cast<double>(sample.v)), depth);
             return radiance_at(*renderer_.scene_, from.triangle, b0, b1, b2, sight);
         }
 
-        Grids grids() const override { return {work_.origins.data(), renderer_.scene_->light_cache->grids().data()}; }
+        Grids grids() const override {
+            return {work_.origins.data(), renderer_.scene_->radiance_cache->grids().data()};
+        }
 
-        shading::LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
-            return renderer_.scene_->light_cache->corners(*renderer_.scene_, work_.origins[strip].triangle, row,
-                                                          column);
+        shading::RadianceCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
+            return renderer_.scene_->radiance_cache->corners(*renderer_.scene_, work_.origins[strip].triangle, row,
+                                                             column);
         }
 
       private:
@@ -301,9 +303,12 @@ class EpiRenderer final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_epi_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                    const LightFieldGrid& grid) {
-    return std::make_unique<EpiRenderer>(std::move(scene), grid);
+RendererInfo epi_renderer() {
+    return {.name = "epi",
+            .text = "epipolar planes: each triangle is set up once for a whole row of hogels",
+            .make = [](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
+                return std::make_unique<EpiRenderer>(std::move(scene), grid);
+            }};
 }
 
 }  // namespace hogel::render::epi

@@ -206,7 +206,7 @@ class NodesOnGrids {
         using Four = hn::Vec<Tag>;
         const Tag d;
         const std::uint32_t *upper = row.points + upper_[i], *lower = upper + row.down;
-        if (HWY_UNLIKELY(!shading::LightGrid::are_made(upper, upper + row.right, lower, lower + row.right))) {
+        if (HWY_UNLIKELY(!shading::LightGrid::are_filled(upper, upper + row.right, lower, lower + row.right))) {
             node[3] = std::numeric_limits<float>::quiet_NaN();
             return;
         }

@@ -14,15 +14,15 @@ using Node = LitStrips::Node;
 
 constexpr float not_yet = std::numeric_limits<float>::quiet_NaN();
 
-shading::LightCache::Corners corners_of(const StripLight& light, const shading::LightGrid::Place& row,
-                                        const shading::LightGrid::Place& column, std::size_t strip,
-                                        const SampleSource& samples) {
+shading::RadianceCache::Corners corners_of(const StripLight& light, const shading::LightGrid::Place& row,
+                                           const shading::LightGrid::Place& column, std::size_t strip,
+                                           const SampleSource& samples) {
     const std::uint32_t* first =
         light.points + std::uint64_t{row.node} * light.down + std::uint64_t{column.node} * light.right;
     const std::array points{first, first + light.right, first + light.down, first + light.down + light.right};
-    if (!shading::LightGrid::are_made(points[0], points[1], points[2], points[3]))
+    if (!shading::LightGrid::are_filled(points[0], points[1], points[2], points[3]))
         return samples.corners(strip, row.node, column.node);
-    shading::LightCache::Corners corners{};
+    shading::RadianceCache::Corners corners{};
     for (std::size_t k = 0; k < 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) corners[k][i] = std::bit_cast<float>(points[k][i]);
     return corners;
@@ -33,7 +33,7 @@ Node light_of_points(const StripLight& light, float part, std::size_t strip, con
     const float towards = light.place[0] + part * light.change[0], last = light.place[1] + part * light.change[1];
     const shading::LightGrid::Place row(towards, light.axis[0]);
     const shading::LightGrid::Place column(shading::LightGrid::along(towards, last), light.axis[1]);
-    const shading::LightCache::Corners corner = corners_of(light, row, column, strip, samples);
+    const shading::RadianceCache::Corners corner = corners_of(light, row, column, strip, samples);
     Node value;
     for (std::size_t i = 0; i < value.size(); ++i) {
         const float upper = corner[0][i] + column.beyond * (corner[1][i] - corner[0][i]);

@@ -11,7 +11,7 @@
 #include "hogel/array.h"
 #include "hogel/render/epi/kernels.h"
 #include "hogel/render/epi/setup.h"
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 
 namespace hogel::render::epi {
 
@@ -49,8 +49,8 @@ class SampleSource {
         const shading::LightGrid* of_triangles;
     };
     virtual Grids grids() const = 0;
-    /// The light of four points that are not made yet (LightCache::corners).
-    virtual shading::LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const = 0;
+    /// The light of four points that are not made yet (RadianceCache::corners).
+    virtual shading::RadianceCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const = 0;
 };
 
 /// What the strips of one plane show where they do not all have their light from their ends: each has nodes at equal

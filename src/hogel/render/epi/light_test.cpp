@@ -42,7 +42,7 @@ ShadedScene lit_triangles(float spacing, bool linear) {
     scene.radiance.resize(scene.positions.size());
     scene.texture_coordinates.resize(scene.positions.size());
     scene.lighting = std::make_shared<SomeLight>(linear);
-    shading::cache_light(scene, std::vector<float>(scene.triangles.size(), spacing));
+    shading::add_radiance_cache(scene, std::vector<float>(scene.triangles.size(), spacing));
     return scene;
 }
 
@@ -93,10 +93,10 @@ struct Strips final : SampleSource {
         return {float(strip) + part, float(column), float(k)};
     }
     Weights weights_at(std::size_t strip, float part) const { return origins[strip].weights(part); }
-    Grids grids() const override { return {origins.data(), scene.light_cache->grids().data()}; }
-    shading::LightCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
+    Grids grids() const override { return {origins.data(), scene.radiance_cache->grids().data()}; }
+    shading::RadianceCache::Corners corners(std::size_t strip, std::size_t row, std::size_t column) const override {
         ++points_asked;
-        return scene.light_cache->corners(scene, origins[strip].triangle, row, column);
+        return scene.radiance_cache->corners(scene, origins[strip].triangle, row, column);
     }
 };
 
