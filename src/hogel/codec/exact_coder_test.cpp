@@ -70,7 +70,7 @@ TEST(Lossless, every_bit_comes_back) {
         for (float& value : rough.radiance.elements()) value = ten_bits(value);
         expect_same_bits(rough, through(rough, lossless()));
     }
-    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
+    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, Perspective{0.3, 0.3}, 3});
     expect_same_bits(dark, through(dark, lossless()));
 }
 
@@ -178,7 +178,7 @@ TEST(Exact, bytes_of_any_kind_do_no_harm) {
     try_coder(*make_lossless_coder(field.grid(), {}));
     try_coder(*make_bounded_coder(field.grid(), {}, 0.01));
     // A hogel with a code of its own.
-    LightFieldBuffer noise(LightFieldGrid{1, 1, 1e-3, 72, 64, 0.3, 0.3, 1});
+    LightFieldBuffer noise(LightFieldGrid{1, 1, 1e-3, 72, 64, Perspective{0.3, 0.3}, 1});
     std::uint32_t k = 0;
     for (float& value : noise.radiance.elements()) value = static_cast<float>(core::philox({k++, 7, 7, 7}, {1, 2})[0]);
     LightFieldTile one(noise.grid(), {0, 0, 1, 1}, false);

@@ -183,8 +183,8 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
     LightFieldGrid part = grid;
     part.directions_u = std::min(grid.directions_u, tried_directions);
     part.directions_v = std::min(grid.directions_v, tried_directions);
-    part.tan_half_u *= static_cast<double>(part.directions_u) / static_cast<double>(grid.directions_u);
-    part.tan_half_v *= static_cast<double>(part.directions_v) / static_cast<double>(grid.directions_v);
+    part.range().half_u *= static_cast<double>(part.directions_u) / static_cast<double>(grid.directions_u);
+    part.range().half_v *= static_cast<double>(part.directions_v) / static_cast<double>(grid.directions_v);
     Window window{part, LightFieldTile(part, tile.range, false)};
     copy_common(tile, window.tile, (grid.directions_v - part.directions_v) * quarters / 4,
                 (grid.directions_u - part.directions_u) * quarters / 4);

@@ -67,10 +67,10 @@ TEST(Stream, reads_any_range_the_same) {
 // All of the sampling comes back, directions off centre and on the side of a hemicube too.
 TEST(Stream, keeps_the_grid) {
     const TestFolder folder;
-    LightFieldGrid grid{3, 2, 1e-3, 4, 5, 0.5, 0.7, 1};
-    grid.center_u = 0.5;
-    grid.center_v = -0.75;
-    grid.face = Face::top;
+    LightFieldGrid grid{3, 2, 1e-3, 4, 5, Perspective{0.5, 0.7}, 1};
+    grid.range().center_u = 0.5;
+    grid.range().center_v = -0.75;
+    std::get<Perspective>(grid.view).face = Face::top;
     compress(LightFieldBuffer(grid), folder / "a.hgl", small_tiles("threepass", "haar"));
     EXPECT_TRUE(open_stream(folder / "a.hgl")->grid() == grid);
 }

@@ -42,8 +42,8 @@ void require_renderable(const LightFieldGrid& grid, const RendererInfo& info) {
     std::vector<std::string> others;
     for (const RendererInfo& other : renderers().rows())
         if (other.takes_frequencies) others.push_back(other.name);
-    require_tangents(grid, ErrorCode::usage,
-                     fmt::format("the renderer '{}' (but not {})", info.name, fmt::join(others, ", ")));
+    require_perspective(grid, ErrorCode::usage,
+                        fmt::format("the renderer '{}' (but not {})", info.name, fmt::join(others, ", ")));
 }
 
 }  // namespace

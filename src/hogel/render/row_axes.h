@@ -15,7 +15,7 @@ namespace hogel::render {
 class RowAxes {
   public:
     explicit RowAxes(const LightFieldGrid& grid)
-        : grid_(grid), transposed_(grid.face == Face::left || grid.face == Face::right) {}
+        : grid_(grid), transposed_(grid.face() == Face::left || grid.face() == Face::right) {}
 
     /// Whether the slow axis is s and U.
     bool transposed() const { return transposed_; }
@@ -60,7 +60,7 @@ class RowAxes {
     Seen seen(Vec3 position, double slow_hogel) const {
         const Vec3 relative{transposed_ ? position.x - slow_hogel : position.x,
                             transposed_ ? position.y : position.y - slow_hogel, -position.z};
-        const Vec3 q = to_face(grid_.face, relative);
+        const Vec3 q = to_face(grid_.face(), relative);
         return transposed_ ? Seen{q.y, q.x, q.z} : Seen{q.x, q.y, q.z};
     }
 

@@ -174,7 +174,7 @@ class DecodedFace final : public LightFieldSource {
         : stream_(std::move(stream)), depth_(std::move(depth)), grid_(stream_->info().faces()[face]), part_(face) {
         if (stream_->info().layout != StreamLayout::unfolded) return;
         part_ = 0;
-        place_ = Unfolding(stream_->info().faces()).place(grid_.face);
+        place_ = Unfolding(stream_->info().faces()).place(grid_.face());
     }
 
     const LightFieldGrid& grid() const override { return grid_; }

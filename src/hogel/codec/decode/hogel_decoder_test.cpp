@@ -70,7 +70,7 @@ TEST(HogelDecoder, any_part_is_what_the_whole_has_there) {
 // A picture of lines that come from above on the right, which the first hogel goes on along; the others see it moved by
 // more than a block, so that they show only one end of it.
 TEST(HogelDecoder, parts_have_what_lies_above_on_the_right) {
-    LightFieldBuffer field({5, 1, 1e-3, 64, 40, 0.3, 0.3, 1});
+    LightFieldBuffer field({5, 1, 1e-3, 64, 40, Perspective{0.3, 0.3}, 1});
     for (std::size_t s = 0; s < 5; ++s)
         for (std::size_t v = 0; v < 40; ++v)
             for (std::size_t u = 0; u < 64; ++u) {

@@ -352,7 +352,7 @@ CompressionResult compress(std::span<const LightFieldSource* const> sources, con
     if (exact && options.method != CodingMethod{})
         throw Error(ErrorCode::usage, fmt::format("coder {} cannot keep to an error, nor be lossless; expected hogel",
                                                   options.method.coder));
-    require_tangents(grid, ErrorCode::usage, "a compressed light field");
+    require_perspective(grid, ErrorCode::usage, "a compressed light field");
     const Companding mapping = mapping_for(sources, options, progress);
     const MappedFaces mapped(sources, mapping);
     const std::span<const LightFieldSource* const> faces = mapped.faces;

@@ -70,9 +70,9 @@ TEST(Compress, gives_the_rate_that_was_asked_for) {
         LightFieldGrid grid;
         double pixels_per_bit;
     };
-    for (const Case& c : {Case{{8, 6, 1e-3, 24, 20, 0.3, 0.3, 3}, 2.5},
-                          {{9, 7, 1e-3, 16, 16, 0.3, 0.3, 1}, 1.5},
-                          {{31, 1, 1e-3, 33, 1, 0.3, 0.3, 1}, 0.2}}) {
+    for (const Case& c : {Case{{8, 6, 1e-3, 24, 20, Perspective{0.3, 0.3}, 3}, 2.5},
+                          {{9, 7, 1e-3, 16, 16, Perspective{0.3, 0.3}, 1}, 1.5},
+                          {{31, 1, 1e-3, 33, 1, Perspective{0.3, 0.3}, 1}, 0.2}}) {
         LightFieldBuffer field = textured_planes(c.grid.hogels_s, c.grid.hogels_t, c.grid.directions_u,
                                                  c.grid.directions_v, c.grid.channels);
         // Of a dark tile nothing can be cut off.
@@ -158,7 +158,7 @@ TEST(Compress, sizes_of_all_kinds_come_back) {
 
 TEST(Compress, nothing_to_see_takes_nearly_no_bytes) {
     const TestFolder folder;
-    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, 0.3, 0.3, 3});
+    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, Perspective{0.3, 0.3}, 3});
     for (const CodingMethod& method : all_methods()) {
         const CompressionResult result = compress(dark, folder / "a.hgl", with_sqnr(method, 40));
         EXPECT_LT(result.bytes, 300u);

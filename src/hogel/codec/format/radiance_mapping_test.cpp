@@ -115,7 +115,7 @@ TEST(Companding, goes_with_hemicubes) {
     std::vector<const LightFieldSource*> faces;
     const LightFieldGrid front = high_range(3, 2, 16, 16, 3).grid();
     LightFieldGrid wide = front;
-    wide.tan_half_u = wide.tan_half_v = 1;
+    wide.range().half_u = wide.range().half_v = 1;
     for (const LightFieldGrid& grid : hemicube(wide)) {
         LightFieldBuffer field(grid);
         const LightFieldBuffer truth = high_range(3, 2, grid.directions_u, grid.directions_v, 3);

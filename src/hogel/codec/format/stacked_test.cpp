@@ -131,7 +131,7 @@ TEST(Gathered, reads_any_range_the_same) {
 // A plane, whose rows are alike, is gathered; rows that each lie at a depth of their own are not.
 TEST(Gathered, is_chosen_where_rows_are_alike) {
     const TestFolder folder;
-    LightFieldBuffer alike(LightFieldGrid{24, 24, 1e-3, 48, 1, 0.3, 0.3, 1}), apart(alike.grid());
+    LightFieldBuffer alike(LightFieldGrid{24, 24, 1e-3, 48, 1, Perspective{0.3, 0.3}, 1}), apart(alike.grid());
     for (std::size_t t = 0; t < 24; ++t)
         for (std::size_t s = 0; s < 24; ++s)
             for (std::size_t u = 0; u < 48; ++u) {
@@ -163,8 +163,8 @@ TEST(Gathered, is_chosen_where_rows_are_alike) {
 
 TEST(Gathered, needs_a_single_row_or_column_of_directions) {
     const auto fits = [](Size front, std::vector<Size> sides = {}) {
-        std::vector<LightFieldGrid> grids{{front.s, front.t, 1e-3, front.u, front.v, 1, 1, 1}};
-        for (const Size& side : sides) grids.push_back({side.s, side.t, 1e-3, side.u, side.v, 1, 1, 1});
+        std::vector<LightFieldGrid> grids{{front.s, front.t, 1e-3, front.u, front.v, Perspective{1, 1}, 1}};
+        for (const Size& side : sides) grids.push_back({side.s, side.t, 1e-3, side.u, side.v, Perspective{1, 1}, 1});
         return can_gather(grids);
     };
     EXPECT_TRUE(fits({5, 4, 9, 1}));
@@ -220,8 +220,8 @@ TEST(Gathered, hemisquares_come_back) {
     std::vector<LightFieldBuffer> faces;
     for (const Face face : {Face::front, Face::left, Face::right}) {
         LightFieldGrid grid = textured_planes(9, 10, face == Face::front ? 16 : 8, 1, 1).grid();
-        grid.face = face;
-        if (face != Face::front) grid.center_u = face == Face::left ? 0.5 : -0.5;
+        std::get<Perspective>(grid.view).face = face;
+        if (face != Face::front) grid.range().center_u = face == Face::left ? 0.5 : -0.5;
         LightFieldBuffer& field = faces.emplace_back(grid, true);
         const LightFieldBuffer textured = textured_planes(9, 10, grid.directions_u, 1, 1);
         std::ranges::copy(textured.radiance.elements(), field.radiance.elements().begin());

@@ -17,7 +17,7 @@ constexpr std::array<std::pair<StreamLayout, std::string_view>, 3> layout_names{
 
 Face take_face(ByteReader& reader) {
     const std::string face = reader.take_text();
-    const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return name(known); });
+    const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return face_name(known); });
     if (found == all_faces.end()) reader.damaged("its header names an unknown face of a hemicube");
     return *found;
 }
@@ -27,9 +27,9 @@ void put_sides(ByteWriter& fields, const StreamInfo& info) {
     fields.put(std::ranges::find(layout_names, info.layout, &std::pair<StreamLayout, std::string_view>::first)->second);
     fields.put(static_cast<std::uint32_t>(info.sides.size()));
     for (const LightFieldGrid& side : info.sides) {
-        fields.put(name(side.face));
+        fields.put(face_name(side.face()));
         for (const std::size_t count : {side.directions_u, side.directions_v}) fields.put(std::uint64_t{count});
-        for (const double number : {side.tan_half_u, side.tan_half_v, side.center_u, side.center_v}) fields.put(number);
+        for (const double number : {side.half_u(), side.half_v(), side.center_u(), side.center_v()}) fields.put(number);
     }
 }
 
@@ -42,15 +42,16 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     const auto count = reader.take<std::uint32_t>();
     if ((count == 0 && info.version == 2) || count >= all_faces.size())
         reader.damaged("its header has an impossible number of faces");
-    std::vector<Face> seen{info.grid.face};
+    std::vector<Face> seen{info.grid.face()};
     for (std::uint32_t i = 0; i < count; ++i) {
         LightFieldGrid& side = info.sides.emplace_back(info.grid);
-        side.face = take_face(reader);
-        if (std::ranges::count(seen, side.face) > 0 || seen.front() != Face::front)
+        std::get<Perspective>(side.view).face = take_face(reader);
+        if (std::ranges::count(seen, side.face()) > 0 || seen.front() != Face::front)
             reader.damaged("its header names faces that make no hemicube");
-        seen.push_back(side.face);
+        seen.push_back(side.face());
         for (std::size_t* number : {&side.directions_u, &side.directions_v}) *number = reader.take<std::uint64_t>();
-        for (double* number : {&side.tan_half_u, &side.tan_half_v, &side.center_u, &side.center_v})
+        for (double* number :
+             {&side.range().half_u, &side.range().half_v, &side.range().center_u, &side.range().center_v})
             *number = reader.take_double();
     }
 }
@@ -133,9 +134,9 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     const LightFieldGrid& grid = info.grid;
     for (const std::size_t count : {grid.channels, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v})
         fields.put(std::uint64_t{count});
-    for (const double number : {grid.pitch, grid.tan_half_u, grid.tan_half_v, grid.center_u, grid.center_v})
+    for (const double number : {grid.pitch, grid.half_u(), grid.half_v(), grid.center_u(), grid.center_v()})
         fields.put(number);
-    fields.put(name(grid.face));
+    fields.put(face_name(grid.face()));
     fields.put(std::uint64_t{info.tile.ns});
     fields.put(std::uint64_t{info.tile.nt});
     fields.put(std::string_view(info.method.coder));
@@ -165,9 +166,10 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
     LightFieldGrid& grid = info.grid;
     for (std::size_t* count : {&grid.channels, &grid.hogels_s, &grid.hogels_t, &grid.directions_u, &grid.directions_v})
         *count = reader.take<std::uint64_t>();
-    for (double* number : {&grid.pitch, &grid.tan_half_u, &grid.tan_half_v, &grid.center_u, &grid.center_v})
+    for (double* number :
+         {&grid.pitch, &grid.range().half_u, &grid.range().half_v, &grid.range().center_u, &grid.range().center_v})
         *number = reader.take_double();
-    grid.face = take_face(reader);
+    std::get<Perspective>(grid.view).face = take_face(reader);
     info.tile.ns = reader.take<std::uint64_t>();
     info.tile.nt = reader.take<std::uint64_t>();
     info.method.coder = reader.take_text();

@@ -84,7 +84,7 @@ class UnfoldedSource final : public LightFieldSource {
         for (const LightFieldSource* face : faces_) {
             LightFieldTile part(face->grid(), range, false);
             face->read(part);
-            const auto [u, v] = unfolding_.place(face->grid().face);
+            const auto [u, v] = unfolding_.place(face->grid().face());
             for (std::size_t c = 0; c < part.radiance.extent(0); ++c)
                 for (std::size_t t = 0; t < range.nt; ++t)
                     for (std::size_t s = 0; s < range.ns; ++s)
@@ -122,8 +122,8 @@ Unfolding::Unfolding(std::span<const LightFieldGrid> faces) {
     grid_ = front;
     grid_.directions_u = cross_.end_u + right.directions_u;
     grid_.directions_v = cross_.end_v + bottom.directions_v;
-    grid_.tan_half_u = front.step_u() * static_cast<double>(grid_.directions_u) / 2;
-    grid_.tan_half_v = front.step_v() * static_cast<double>(grid_.directions_v) / 2;
+    grid_.range().half_u = front.step_u() * static_cast<double>(grid_.directions_u) / 2;
+    grid_.range().half_v = front.step_v() * static_cast<double>(grid_.directions_v) / 2;
     validate(grid_, ErrorCode::usage, "unfolded hemicube");
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 // A hemicube around hogels that see a smooth sky: the same function of direction on all faces.
 std::vector<LightFieldBuffer> smooth_hemicube(std::size_t hogels, std::size_t directions_u, std::size_t directions_v) {
-    const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, 1, 1, 1};
+    const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, Perspective{1, 1}, 1};
     std::vector<LightFieldBuffer> faces;
     for (const LightFieldGrid& face : hemicube(grid)) {
         LightFieldBuffer& field = faces.emplace_back(face);
@@ -90,7 +90,7 @@ TEST(Unfolding, corners_continue_what_the_sides_show) {
 }
 
 TEST(Unfolding, needs_five_faces_that_fit) {
-    std::vector<LightFieldGrid> grids = hemicube({2, 2, 1e-3, 16, 12, 1, 1, 3});
+    std::vector<LightFieldGrid> grids = hemicube({2, 2, 1e-3, 16, 12, Perspective{1, 1}, 3});
     EXPECT_NO_THROW(Unfolding{grids});
     const std::vector<LightFieldGrid> four(grids.begin(), grids.begin() + 4);
     EXPECT_THROW(Unfolding{four}, Error);

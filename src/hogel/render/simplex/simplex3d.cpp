@@ -25,7 +25,7 @@ class Simplex3dRenderer final : public Renderer {
         near_ = near_plane(*scene, "simplex3d");
         // On the front the triangles are clipped at the near plane; on a side simplices are clipped before the
         // division.
-        if (grid_.face != Face::front) min_forward_ = min_forward_distance(grid_, 0.5 * near_);
+        if (grid_.face() != Face::front) min_forward_ = min_forward_distance(grid_, 0.5 * near_);
         scene_ = std::move(scene);
         triangles_ = triangles_with_area(*scene_, std::move(triangles_));
     }
