@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
     const std::size_t hogels = argument(5, 64), directions = argument(6, 256), width = argument(7, hogels);
     std::vector<std::string> names(argv + std::min(argc, 8), argv + argc);
     if (names.empty())
-        for (const RendererInfo& info : renderers()) names.emplace_back(info.name);
+        for (const RendererInfo& info : renderers().rows()) names.emplace_back(info.name);
 
     const ThreadLimit limit(threads);
     const auto scene =

@@ -52,7 +52,7 @@ double time_of_hogels(const LightFieldSource& source, double budget, bool lit) {
 std::shared_ptr<const ShadedScene> thinned(const ShadedScene& scene, std::size_t part) {
     auto few = std::make_shared<ShadedScene>(scene);
     few->triangles.clear();
-    few->light_cache = nullptr;  // knows triangles by their numbers
+    few->radiance_cache = nullptr;  // knows triangles by their numbers
     constexpr std::size_t run = 16;
     for (std::size_t i = 0; part > 0 && i < scene.triangles.size(); ++i)
         if (i / run % part == 0) few->triangles.push_back(scene.triangles[i]);
@@ -76,7 +76,7 @@ std::size_t affordable_part(const std::string& algorithm, const ShadedScene& sce
 RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
                          const LightFieldGrid& grid, const RegionLimits& limits) {
     const double before = forget_most_memory();
-    const bool lit = scene->light_cache != nullptr;
+    const bool lit = scene->radiance_cache != nullptr;
     const bool hogel_by_hogel = algorithm == "raytrace" || algorithm == "zbuffer";
     const bool row_by_row = algorithm == "simplex3d" || algorithm == "mvr";
     const std::size_t largest = std::min({limits.side, grid.hogels_s, grid.hogels_t});

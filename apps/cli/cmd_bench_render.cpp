@@ -88,7 +88,7 @@ int bench_regions(const BenchRenderOptions& options, const Session& session) {
     if (scenes.empty())
         for (const ThesisScene& scene : thesis_scenes) scenes.emplace_back(scene.name);
     if (algorithms.empty())
-        for (const RendererInfo& info : renderers()) algorithms.emplace_back(info.name);
+        for (const RendererInfo& info : renderers().rows()) algorithms.emplace_back(info.name);
     const LightFieldGrid grid = options.render.grid();
     for (const std::string& algorithm : algorithms) make_renderer(algorithm, std::make_shared<ShadedScene>(), grid);
     RegionLimits limits = options.limits;

@@ -8,7 +8,7 @@
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
 #include "hogel/render/cache_spacing.h"
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 
 namespace hogel {
 namespace {
@@ -67,7 +67,7 @@ std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFi
     auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, request.shading, progress));
     shaded->fronts_only = request.cull_back_faces;
     if (request.cache_spacing > 0)
-        shading::cache_light(
+        shading::add_radiance_cache(
             *shaded, render::cache_spacing(*shaded, finer(request.grid, request.samples), request.cache_spacing));
     return shaded;
 }

@@ -45,7 +45,7 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t count = (length + max_length - 1) / max_length, tile_length = (length + count - 1) / count;
         const std::size_t rows =
             std::min(axes_.slow_hogels(all), std::max<std::size_t>(1, default_tile(grid_).hogels() / tile_length));
-        return axes_.turned() ? HogelRange{0, 0, rows, tile_length} : HogelRange{0, 0, tile_length, rows};
+        return axes_.transposed() ? HogelRange{0, 0, rows, tile_length} : HogelRange{0, 0, tile_length, rows};
     }
 
     void read(LightFieldTile& tile) const override {
@@ -53,8 +53,8 @@ class EpiRenderer final : public LightFieldSource {
         const std::size_t hogels = axes_.fast_hogels(range), directions = axes_.fast_directions();
         const std::size_t columns =
             std::min({hogels, std::max<std::size_t>(16, max_words / directions), CellColumns::max_plane_columns});
-        const std::size_t first_row = axes_.turned() ? range.s0 : range.t0;
-        const std::size_t first_column = axes_.turned() ? range.t0 : range.s0;
+        const std::size_t first_row = axes_.transposed() ? range.s0 : range.t0;
+        const std::size_t first_column = axes_.transposed() ? range.t0 : range.s0;
         std::vector<std::uint64_t, CacheLineAllocator<std::uint64_t>> words(
             columns * directions + EpipolarPlane::padding, EpipolarPlane::empty);
         DepthCells cells;
@@ -114,9 +114,12 @@ class EpiRenderer final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_epi_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                    const LightFieldGrid& grid) {
-    return std::make_unique<EpiRenderer>(std::move(scene), grid);
+RendererInfo epi_renderer() {
+    return {.name = "epi",
+            .text = "epipolar planes: each triangle is set up once for a whole row of hogels",
+            .make = [](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
+                return std::make_unique<EpiRenderer>(std::move(scene), grid);
+            }};
 }
 
 }  // namespace hogel::render::epi

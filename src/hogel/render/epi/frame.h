@@ -21,11 +21,11 @@ class EpipolarFrame {
     explicit EpipolarFrame(const LightFieldGrid& grid)
         : grid_(grid),
           axes_(grid),
-          step_(axes_.turned() ? grid.step_v() : grid.step_u()),
+          step_(axes_.transposed() ? grid.step_v() : grid.step_u()),
           offset_(fast_count() % 2 == 0 ? 0.5 : 0.0),
-          middle_fast_(axes_.turned() ? -grid.center_v() / step_ : grid.center_u() / step_),
-          middle_slow_((axes_.turned() ? grid.center_u() : grid.center_v()) / step_),
-          step_ratio_((axes_.turned() ? grid.step_u() : grid.step_v()) / step_) {}
+          middle_fast_(axes_.transposed() ? -grid.center_v() / step_ : grid.center_u() / step_),
+          middle_slow_((axes_.transposed() ? grid.center_u() : grid.center_v()) / step_),
+          step_ratio_((axes_.transposed() ? grid.step_u() : grid.step_v()) / step_) {}
 
     const RowAxes& axes() const { return axes_; }
     /// n of i = 0, and K of k = 0.
@@ -49,21 +49,21 @@ class EpipolarFrame {
     Plane plane(std::size_t hogel, std::size_t direction) const {
         const double i = static_cast<double>(hogel), k = static_cast<double>(direction);
         // Exact multiples of a half.
-        const double row = axes_.turned() ? i + 0.5 - 0.5 * static_cast<double>(grid_.hogels_s)
+        const double row = axes_.transposed() ? i + 0.5 - 0.5 * static_cast<double>(grid_.hogels_s)
                                           : 0.5 * static_cast<double>(grid_.hogels_t) - i - 0.5;
-        const double middle_k = axes_.turned() ? k + 0.5 - 0.5 * static_cast<double>(grid_.directions_u)
+        const double middle_k = axes_.transposed() ? k + 0.5 - 0.5 * static_cast<double>(grid_.directions_u)
                                                : 0.5 * static_cast<double>(grid_.directions_v) - k - 0.5;
         const double slope = middle_k * step_ratio_ + middle_slow_;
         if (grid_.face() == Face::front) return {row, slope, 0, 0, 1};
-        const Vec3 here = axes_.turned() ? Vec3{row, 0, 0} : Vec3{0, row, 0};
+        const Vec3 here = axes_.transposed() ? Vec3{row, 0, 0} : Vec3{0, row, 0};
         const double z0 = axes_.seen(here, 0).forward * step_;
         const double slow_direction = axes_.slow_direction(direction);
-        const Vec3 ray = axes_.turned() ? grid_.direction_of(slow_direction, 0) : grid_.direction_of(0, slow_direction);
+        const Vec3 ray = axes_.transposed() ? grid_.direction_of(slow_direction, 0) : grid_.direction_of(0, slow_direction);
         return {-slope * z0, slope, z0, middle_fast_ * z0, ray.z};
     }
 
   private:
-    std::size_t fast_count() const { return axes_.turned() ? grid_.hogels_t : grid_.hogels_s; }
+    std::size_t fast_count() const { return axes_.transposed() ? grid_.hogels_t : grid_.hogels_s; }
 
     LightFieldGrid grid_;
     RowAxes axes_;

@@ -206,7 +206,7 @@ class KnotBatch {
         using Four = hn::Vec<Tag>;
         const Tag d;
         const std::uint32_t *upper = span.points + upper_[i], *lower = upper + span.down;
-        if (HWY_UNLIKELY(!shading::LightGrid::are_made(upper, upper + span.right, lower, lower + span.right))) {
+        if (HWY_UNLIKELY(!shading::LightGrid::are_filled(upper, upper + span.right, lower, lower + span.right))) {
             knot[3] = std::numeric_limits<float>::quiet_NaN();
             return;
         }

@@ -20,14 +20,14 @@ class PlaneRadiance final : public RadianceSource {
         const float depth = values.value0[3] + position * values.difference[3];
         const auto sample = axes_.sample(first_.slow_hogel, first_.fast_hogel + column, first_.slow_direction, k);
         const ViewSample view =
-            sight_along(grid_, grid_.u(static_cast<double>(sample.u)), grid_.v(static_cast<double>(sample.v)), depth);
+            view_sample(grid_, grid_.u(static_cast<double>(sample.u)), grid_.v(static_cast<double>(sample.v)), depth);
         return radiance_at(scene_, origin.triangle, b0, b1, b2, view);
     }
 
-    Grids grids() const override { return {spans_.origins(), scene_.light_cache->grids().data()}; }
+    Grids grids() const override { return {spans_.origins(), scene_.radiance_cache->grids().data()}; }
 
-    shading::LightCache::Corners corners(std::size_t span, std::size_t row, std::size_t column) const override {
-        return scene_.light_cache->corners(scene_, spans_.origins()[span].triangle, row, column);
+    shading::RadianceCache::Corners corners(std::size_t span, std::size_t row, std::size_t column) const override {
+        return scene_.radiance_cache->corners(scene_, spans_.origins()[span].triangle, row, column);
     }
 
   private:

@@ -11,9 +11,9 @@ namespace {
 
 RadianceFrom radiance_from(const ShadedScene& scene, std::uint32_t triangle) {
     if (!scene.needs_samples(triangle)) return RadianceFrom::ends;
-    if (!scene.light_cache || scene.triangles[triangle].texture != ShadedScene::no_texture)
+    if (!scene.radiance_cache || scene.triangles[triangle].texture != ShadedScene::no_texture)
         return RadianceFrom::samples;
-    const shading::LightGrid& grid = scene.light_cache->grid(triangle);
+    const shading::LightGrid& grid = scene.radiance_cache->grid(triangle);
     return grid.points && grid.is_radiance ? RadianceFrom::cache : RadianceFrom::samples;
 }
 
@@ -54,7 +54,7 @@ void PlaneSpans::add(std::span<const std::uint32_t> slots, const CutPlane& plane
             continue;
         }
         shaded_.add(values_[first + i], from);
-        if (from == RadianceFrom::cache) __builtin_prefetch(&scene_.light_cache->grid(origins_[first + i].triangle));
+        if (from == RadianceFrom::cache) __builtin_prefetch(&scene_.radiance_cache->grid(origins_[first + i].triangle));
     }
 }
 

@@ -15,15 +15,15 @@ using Knot = ShadedSpans::Knot;
 
 constexpr float pending_depth = std::numeric_limits<float>::quiet_NaN();
 
-shading::LightCache::Corners corners_of(const SpanOnGrid& grid, const shading::LightGrid::Place& row,
+shading::RadianceCache::Corners corners_of(const SpanOnGrid& grid, const shading::LightGrid::Place& row,
                                         const shading::LightGrid::Place& column, std::size_t span,
                                         const RadianceSource& source) {
     const std::uint32_t* first =
         grid.points + std::uint64_t{row.node} * grid.down + std::uint64_t{column.node} * grid.right;
     const std::array points{first, first + grid.right, first + grid.down, first + grid.down + grid.right};
-    if (!shading::LightGrid::are_made(points[0], points[1], points[2], points[3]))
+    if (!shading::LightGrid::are_filled(points[0], points[1], points[2], points[3]))
         return source.corners(span, row.node, column.node);
-    shading::LightCache::Corners corners{};
+    shading::RadianceCache::Corners corners{};
     for (std::size_t k = 0; k < 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) corners[k][i] = std::bit_cast<float>(points[k][i]);
     return corners;
@@ -34,7 +34,7 @@ Knot cached_radiance(const SpanOnGrid& grid, float position, std::size_t span, c
     const float towards = grid.start[0] + position * grid.change[0], last = grid.start[1] + position * grid.change[1];
     const shading::LightGrid::Place row(towards, grid.axis[0]);
     const shading::LightGrid::Place column(shading::LightGrid::along(towards, last), grid.axis[1]);
-    const shading::LightCache::Corners corner = corners_of(grid, row, column, span, source);
+    const shading::RadianceCache::Corners corner = corners_of(grid, row, column, span, source);
     Knot value;
     for (std::size_t i = 0; i < value.size(); ++i) {
         const float upper = corner[0][i] + column.beyond * (corner[1][i] - corner[0][i]);

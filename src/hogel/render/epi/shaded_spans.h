@@ -11,7 +11,7 @@
 #include "hogel/array.h"
 #include "hogel/render/epi/kernels.h"
 #include "hogel/render/epi/setup.h"
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 
 namespace hogel::render::epi {
 
@@ -49,8 +49,8 @@ class RadianceSource {
         const shading::LightGrid* of_triangles;
     };
     virtual Grids grids() const = 0;
-    /// Four points of the radiance cache, of which some are not filled yet (LightCache::corners).
-    virtual shading::LightCache::Corners corners(std::size_t span, std::size_t row, std::size_t column) const = 0;
+    /// Four points of the radiance cache, of which some are not filled yet (RadianceCache::corners).
+    virtual shading::RadianceCache::Corners corners(std::size_t span, std::size_t row, std::size_t column) const = 0;
 };
 
 /// The spans of one plane where not all take their radiance from their ends. Each has knots at equal distances along

@@ -42,7 +42,7 @@ ShadedScene lit_triangles(float spacing, bool linear) {
     scene.radiance.resize(scene.positions.size());
     scene.texture_coordinates.resize(scene.positions.size());
     scene.lighting = std::make_shared<TestLight>(linear);
-    shading::cache_light(scene, std::vector<float>(scene.triangles.size(), spacing));
+    shading::add_radiance_cache(scene, std::vector<float>(scene.triangles.size(), spacing));
     return scene;
 }
 
@@ -93,10 +93,10 @@ struct TestSpans final : RadianceSource {
         return {float(span) + position, float(column), float(k)};
     }
     Weights weights_at(std::size_t span, float position) const { return origins[span].weights(position); }
-    Grids grids() const override { return {origins.data(), scene.light_cache->grids().data()}; }
-    shading::LightCache::Corners corners(std::size_t span, std::size_t row, std::size_t column) const override {
+    Grids grids() const override { return {origins.data(), scene.radiance_cache->grids().data()}; }
+    shading::RadianceCache::Corners corners(std::size_t span, std::size_t row, std::size_t column) const override {
         ++points_filled;
-        return scene.light_cache->corners(scene, origins[span].triangle, row, column);
+        return scene.radiance_cache->corners(scene, origins[span].triangle, row, column);
     }
 };
 

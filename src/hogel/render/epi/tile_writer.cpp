@@ -7,7 +7,7 @@ PlaneOutput TileWriter::begin(LightFieldTile& tile, const EpipolarPlane& plane, 
     PlaneOutput out{};
     for (std::size_t i = 0; i < 4; ++i) {
         if (!is_wanted(tile, i)) continue;
-        if (axes_.turned()) {
+        if (axes_.transposed()) {
             buffer_[i].resize(plane.columns * plane.directions);
             out.values[i] = buffer_[i].data();
             out.strides[i] = plane.directions;
@@ -22,7 +22,7 @@ PlaneOutput TileWriter::begin(LightFieldTile& tile, const EpipolarPlane& plane, 
 }
 
 void TileWriter::finish(LightFieldTile& tile, const EpipolarPlane& plane, const FirstSample& first) const {
-    if (!axes_.turned()) return;
+    if (!axes_.transposed()) return;
     const std::size_t t = first.fast_hogel - tile.range.t0, s = first.slow_hogel - tile.range.s0;
     for (std::size_t i = 0; i < 4; ++i) {
         if (!is_wanted(tile, i)) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 
 #include <cmath>
 #include <new>
@@ -7,25 +7,26 @@
 namespace hogel::shading {
 namespace {
 
-// What the word after the first three numbers of a point says, besides LightGrid::made.
-constexpr std::uint32_t untouched = 0, in_work = 1;
+// States of a point besides LightGrid::filled.
+constexpr std::uint32_t empty = 0, being_filled = 1;
 constexpr double max_cells = LightGrid::node_bits;  // along a side
 
-// Cells along a side. The outermost points stand in from its ends.
+// The number of cells along a side, whose outermost points lie inset from its ends.
 double cells(double side, double spacing) {
     if (side <= spacing) return 0;
     return std::max(1.0, std::ceil(side / spacing - 2 * LightGrid::inset));
 }
 
+// The coordinate, 0 to 1, of point i along an axis of `count` cells.
 float node(std::size_t i, std::uint32_t count) {
     if (count == 0) return 0.5f;
     return (static_cast<float>(i) + LightGrid::inset) / (static_cast<float>(count) + 2 * LightGrid::inset);
 }
 
-// The words of a point: of numbers of any size a word each, after the third of them the word that says whether all
-// hold, then shares four a word; in whole vectors of four words.
+// The layout of a point: a word for each value, with the state after the third, then four shares a word, padded to
+// whole vectors of four words.
 std::size_t word_of(std::size_t number) { return number + (number < 3 ? 0 : 1); }
-std::size_t first_share(SampleLighting::Size size) { return std::max<std::size_t>(4, size.any + 1); }
+std::size_t first_share(SampleLighting::Size size) { return std::max<std::size_t>(4, size.values + 1); }
 std::size_t words_of(SampleLighting::Size size) { return (first_share(size) + (size.shares + 3) / 4 + 3) / 4 * 4; }
 
 float share_of(std::uint32_t word, std::size_t number) { return static_cast<float>(word >> 8 * number & 255) / 255; }
@@ -34,7 +35,7 @@ float between(float a, float b, float part) { return a + part * (b - a); }
 
 }  // namespace
 
-LightCache::LightCache(const ShadedScene& scene, std::span<const float> spacing, double max_bytes)
+RadianceCache::RadianceCache(const ShadedScene& scene, std::span<const float> spacing, double max_bytes)
     : grids_(scene.triangles.size()) {
     std::vector<std::uint64_t> first(grids_.size());
     for (std::size_t i = 0; i < grids_.size(); ++i) {
@@ -42,7 +43,7 @@ LightCache::LightCache(const ShadedScene& scene, std::span<const float> spacing,
         const SampleLighting::Size size = scene.lighting->size_of_light(mesh);
         if (size.sum() == 0 || !(spacing[i] > 0)) continue;
         const auto& vertices = scene.triangles[i].vertices;
-        std::array<double, 3> side;  // opposite of each corner
+        std::array<double, 3> side;  // opposite each corner
         for (std::size_t k = 0; k < 3; ++k)
             side[k] = length(scene.positions[vertices[(k + 1) % 3]] - scene.positions[vertices[(k + 2) % 3]]);
         const auto corner = static_cast<std::uint32_t>(std::ranges::min_element(side) - side.begin());
@@ -70,49 +71,49 @@ LightCache::LightCache(const ShadedScene& scene, std::span<const float> spacing,
         if (grids_[i].right > 0) grids_[i].points = points_.get() + first[i];
 }
 
-bool LightCache::read(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                      std::span<float> light) const {
+bool RadianceCache::read(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
+                         std::span<float> light) const {
     const LightGrid& grid = grids_[index];
     if (!grid.points) return false;
     const float towards = grid.towards(weights);
     const LightGrid::Place row(towards, LightGrid::Axis(grid.rows));
     const LightGrid::Place column(LightGrid::along(towards, grid.last(weights)), LightGrid::Axis(grid.columns));
-    thread_local std::vector<std::uint32_t> room;
-    const FourPoints points = four_points(scene, index, row.node, column.node, room);
+    thread_local std::vector<std::uint32_t> scratch;
+    const FourPoints points = four_points(scene, index, row.node, column.node, scratch);
     const auto interpolated = [&](auto value) {
         return between(between(value(points[0]), value(points[1]), column.beyond),
                        between(value(points[2]), value(points[3]), column.beyond), row.beyond);
     };
     const SampleLighting::Size size = scene.lighting->size_of_light(scene.triangles[index].mesh);
-    for (std::size_t i = 0; i < size.any; ++i) {
+    for (std::size_t i = 0; i < size.values; ++i) {
         const std::size_t word = word_of(i);
         light[i] = std::max(interpolated([=](const auto* p) { return std::bit_cast<float>(p[word]); }), 0.0f);
     }
     for (std::size_t first = 0; first < size.shares; first += 4) {
         const std::size_t word = first_share(size) + first / 4, last = std::min(first + 4, size.shares);
         const std::uint32_t four = points[0][word];
-        // As a rule all points have the same, as between the edges of shadows.
+        // Usually all points have the same shares; only at the edges of shadows they differ.
         const bool same = four == points[1][word] && four == points[2][word] && four == points[3][word];
         for (std::size_t i = first; i < last; ++i) {
             const auto share = [=](const std::uint32_t* p) { return share_of(p[word], i - first); };
-            light[size.any + i] = same ? share(points[0]) : std::clamp(interpolated(share), 0.0f, 1.0f);
+            light[size.values + i] = same ? share(points[0]) : std::clamp(interpolated(share), 0.0f, 1.0f);
         }
     }
     return true;
 }
 
-LightCache::Corners LightCache::corners(const ShadedScene& scene, std::size_t index, std::size_t row,
-                                        std::size_t column) const {
-    std::vector<std::uint32_t> room;
-    const FourPoints points = four_points(scene, index, row, column, room);
+RadianceCache::Corners RadianceCache::corners(const ShadedScene& scene, std::size_t index, std::size_t row,
+                                              std::size_t column) const {
+    std::vector<std::uint32_t> scratch;
+    const FourPoints points = four_points(scene, index, row, column, scratch);
     Corners corners{};
     for (std::size_t k = 0; k < 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) corners[k][i] = std::bit_cast<float>(points[k][i]);
     return corners;
 }
 
-LightCache::FourPoints LightCache::four_points(const ShadedScene& scene, std::size_t index, std::size_t row,
-                                               std::size_t column, std::vector<std::uint32_t>& room) const {
+RadianceCache::FourPoints RadianceCache::four_points(const ShadedScene& scene, std::size_t index, std::size_t row,
+                                                     std::size_t column, std::vector<std::uint32_t>& scratch) const {
     const LightGrid& grid = grids_[index];
     const std::size_t next_row = std::min<std::size_t>(row + 1, grid.rows);
     const std::size_t next_column = std::min<std::size_t>(column + 1, grid.columns);
@@ -120,28 +121,28 @@ LightCache::FourPoints LightCache::four_points(const ShadedScene& scene, std::si
     for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t r = k < 2 ? row : next_row, c = k % 2 == 0 ? column : next_column;
         points[k] = grid.points + r * grid.down + c * grid.right;
-        if (LightGrid::is_made(points[k])) continue;
-        if (room.size() < 4 * std::size_t{grid.right}) room.resize(4 * std::size_t{grid.right});
-        std::uint32_t* mine = room.data() + k * grid.right;
-        make_point(scene, index, r, c, mine);
-        // Written once, by whoever comes first; the same numbers anyway.
+        if (LightGrid::is_filled(points[k])) continue;
+        if (scratch.size() < 4 * std::size_t{grid.right}) scratch.resize(4 * std::size_t{grid.right});
+        std::uint32_t* mine = scratch.data() + k * grid.right;
+        compute_point(scene, index, r, c, mine);
+        // Written by the first thread only; all of them have the same numbers.
         std::uint32_t* words = points_.get() + (points[k] - points_.get());
-        std::uint32_t expected = untouched;
-        if (std::atomic_ref(words[3]).compare_exchange_strong(expected, in_work, std::memory_order_relaxed)) {
+        std::uint32_t expected = empty;
+        if (std::atomic_ref(words[3]).compare_exchange_strong(expected, being_filled, std::memory_order_relaxed)) {
             std::copy_n(mine, 3, words);
             std::copy_n(mine + 4, grid.right - 4, words + 4);
-            std::atomic_ref(words[3]).store(LightGrid::made, std::memory_order_release);
+            std::atomic_ref(words[3]).store(LightGrid::filled, std::memory_order_release);
         }
         points[k] = mine;
     }
     return points;
 }
 
-void LightCache::make_point(const ShadedScene& scene, std::size_t index, std::size_t row, std::size_t column,
-                            std::uint32_t* words) const {
+void RadianceCache::compute_point(const ShadedScene& scene, std::size_t index, std::size_t row, std::size_t column,
+                                  std::uint32_t* words) const {
     const LightGrid& grid = grids_[index];
     const SampleLighting::Size size = scene.lighting->size_of_light(scene.triangles[index].mesh);
-    // In the middle of a triangle where it has but one point.
+    // A single row lies at the centroid.
     const float towards = grid.rows == 0 ? 2.0f / 3 : node(row, grid.rows), along = node(column, grid.columns);
     std::array<float, 3> weights;
     weights[grid.corner] = 1 - towards;
@@ -150,15 +151,16 @@ void LightCache::make_point(const ShadedScene& scene, std::size_t index, std::si
     std::vector<float> light(size.sum());
     scene.lighting->light_on(scene, index, weights, light);
     std::fill_n(words, grid.right, 0);
-    for (std::size_t i = 0; i < size.any; ++i) words[word_of(i)] = std::bit_cast<std::uint32_t>(light[i]);
+    for (std::size_t i = 0; i < size.values; ++i) words[word_of(i)] = std::bit_cast<std::uint32_t>(light[i]);
     for (std::size_t i = 0; i < size.shares; ++i)
         words[first_share(size) + i / 4] |=
-            static_cast<std::uint32_t>(std::lround(255 * std::clamp(light[size.any + i], 0.0f, 1.0f))) << 8 * (i % 4);
-    points_made_.fetch_add(1, std::memory_order_relaxed);
+            static_cast<std::uint32_t>(std::lround(255 * std::clamp(light[size.values + i], 0.0f, 1.0f)))
+            << 8 * (i % 4);
+    points_filled_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void cache_light(ShadedScene& scene, std::span<const float> spacing, double max_bytes) {
-    if (scene.lighting) scene.light_cache = std::make_shared<LightCache>(scene, spacing, max_bytes);
+void add_radiance_cache(ShadedScene& scene, std::span<const float> spacing, double max_bytes) {
+    if (scene.lighting) scene.radiance_cache = std::make_shared<RadianceCache>(scene, spacing, max_bytes);
 }
 
 }  // namespace hogel::shading

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 
 namespace hogel {
 
@@ -11,7 +11,7 @@ using namespace shading;
 
 namespace {
 
-/// How many texels lie along a metre of the triangle, by the ratio of its areas.
+/// Texels per metre on the triangle, by the ratio of its areas.
 double texels_per_metre(const ShadedScene& scene, const ShadedScene::Triangle& triangle) {
     const auto [a, b, c] = triangle.vertices;
     const Vec3 ab = scene.positions[b] - scene.positions[a], ac = scene.positions[c] - scene.positions[a];
@@ -24,35 +24,35 @@ double texels_per_metre(const ShadedScene& scene, const ShadedScene::Triangle& t
 }
 
 Rgb texture_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, float b0, float b1, float b2,
-               const ViewSample& sight) {
+               const ViewSample& view) {
     const auto [a, b, c] = triangle.vertices;
     const Texture& texture = scene.textures[triangle.texture];
     const auto &ta = scene.texture_coordinates[a], &tb = scene.texture_coordinates[b],
                &tc = scene.texture_coordinates[c];
     const double width =
-        texture.filtered() && sight.footprint > 0 ? sight.footprint * texels_per_metre(scene, triangle) : 0;
+        texture.filtered() && view.footprint > 0 ? view.footprint * texels_per_metre(scene, triangle) : 0;
     return texture.sample({b0 * ta.u + b1 * tb.u + b2 * tc.u, b0 * ta.v + b1 * tb.v + b2 * tc.v}, width);
 }
 
-// What a ray sees of the light that falls on a point, from the cache or worked out here.
+// The radiance of a point whose light is evaluated for samples, from the cache or here.
 Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
-                 const ViewSample& sight) {
+                 const ViewSample& view) {
     const std::size_t size = scene.lighting->size_of_light(scene.triangles[index].mesh).sum();
-    thread_local std::vector<float> room;
-    if (room.size() < size) room.resize(size);
-    const std::span<float> light(room.data(), size);
-    if (!scene.light_cache || !scene.light_cache->read(scene, index, weights, light))
+    thread_local std::vector<float> scratch;
+    if (scratch.size() < size) scratch.resize(size);
+    const std::span<float> light(scratch.data(), size);
+    if (!scene.radiance_cache || !scene.radiance_cache->read(scene, index, weights, light))
         scene.lighting->light_on(scene, index, weights, light);
-    return scene.lighting->radiance(scene, index, weights, light, texture, sight);
+    return scene.lighting->radiance(scene, index, weights, light, texture, view);
 }
 
 }  // namespace
 
-Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const ViewSample& sight) {
+Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const ViewSample& view) {
     const ShadedScene::Triangle& triangle = scene.triangles[index];
     const bool textured = triangle.texture != ShadedScene::no_texture;
-    const Rgb texture = textured ? texture_at(scene, triangle, b0, b1, b2, sight) : Rgb{1, 1, 1};
-    if (scene.is_lit(index)) return lit_radiance(scene, index, {b0, b1, b2}, texture, sight);
+    const Rgb texture = textured ? texture_at(scene, triangle, b0, b1, b2, view) : Rgb{1, 1, 1};
+    if (scene.is_lit(index)) return lit_radiance(scene, index, {b0, b1, b2}, texture, view);
     const auto [a, b, c] = triangle.vertices;
     const Rgb radiance = b0 * scene.radiance[a] + b1 * scene.radiance[b] + b2 * scene.radiance[c];
     return textured ? radiance * texture : radiance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -61,13 +61,13 @@ Weights random_weights(std::mt19937& engine) {
     return {1 - b - c, b, c};
 }
 
-TEST(LightCache, keeps_linear_light_as_it_is_and_a_wave_to_second_order) {
+TEST(RadianceCache, keeps_linear_light_as_it_is_and_a_wave_to_second_order) {
     constexpr double wave = 9;
     for (const float spacing : {0.1f, 0.05f}) {
         ShadedScene scene = triangles();
         const auto light = std::make_shared<KnownLight>(wave);
         scene.lighting = light;
-        cache_light(scene, std::vector<float>(scene.triangles.size(), spacing));
+        add_radiance_cache(scene, std::vector<float>(scene.triangles.size(), spacing));
         std::mt19937 engine(1);
         for (int i = 0; i < 6000; ++i) {
             const std::size_t index = engine() % scene.triangles.size();
@@ -84,16 +84,16 @@ TEST(LightCache, keeps_linear_light_as_it_is_and_a_wave_to_second_order) {
             ASSERT_NEAR(seen.g, exact[1], 0.9 * (aside * wave + 2 * 1.25 * spacing * spacing / 8 * wave * wave) + 1e-6)
                 << index;
         }
-        EXPECT_LT(scene.light_cache->points_made(), spacing == 0.1f ? 600u : 2000u);
+        EXPECT_LT(scene.radiance_cache->points_filled(), spacing == 0.1f ? 600u : 2000u);
     }
 }
 
-TEST(LightCache, gives_the_same_bits_whoever_asked_before) {
+TEST(RadianceCache, gives_the_same_bits_whoever_asked_before) {
     ShadedScene once = triangles(), again = triangles();
     const std::vector<float> spacing(once.triangles.size(), 0.06f);
     for (ShadedScene* scene : {&once, &again}) {
         scene->lighting = std::make_shared<KnownLight>(20);
-        cache_light(*scene, spacing);
+        add_radiance_cache(*scene, spacing);
     }
     constexpr std::size_t count = 20000;
     std::vector<Rgb> alone(count), together(count);
@@ -108,48 +108,48 @@ TEST(LightCache, gives_the_same_bits_whoever_asked_before) {
     EXPECT_EQ(alone, together);
 }
 
-TEST(LightCache, leaves_out_triangles_for_which_there_is_no_room_or_no_grid) {
+TEST(RadianceCache, leaves_out_triangles_for_which_there_is_no_room_or_no_grid) {
     ShadedScene scene = triangles(), plain = triangles();
     const auto light = std::make_shared<KnownLight>(5);
     scene.lighting = plain.lighting = light;
     std::vector<float> spacing(scene.triangles.size(), 0.1f);
-    cache_light(scene, spacing);
-    const double all = scene.light_cache->bytes();
-    EXPECT_EQ(scene.light_cache->triangles_without_room(), 0u);
+    add_radiance_cache(scene, spacing);
+    const double all = scene.radiance_cache->bytes();
+    EXPECT_EQ(scene.radiance_cache->triangles_without_room(), 0u);
     spacing[1] = 0;  // no grid wanted
     spacing[2] = 1e-30f;
-    cache_light(scene, spacing, 0.75 * all);
-    EXPECT_LE(scene.light_cache->bytes(), 0.75 * all);
-    EXPECT_GE(scene.light_cache->triangles_without_room(), 1u);
+    add_radiance_cache(scene, spacing, 0.75 * all);
+    EXPECT_LE(scene.radiance_cache->bytes(), 0.75 * all);
+    EXPECT_GE(scene.radiance_cache->triangles_without_room(), 1u);
     for (const std::size_t index : {1, 2}) {
         const Rgb seen = radiance_at(scene, index, 0.2f, 0.7f, 0.1f);
         EXPECT_EQ(seen, radiance_at(plain, index, 0.2f, 0.7f, 0.1f));
     }
-    EXPECT_EQ(scene.light_cache->points_made(), 0u);
+    EXPECT_EQ(scene.radiance_cache->points_filled(), 0u);
     // A scene without light for each sample has nothing to keep.
     ShadedScene given = triangles();
-    cache_light(given, spacing);
-    EXPECT_EQ(given.light_cache, nullptr);
+    add_radiance_cache(given, spacing);
+    EXPECT_EQ(given.radiance_cache, nullptr);
 }
 
 // A triangle no wider than the distance of points is lit in its middle.
-TEST(LightCache, lights_a_small_triangle_in_one_point) {
+TEST(RadianceCache, lights_a_small_triangle_in_one_point) {
     ShadedScene scene = triangles();
     const auto light = std::make_shared<KnownLight>(5);
     scene.lighting = light;
-    cache_light(scene, std::vector<float>(scene.triangles.size(), 2.4f));
+    add_radiance_cache(scene, std::vector<float>(scene.triangles.size(), 2.4f));
     std::array<float, 7> middle;
     light->light_on(scene, 0, {1.0f / 3, 1.0f / 3, 1.0f / 3}, middle);
     for (const Weights& w : {Weights{1, 0, 0}, Weights{0, 0.5f, 0.5f}, Weights{0.2f, 0.3f, 0.5f}}) {
         EXPECT_NEAR(radiance_at(scene, 0, w[0], w[1], w[2]).r, middle[0], 2e-6);
-        EXPECT_EQ(scene.light_cache->points_made(), 1u);
+        EXPECT_EQ(scene.radiance_cache->points_filled(), 1u);
     }
 }
 
 // A floor, matt or glossy and half metal, a roof over part of it, and two lamps: away from the edges of the shadow the
 // light is that of each point, whoever looks.
-TEST(LightCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadows) {
-    for (const ShadingModel model : {ShadingModel::direct, ShadingModel::shadowed})
+TEST(RadianceCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadows) {
+    for (const char* model : {"direct", "shadowed"})
         for (const float metallic : {0.0f, 0.5f}) {
             Scene scene;
             scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.8f, 0.4f, 1}),
@@ -168,7 +168,7 @@ TEST(LightCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadow
             options.shadow_map = 256;
             const ShadedScene plain = shade_scene(scene, options);
             ShadedScene kept = plain;
-            cache_light(kept, std::vector<float>(plain.triangles.size(), 0.01f));
+            add_radiance_cache(kept, std::vector<float>(plain.triangles.size(), 0.01f));
             std::mt19937 engine(3);
             std::size_t dark = 0;
             for (int i = 0; i < 4000; ++i) {
@@ -181,14 +181,14 @@ TEST(LightCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadow
                 const double edge = std::max(std::abs(through.x - 0.2) - 0.3, std::abs(through.y - 0.1) - 0.2);
                 if (std::abs(edge) < 0.025) continue;
                 dark += edge < 0 ? 1 : 0;
-                const ViewSample sight{normalize(Vec3{0.3, -0.5, 1}), 0.01};
-                const Rgb truth = radiance_at(plain, index, w[0], w[1], w[2], sight);
-                const Rgb seen = radiance_at(kept, index, w[0], w[1], w[2], sight);
+                const ViewSample view{normalize(Vec3{0.3, -0.5, 1}), 0.01};
+                const Rgb truth = radiance_at(plain, index, w[0], w[1], w[2], view);
+                const Rgb seen = radiance_at(kept, index, w[0], w[1], w[2], view);
                 ASSERT_NEAR(seen.r, truth.r, 1e-3 * truth.r) << p.x << " " << p.y;
                 ASSERT_NEAR(seen.b, truth.b, 1e-3 * truth.b) << p.x << " " << p.y;
             }
             EXPECT_GT(dark, 100u);
-            EXPECT_GT(kept.light_cache->points_made(), 1000u);
+            EXPECT_GT(kept.radiance_cache->points_filled(), 1000u);
         }
 }
 
