@@ -10,6 +10,7 @@ A script is read line by line:
   text               expected on its standard output
   ! text             expected on its standard error
   ? 3                expected exit status, 0 where none is given
+  @ program          a program that the script needs; where it is not installed the script is skipped: exit status 77
 In expected lines * stands for any text within the line; a line ... stands for any number of lines; empty lines count
 on neither side.
 After every command no temporary file may be left in the folder.
@@ -18,6 +19,7 @@ import fnmatch
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -29,13 +31,19 @@ class Step:
         self.out, self.err, self.status = [], [], 0
 
 
+SKIPPED = 77  # tests/CMakeLists.txt says so to ctest
+
+
 def read_script(path):
-    steps = []
+    """The steps of a script and the programs that it needs."""
+    steps, needed = [], []
     for number, line in enumerate(path.read_text().splitlines(), 1):
         if line.startswith("$ "):
             steps.append(Step(number, line[2:]))
         elif line.startswith("#") or not line:
             continue
+        elif line.startswith("@ "):
+            needed.append(line[2:])
         elif not steps:
             sys.exit(f"{path}:{number}: expectation before any command")
         elif line.startswith("! "):
@@ -46,7 +54,7 @@ def read_script(path):
             steps[-1].out.append(line)
     if not steps:
         sys.exit(f"{path}: no command")
-    return steps
+    return steps, needed
 
 
 def matches(expected, text):
@@ -77,13 +85,18 @@ def check(step, folder, environment):
 
 def main():
     program, script = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    steps, needed = read_script(script)
+    missing = [name for name in needed if not shutil.which(name)]
+    if missing:
+        print(f"{script}: skipped, not installed: {' '.join(missing)}")
+        return SKIPPED
     failed = False
     with tempfile.TemporaryDirectory(prefix="hogel-cli-") as name:
         folder = pathlib.Path(name) / "work"
         folder.mkdir()
         environment = {"PATH": f"{program.parent}:{os.environ['PATH']}", "HOME": name, "LC_ALL": "C.UTF-8",
                        "TOOLS": str(pathlib.Path(__file__).parent.resolve())}
-        for step in read_script(script):
+        for step in steps:
             for complaint in check(step, folder, environment):
                 failed = True
                 print(f"{script}:{step.line_number}: $ {step.command}\n  {complaint}")
