@@ -54,10 +54,14 @@ double region_bytes(const LightFieldSource& face, const LightFieldRequest& reque
     const HogelRange region = face.preferred_tile();
     const double tile =
         static_cast<double>(values * grid.directions()) * static_cast<double>(region.hogels()) * sizeof(float);
-    if (request.samples.count() == 1) return tile + depth_buffer_bytes(request.renderer, grid, region);
+    const RendererInfo& renderer = renderers().find(request.renderer);
+    const auto buffer_bytes = [&](const LightFieldGrid& rendered, const HogelRange& hogels) {
+        return renderer.depth_buffer_bytes ? renderer.depth_buffer_bytes(rendered, hogels) : 0.0;
+    };
+    if (request.samples.count() == 1) return tile + buffer_bytes(grid, region);
     const LightFieldGrid fine = finer(grid, request.samples);
     const HogelRange part{0, 0, request.samples.hogel * region.ns, request.samples.hogel * region.nt};
-    return tile + depth_buffer_bytes(request.renderer, fine, part) +
+    return tile + buffer_bytes(fine, part) +
            static_cast<double>(values * fine.directions()) * static_cast<double>(part.hogels()) * sizeof(float);
 }
 
