@@ -30,9 +30,9 @@ struct Options {
     double film_distance = 0;
 
     // The full camera may put beside the picture what does not fit into memory.
-    std::optional<FullCameraOptions> full() const {
+    std::optional<PlaneWaveCameraOptions> full() const {
         if (camera != "full") return {};
-        return FullCameraOptions{
+        return PlaneWaveCameraOptions{
             {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
             film_distance};
     }

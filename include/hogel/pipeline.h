@@ -154,7 +154,7 @@ std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField&
 /// full chain of plane waves, otherwise by the narrow-band camera.
 std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
                                       std::span<const Camera> cameras,
-                                      const std::optional<FullCameraOptions>& full = {},
+                                      const std::optional<PlaneWaveCameraOptions>& full = {},
                                       const Progress& progress = {});
 
 /// A camera on the axis that frames a hologram of this size (metres) with so many pixels across.

@@ -60,13 +60,13 @@ std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField&
 }
 
 std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
-                                      std::span<const Camera> cameras, const std::optional<FullCameraOptions>& full,
+                                      std::span<const Camera> cameras, const std::optional<PlaneWaveCameraOptions>& full,
                                       const Progress& progress) {
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
     for (std::size_t c = 0; c < colours; ++c) {
         const Progress part = progress.part(c, colours);
-        const std::vector<Image> seen = full ? photograph_fully(*holograms[c], cameras, *full, part)
+        const std::vector<Image> seen = full ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
                                              : photograph(*holograms[c], cameras, PhotographOptions(), part);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
