@@ -52,9 +52,9 @@ HologramFile open_fields(const std::string& name, const FieldOptions& options, c
     ExternalField what;
     what.pitch_x = what.pitch_y = pitch;
     what.wavelength = wavelengths.front();
-    what.values = options.values == "phase"       ? ExternalField::RayValues::phase
-                  : options.values == "amplitude" ? ExternalField::RayValues::amplitude
-                                                  : ExternalField::RayValues::complex;
+    what.values = options.values == "phase"       ? ExternalField::Values::phase
+                  : options.values == "amplitude" ? ExternalField::Values::amplitude
+                                                  : ExternalField::Values::complex;
     what.imaginary = options.imaginary;
     what.variable = options.variable;
     what.conjugate = options.conjugate;

@@ -7,7 +7,7 @@
 
 namespace hogel {
 
-/// Limits the whole process to a number of threads while it lives; 0 means all that the machine has.
+/// Limits the parallel loops of the whole process to a number of threads while it lives; 0: no limit.
 class ThreadLimit {
   public:
     explicit ThreadLimit(std::size_t threads);
@@ -20,13 +20,13 @@ class ThreadLimit {
     std::unique_ptr<Limit> limit_;
 };
 
-/// How many threads parallel loops use at present.
+/// How many threads parallel loops use at present: those of the machine, or fewer by a ThreadLimit.
 std::size_t thread_count();
 
-/// Where arrays that may not fit into memory are kept.
+/// Where to keep large arrays that may not fit into memory.
 struct ScratchOptions {
-    std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this lies in a file
-    std::filesystem::path folder;               ///< in which the file is made; empty: nowhere, such an array is refused
+    std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this is kept in a file
+    std::filesystem::path folder;               ///< of that file; where it is empty, such an array is an Error(usage)
 };
 
 }  // namespace hogel

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/test_targets.h"
 #include "hogel/direct/exact_sums.h"
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
@@ -203,7 +204,9 @@ TEST(Fresnel, of_a_small_patch_is_the_sum_of_its_points_and_so_is_fraunhofer) {
     }
 }
 
-TEST(AddWave, twins_agree_with_and_without_a_normal_behind_and_before_the_hologram) {
+HOGEL_TEST_ON_EVERY_TARGET(AddWave);
+
+TEST_P(AddWave, twins_agree_with_and_without_a_normal_behind_and_before_the_hologram) {
     const FieldGrid grid{{64, 64, 2_um, 3_um, 0, 0}, 633_nm};
     const SampleRow row{-30_um, 12_um, 2_um};
     std::array<bool, tile_side> hidden{};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
@@ -126,12 +127,14 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
 // Depth planes, added up without occlusion ([K] fig. 3.7).
 Field fresnel_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                      const Progress& progress) {
+    const core::StopScope scope(progress);
     return add_planes(scene, grid, slices_of(scene, options.planes), false, options, progress);
 }
 
 // One plane, so far away or so small that it is flat to the hologram, [K] (3.7): here, to an eighth of a wavelength.
 Field fraunhofer_plane(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
+    const core::StopScope scope(progress);
     const std::vector<Slice> slices = slices_of(scene, 1);
     const double corner = reach_of(scene, grid.plane, slices[0]).corner;
     const double needed = 4 * corner * corner / grid.wavelength;

@@ -15,6 +15,7 @@ namespace hogel::direct {
 // if its wave in the line has a² = L λ w/Ξ at unit distance and falls off as 1/√r, w its width.
 Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(options.spacing / grid.plane.pitch_y)));
     const double height = static_cast<double>(rows) * grid.plane.pitch_y;
@@ -30,6 +31,7 @@ Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const Sc
     core::parallel_for(lines, [&](std::size_t line) {
         std::vector<std::complex<float>> values(grid.plane.width);
         for (std::size_t column = 0; column < values.size(); ++column) {
+            core::throw_if_stopped();
             std::complex<double> sum = 0;
             for (const ScenePoint& point : slices[line]) {
                 const Vec3 place{grid.plane.x(static_cast<double>(column)), point.position.y, 0};

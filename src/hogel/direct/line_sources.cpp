@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
 #include "hogel/direct/scene_points.h"
@@ -33,6 +34,7 @@ std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavele
 // radiance L, as wide as the points' spacing w, has the energy at the hologram of as many independent points.
 Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
+    const core::StopScope scope(progress);
     std::vector<LineSource> lines;
     std::uint32_t number = 0;
     for (const SceneEdge& edge : scene_edges(scene, options)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/propagate.h"
@@ -13,6 +14,7 @@ namespace hogel::direct {
 // with the angular spectrum in place of (3.13) it holds at any distance, in front of the hologram too.
 Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     const SliceDrawing drawing(scene);
     const std::vector<Slice> slices = slices_of(scene, options.planes);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/optics/tilt.h"
 #include "hogel/propagate.h"
@@ -182,6 +183,7 @@ class PolygonLight {
 
 Field tilted_polygons(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                       const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     Field field(grid);
     const PolygonLight light(scene, grid, options);
@@ -197,6 +199,7 @@ Field tilted_polygons(const ShadedScene& scene, const FieldGrid& grid, const Sce
 // Each polygon stops the light of those behind it where its silhouette, drawn on a plane through its middle, stands.
 Field occluding_polygons(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                          const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     Field field(grid);
     const PolygonLight light(scene, grid, options);

@@ -170,10 +170,12 @@ Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
                        const std::function<std::complex<double>(Vec3 place)>& wave) {
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         for (std::size_t row = 0; row < region.height; ++row)
-            for (std::size_t column = 0; column < region.width; ++column)
+            for (std::size_t column = 0; column < region.width; ++column) {
+                core::throw_if_stopped();
                 values(row, column) =
                     std::complex<float>(wave({grid.plane.x(static_cast<double>(region.x0 + column)),
                                               grid.plane.y(static_cast<double>(region.y0 + row)), 0}));
+            }
     });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/exact_sums.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/hologram/unit_roots.h"
@@ -104,12 +105,14 @@ class Tile {
 // Points with visibility, one ray for each point and tile of 32×32 samples.
 Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
+    const core::StopScope scope(progress);
     const Visibility visibility(scene);
     const std::vector<ScenePoint> points = surface_points(scene, grid, options);
     const hologram::UnitRoots roots;
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         Tile tile(roots, grid, region);
         for (const ScenePoint& point : points) {
+            core::throw_if_stopped();
             const Zone zone = tile.zone(point.position);
             if (zone == Zone::dark) continue;
             const Passage ray = unlimited_passage(point.position, tile.middle());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/error.h"
 #include "hogel/hologram.h"
 #include "hogel/hologram/frequency_grid.h"
@@ -131,7 +132,9 @@ TEST(BasisSynthesis, refuses_unknown_transforms_other_methods_and_fringes_beyond
     EXPECT_THROW(make_hologram(borrow(fine), basis_options("cdf97")), Error);
 }
 
-TEST(SumFringes, equals_its_plain_version) {
+HOGEL_TEST_ON_EVERY_TARGET(Fringes);
+
+TEST_P(Fringes, sums_equal_the_plain_version) {
     const std::size_t size = 1000;
     Array<Complex, 2> fringes({5, size}), plain({1, size}), fast({1, size});
     for (std::size_t i = 0; i < fringes.size(); ++i)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/test_targets.h"
 #include "hogel/hologram.h"
 
 #include <gtest/gtest.h>
@@ -226,7 +227,10 @@ TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
         }
 }
 
-TEST(FrequencyGrid, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) {
+HOGEL_TEST_ON_EVERY_TARGET(LobeKernels);
+HOGEL_TEST_ON_EVERY_TARGET(Transpose);
+
+TEST_P(LobeKernels, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) {
     const LightFieldGrid grid{1, 1, 64_um, 19, 23, Perspective{0.14, 0.12}, 1};
     const FrequencyGrid frequencies(grid, 32, 532_nm);
     const std::size_t hogels = 21;
@@ -248,7 +252,7 @@ TEST(FrequencyGrid, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) 
     }
 }
 
-TEST(Transpose, twins_agree_whatever_the_size) {
+TEST_P(Transpose, twins_agree_whatever_the_size) {
     std::mt19937 random(1);
     for (const auto& [rows, columns] :
          {std::pair<std::size_t, std::size_t>{16, 64}, {16, 37}, {5, 16}, {3, 3}, {41, 16}, {1, 50}, {64, 7}}) {

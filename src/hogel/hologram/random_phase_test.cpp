@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hogel/core/random.h"
+#include "hogel/core/test_targets.h"
 #include "hogel/hologram/random_bytes.h"
 #include "hogel/hologram/unit_roots.h"
 
@@ -30,7 +31,9 @@ TEST(RandomPhase, keeps_moduli_and_takes_phases_from_the_bytes_of_the_draws) {
     }
 }
 
-TEST(RandomBytes, are_the_same_many_draws_at_once) {
+HOGEL_TEST_ON_EVERY_TARGET(RandomBytes);
+
+TEST_P(RandomBytes, are_the_same_many_draws_at_once) {
     const PhaseSeries series{{0xdeadbeefu, 0x80000001u}, {5, 0xffffffffu, 13}};
     for (const std::size_t size : {0, 1, 16, 130, 512, 1000}) {
         std::vector<std::uint8_t> plain(size), fast(size);

@@ -351,7 +351,7 @@ with open(sys.argv[1], "r+b") as f:
     what.variable = "text";
     EXPECT_THROW(open_external_field(directory_ / "a.mat", what), Error);
     what.variable = "double";
-    what.values = ExternalField::RayValues::amplitude;
+    what.values = ExternalField::Values::amplitude;
     const auto real = open_external_field(directory_ / "a.mat", what);
     Array<std::complex<float>, 2> one({1, 1});
     real->read({1, 2, 1, 1}, 0, one);

@@ -82,6 +82,7 @@ void Field::write(const Region& region, View<const std::complex<float>, 2> value
 }
 
 void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Progress& progress) {
+    const core::StopScope scope(progress);
     const Grid& plane = source.grid().plane;
     const std::size_t side = aligned_side(source.alignment());
     // Whole rows lie one after the other in memory, as a region's do, so a region of them can be read in place.

@@ -274,6 +274,7 @@ void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progre
 
 std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::span<const Camera> cameras,
                                              const PlaneWaveCameraOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     require_photographable(hologram, cameras, options.film_distance);
     std::vector<Image> images;
     for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
@@ -293,6 +294,7 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
                                                           std::span<const Camera> cameras,
                                                           const PlaneWaveCameraOptions& options,
                                                           const Progress& progress) {
+    const core::StopScope scope(progress);
     if (options.film_distance != 0)
         throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
     require_photographable(hologram, cameras, 0);

@@ -133,6 +133,7 @@ using namespace optics;
 
 void propagate(const FieldSource& source, double distance, FieldSink& sink, const PropagateOptions& options,
                const Progress& progress) {
+    const core::StopScope scope(progress);
     const ScratchOptions& scratch = options.scratch;
     const Grid& plane = source.grid().plane;
     validate(source.grid(), ErrorCode::usage, "propagated field");

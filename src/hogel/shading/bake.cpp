@@ -161,6 +161,7 @@ void require_normals(const Scene& scene) {
 }  // namespace
 
 Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
     require_normals(scene);

@@ -103,6 +103,7 @@ double shadow_map_bytes(const Scene& scene, const ShadingOptions& options) {
 
 void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedScene& shaded,
                       const Progress& progress) {
+    const core::StopScope scope(progress);
     const ShadingInfo& model = shading_models().find(options.model);
     validate(scene);
     require_normals(scene);

@@ -346,6 +346,7 @@ CompressionResult compress(const LightFieldSource& source, const std::filesystem
 
 CompressionResult compress(std::span<const LightFieldSource* const> sources, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     check(options.target);
     const LightFieldGrid& grid = sources.front()->grid();
     const bool exact = options.target.lossless || options.target.max_error;

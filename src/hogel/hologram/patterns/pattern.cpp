@@ -179,6 +179,7 @@ Table<EncodingInfo>& encodings() {
 }
 
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     require_fitting(source.grid(), options);
     Array<Complex, 2> field = fit(source, options.modulator);
     normalise(field, options.clip);

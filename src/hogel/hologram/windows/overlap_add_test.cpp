@@ -6,11 +6,14 @@
 #include <limits>
 #include <random>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/windows/overlap_add.h"
 
 namespace hogel::hologram::windows {
 namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(OverlapAddHologram);
 
 using Complex = std::complex<float>;
 
@@ -37,7 +40,7 @@ HologramOptions options_of(PointPhases phases, double pitch) {
     return options;
 }
 
-TEST(OverlapAddHologram, batches_of_windows_equal_windows_one_by_one) {
+TEST_P(OverlapAddHologram, batches_of_windows_equal_windows_one_by_one) {
     for (const std::size_t hop : {1, 2, 3})
         for (const PointPhases phases : {PointPhases::fixed, PointPhases::random}) {
             const LightFieldBuffer rays = noise(37, 21, 9, 6, static_cast<double>(hop) * 6e-6);
@@ -58,7 +61,7 @@ TEST(OverlapAddHologram, batches_of_windows_equal_windows_one_by_one) {
         }
 }
 
-TEST(OverlapAddHologram, a_sample_is_the_same_whatever_the_region) {
+TEST_P(OverlapAddHologram, a_sample_is_the_same_whatever_the_region) {
     const LightFieldBuffer rays = noise(70, 9, 9, 6, 12e-6);
     const auto hologram = make_hologram(borrow(rays), options_of(PointPhases::random, 6e-6));
     const Region all{0, 0, 140, 18};

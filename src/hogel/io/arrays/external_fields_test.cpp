@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Complex = std::complex<float>;
 using Bytes = std::vector<unsigned char>;
-using RayValues = ExternalField::RayValues;
+using Values = ExternalField::Values;
 
 class Foreign : public testing::Test {
   protected:
@@ -37,7 +37,7 @@ class Foreign : public testing::Test {
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_foreign_" + std::to_string(::getpid()));
 };
 
-ExternalField known(RayValues values = RayValues::complex) {
+ExternalField known(Values values = Values::complex) {
     ExternalField what;
     what.pitch_x = what.pitch_y = 2e-6;
     what.wavelength = 633e-9;
@@ -237,21 +237,21 @@ TEST_F(Foreign, real_numbers_are_amplitudes_or_phases_as_is_said) {
     const fs::path radians = write("f.npy", reals("<f4", float())),
                    codes = write("u.npy", reals("<u2", std::uint16_t()));
     EXPECT_THROW(open_external_field(radians, known()), Error);
-    EXPECT_THROW(open_external_field(write("a.npy", npy_rows()), known(RayValues::phase)), Error);
-    const auto at = [](const fs::path& path, RayValues values) {
+    EXPECT_THROW(open_external_field(write("a.npy", npy_rows()), known(Values::phase)), Error);
+    const auto at = [](const fs::path& path, Values values) {
         return all_of(*open_external_field(path, known(values)))(2, 0);
     };
-    EXPECT_EQ(at(radians, RayValues::amplitude), Complex(4));
-    EXPECT_LT(std::abs(at(radians, RayValues::phase) - std::polar(1.0f, 4.0f)), 1e-6f);
-    EXPECT_LT(std::abs(at(codes, RayValues::phase) - std::polar(1.0f, float(2 * std::numbers::pi * 4 / 65536))), 1e-6f);
+    EXPECT_EQ(at(radians, Values::amplitude), Complex(4));
+    EXPECT_LT(std::abs(at(radians, Values::phase) - std::polar(1.0f, 4.0f)), 1e-6f);
+    EXPECT_LT(std::abs(at(codes, Values::phase) - std::polar(1.0f, float(2 * std::numbers::pi * 4 / 65536))), 1e-6f);
 }
 
 TEST_F(Foreign, pictures_are_codes_of_phases_amplitudes_or_two_parts) {
     Array<std::uint8_t, 3> levels({3, 2, 1});
     for (std::size_t i = 0; i < 6; ++i) levels.data()[i] = static_cast<std::uint8_t>(50 * i);
     write_raw_pixels(directory_ / "p.png", levels);
-    const auto phases = all_of(*open_external_field(directory_ / "p.png", known(RayValues::phase)));
-    const auto amplitudes = all_of(*open_external_field(directory_ / "p.png", known(RayValues::amplitude)));
+    const auto phases = all_of(*open_external_field(directory_ / "p.png", known(Values::phase)));
+    const auto amplitudes = all_of(*open_external_field(directory_ / "p.png", known(Values::amplitude)));
     for (std::size_t i = 0; i < 6; ++i) {
         const auto turn = static_cast<float>(2 * std::numbers::pi * 50.0 * double(i) / 256);
         EXPECT_LT(std::abs(phases.data()[i] - std::polar(1.0f, turn)), 1e-6f) << i;
