@@ -18,8 +18,6 @@ pkg_check_modules(openimageio REQUIRED IMPORTED_TARGET OpenImageIO)
 add_library(OpenImageIO::OpenImageIO ALIAS PkgConfig::openimageio)
 pkg_search_module(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
 add_library(hdf5::hdf5 ALIAS PkgConfig::hdf5)
-# Only `hogel bench render --peers` uses it; see [peers] of packages.txt.
-find_package(OpenGL QUIET COMPONENTS EGL)
 if(HOGEL_TESTS)
   find_package(GTest REQUIRED)
 endif()

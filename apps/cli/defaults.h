@@ -44,18 +44,6 @@ struct Defaults {
     std::size_t resolution = 400;    ///< pixels across a photograph
     std::size_t looks = 16;          ///< photographs averaged against speckle
     std::size_t pupil_samples = 64;  ///< points of the pupil in a geometric photograph
-
-    // benchmark of renderers
-    std::size_t bench_hogels = 360, bench_directions = 128;
-    double bench_field_of_view = 40_deg;
-    std::size_t bench_largest_region = 128;
-    double bench_seconds = 8, bench_gigabytes = 6;
-    std::size_t bench_peer_directions = 256;
-    std::size_t bench_limit_bytes = std::size_t{1} << 29;  // what is written to find the memory's speed
-    std::size_t bench_few_hogels = 64;  ///< along a side, where peers are measured with few hogels and with many
-    std::size_t bench_rounds = 5;
-    double bench_peer_seconds = 1;
-    std::size_t bench_stream_hogels = 512;
 };
 inline constexpr Defaults defaults;
 
