@@ -17,12 +17,7 @@ void add_propagate(CLI::App& app, Session& session);
 void add_compress(CLI::App& app, Session& session);
 void add_decompress(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
-void add_bench(CLI::App& app, Session& session);
 void add_info(CLI::App& app, Session& session);
 void add_scenes(CLI::App& app, Session& session);
-
-// The commands of `hogel bench`.
-void add_bench_render(CLI::App& bench, Session& session);
-void add_bench_codec(CLI::App& bench, Session& session);
 
 }  // namespace hogel::cli

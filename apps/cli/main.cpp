@@ -45,7 +45,6 @@ void build(CLI::App& app, Session& session) {
     add_compress(app, session);
     add_decompress(app, session);
     add_compare(app, session);
-    add_bench(app, session);
     add_info(app, session);
     add_bake(app, session);
     add_scenes(app, session);
