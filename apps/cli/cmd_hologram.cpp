@@ -122,22 +122,19 @@ int hologram(Options options, const Session& session) {
 
 }  // namespace
 
-void add_hologram(CLI::App& app, Session& session) {
+void add_hologram(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "hologram", "Turn a light field or a scene into a hologram",
-                                    "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
-                                    "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm",
-                                    [options, &session] { return hologram(*options, session); });
-    command->add_option("input", options->input, "Light field, mesh file or built-in scene")
-        ->type_name("X.h5|SCENE")
-        ->required();
-    command->add_option("-o,--output", options->output, "Hologram to write, HDF5")->type_name("FILE")->required();
-    command->add_flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
+    command.examples(
+        "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
+        "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm");
+    command.positional("input", options->input, "X.h5|SCENE", "Light field, mesh file or built-in scene");
+    command.text("-o,--output", options->output, "FILE", "Hologram to write, HDF5").required();
+    command.flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);
-    add_hologram_options(command, options->hologram);
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    command.work([options, &session] { return hologram(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "command_line.h"
 #include "defaults.h"
 #include "hogel/camera.h"
 #include "hogel/files.h"
@@ -46,11 +46,11 @@ struct RenderOptions {
     std::vector<LightFieldGrid> grids() const;
     SamplesPerRay samples_per_ray() const { return {samples.columns, samples.rows}; }
 };
-void add_render_options(CLI::App* command, RenderOptions& options);
+void add_render_options(Command& command, RenderOptions& options);
 /// --hemicube, for commands that make use of all faces.
-void add_hemicube_option(CLI::App* command, RenderOptions& options);
+void add_hemicube_option(Command& command, RenderOptions& options);
 /// --frequencies, for the command that makes light fields.
-void add_frequencies_option(CLI::App* command, RenderOptions& options);
+void add_frequencies_option(Command& command, RenderOptions& options);
 
 /// How a light field becomes a hologram.
 struct HologramChoices {
@@ -66,9 +66,9 @@ struct HologramChoices {
     double lines = 0;           ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
     bool coefficients = false;  ///< whether the light field holds coefficients of `basis` instead of radiances
 };
-void add_hologram_options(CLI::App* command, HologramChoices& options);
-/// More of them, for methods that make the hologram of a scene without a light field.
-void add_scene_hologram_options(CLI::App* command, HologramChoices& options);
+void add_hologram_options(Command& command, HologramChoices& options);
+/// These, and more for methods that make the hologram of a scene without a light field.
+void add_scene_hologram_options(Command& command, HologramChoices& options);
 
 /// What the user may name as the input of a command: a light field, a hologram, or a scene (a built-in one or a mesh
 /// file). Throws Error(usage) for an unknown scene and Error(bad_input) for a file that is missing or none of these.
