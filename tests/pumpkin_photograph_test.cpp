@@ -68,7 +68,7 @@ class PumpkinPhotograph : public ::testing::Test {
 TEST_F(PumpkinPhotograph, differs_from_geometric_optics_by_little_more_than_speckle) {
     for (std::size_t i = 0; i < photographs().cameras.size(); ++i) {
         const ImageComparison comparison = compare(photographs().waves[i], photographs().rays[i], exposure());
-        EXPECT_GT(comparison.psnr, 25) << i;
+        EXPECT_GT(comparison.psnr, 33) << i;  // the figure of the README
         RecordProperty("psnr_" + std::to_string(i), std::to_string(comparison.psnr));
         RecordProperty("ssim_" + std::to_string(i), std::to_string(comparison.ssim));
     }

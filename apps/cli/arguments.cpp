@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "command_line.h"
-#include "defaults.h"
 #include "hogel/error.h"
+#include "hogel/pipeline.h"
 #include "hogel/units.h"
 
 namespace hogel::cli {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "command_line.h"
-#include "defaults.h"
 #include "hogel/camera.h"
+#include "hogel/pipeline.h"
 
 namespace hogel::cli {
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "hogel/bake.h"
-#include "hogel/scenes.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -16,7 +16,7 @@ struct Options {
     BakeOptions bake{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};
 };
 
-int bake_scene(const Options& options, const Session& session) {
+int bake(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_baked_scene_name(options.output);
@@ -25,8 +25,9 @@ int bake_scene(const Options& options, const Session& session) {
     place.size = options.size;
     BakeOptions bake_options = options.bake;
     bake_options.seed = session.seed;
+    const Scene scene = load_scene(session, options.scene, place);
     Stage stage(session, "baking");
-    const Scene baked = bake_scene(load_scene(session, options.scene, place), bake_options, stage.progress());
+    const Scene baked = hogel::bake_scene(scene, bake_options, stage.progress());
     write_baked_scene(options.output, baked);
     session.say(fmt::format("{}: {} triangles, {}; render it with --as-is", options.output, triangle_count(baked),
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
@@ -47,7 +48,7 @@ void add_bake(Command& command, Session& session) {
     command.count("--bounces", options->bake.bounces, "How often light is reflected");
     command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
     command.length("--size", options->size, "Width of the hologram that the scene is fitted to");
-    command.work([options, &session] { return bake_scene(*options, session); });
+    command.work([options, &session] { return bake(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -11,9 +11,6 @@
 #include "outputs.h"
 
 namespace hogel::cli {
-
-using namespace codec::format;
-
 namespace {
 
 struct Options {
@@ -33,9 +30,7 @@ const std::vector<std::string> layouts{"faces", "unfolded"};
 int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
-    const std::vector<std::unique_ptr<LightFieldSource>> sources = open_light_field_faces(options.input);
-    std::vector<const LightFieldSource*> faces;
-    for (const auto& source : sources) faces.push_back(source.get());
+    const LightField light_field = open_light_field(options.input);
     require_writable(options.output);
     CompressionOptions& compression = options.compression;
     CompressionTarget& target = compression.target;
@@ -53,11 +48,11 @@ int compress_file(Options options, const Session& session) {
     compression.metadata = describe_run(session);
     if (options.hemicube == "unfolded") compression.layout = StreamLayout::unfolded;
     if (options.tone == "histogram") compression.tone_decades = options.tone_decades;
-    compression.with_depth = faces.front()->has_depth() && !options.no_depth;
+    compression.with_depth = light_field.has_depth() && !options.no_depth;
     if (compression.depth_error > 0 && !compression.with_depth)
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
     Stage stage(session, "compressing");
-    const CompressionResult result = compress(faces, options.output, compression, stage.progress());
+    const CompressionResult result = compress(light_field, options.output, compression, stage.progress());
     say_what_was_compressed(session, options.output, result);
     return 0;
 }

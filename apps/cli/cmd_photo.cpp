@@ -7,8 +7,7 @@
 #include "commands.h"
 #include "display.h"
 #include "fields.h"
-#include "hogel/photograph.h"
-#include "hogel/ray_photograph.h"
+#include "hogel/pipeline.h"
 #include "inputs.h"
 #include "movie.h"
 #include "outputs.h"
@@ -25,7 +24,7 @@ struct Options {
     std::size_t looks = defaults.looks;
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string exposure = "auto", display = "intensity";
-    std::string camera{defaults.camera};
+    std::string camera = "narrow";
     bool geometric = false, wave = false;
 
     double film_distance = 0;
@@ -46,15 +45,17 @@ double parse_exposure(const std::string& text) {
     return *exposure;
 }
 
+using Fields = std::vector<std::shared_ptr<const FieldSource>>;
+
 // What the film shows of the light: its intensity, or its phase.
-std::vector<Image> develop(Stage& stage, std::span<const std::unique_ptr<FieldSource>> fields,
-                           std::span<const Camera> cameras, const Options& options) {
-    if (options.display != "phase") return photograph_colours(stage, fields, cameras, options.full());
+std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
+                           const Options& options) {
+    if (options.display != "phase") return photograph_colours(fields, cameras, options.full(), stage.progress());
     if (fields.size() != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("--display phase: a phase is that of one wavelength, but there are {}", fields.size()));
     std::vector<Image> pictures;
-    for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras, stage.progress(), *options.full()))
+    for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras, *options.full(), stage.progress()))
         pictures.push_back(phases(wave));
     return pictures;
 }
@@ -83,21 +84,18 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
 
 std::vector<Image> photographs_of_light_field(const Options& options, const Session& session, InputKind kind,
                                               bool geometric) {
-    auto faces = open_or_render_faces(session, options.input, options.render);
-    const LightFieldGrid grid = faces.front()->grid();
-    const std::vector<Camera> cameras = make_cameras(options.view, grid.pitch * static_cast<double>(grid.hogels_s),
-                                                     grid.pitch * static_cast<double>(grid.hogels_t));
+    LightField light_field = open_or_render(session, options.input, options.render);
+    const std::vector<Camera> cameras =
+        make_cameras(options.view, light_field.grid().width(), light_field.grid().height());
     if (geometric) {
         Stage stage(session, "geometric photograph");
-        std::vector<const LightFieldSource*> sources;
-        for (const auto& face : faces) sources.push_back(face.get());
-        return photograph(sources, cameras, options.pupil_samples, stage.progress());
+        return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
     }
-    require_holograms(grids_of(faces), options.hologram, cameras);
+    const HologramRequest request = options.hologram.request(session, options.looks);
+    require_holograms(light_field.grids(), request, cameras);
     if (kind == InputKind::scene)
-        faces = render_for_reading(session, std::move(faces), options.hologram.wavelengths.size(),
-                                   needs_depth(options.hologram));
-    const auto holograms = make_holograms(session, faces, options.hologram, options.looks);
+        light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
+    const auto holograms = make_holograms(light_field, request);
     Stage stage(session, "wave photograph");
     return develop(stage, holograms, cameras, options);
 }
@@ -112,7 +110,7 @@ int photo(const Options& options, const Session& session) {
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
-    if (geometric && options.camera != defaults.camera)
+    if (geometric && options.camera != "narrow")
         throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
     if (options.film_distance != 0 && options.camera != "full")
         throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");

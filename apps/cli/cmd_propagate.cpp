@@ -6,8 +6,9 @@
 #include "commands.h"
 #include "display.h"
 #include "fields.h"
-#include "hogel/optics/spectrum.h"
+#include "hogel/pipeline.h"
 #include "hogel/propagate.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 

@@ -2,11 +2,7 @@
 #include "outputs.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
-
-#include "hogel/core/output_file.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
 
@@ -36,16 +32,6 @@ void refuse_outputs_of_another_run(const fs::path& folder) {
 
 }  // namespace
 
-void require_writable(const fs::path& file) {
-    const core::OutputFile output(file);  // complains about a missing folder, or a folder in the file's place
-    if (access(output.temporary().parent_path().c_str(), W_OK) != 0)
-        throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-    core::write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
-}
-
 void add_force_flag(Command& command, bool& force) {
     command.flag("--force", force, "Write into a folder that holds the outputs of another run, over them");
 }
@@ -53,18 +39,6 @@ void add_force_flag(Command& command, bool& force) {
 void add_resume_flag(Command& command, bool& resume) {
     command.flag("--resume", resume,
                  "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
-}
-
-std::string describe_input(const std::string& name) {
-    std::error_code none;
-    const auto size = fs::file_size(name, none);
-    if (none) return name;
-    const auto date = fs::last_write_time(name, none).time_since_epoch();
-    return fmt::format("{}, {} bytes, {} ns", name, size, std::chrono::nanoseconds(date).count());
-}
-
-std::string describe_input(const std::string& name, const Scene& scene) {
-    return fmt::format("{} showing {:08x}", name, checksum(scene));
 }
 
 void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result) {
