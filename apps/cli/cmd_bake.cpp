@@ -36,20 +36,19 @@ int bake(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_bake(CLI::App& app, Session& session) {
+void add_bake(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "bake", "Light a scene for good, reflected light included",
-                                    "  hogel bake church -o church.glb\n"
-                                    "  hogel render church.glb -o church.h5 --as-is --shading given",
-                                    [options, &session] { return bake(*options, session); });
-    command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
-    command->add_option("-o,--output", options->output, "Mesh to write, with the radiance of every vertex: .glb")
-        ->type_name("FILE")
-        ->required();
-    add_count(command, "--rays", options->bake.rays, "From every vertex, for reflected light");
-    add_count(command, "--bounces", options->bake.bounces, "How often light is reflected");
-    add_count(command, "--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
-    add_length(command, "--size", options->size, "Width of the hologram that the scene is fitted to");
+    command.examples(
+        "  hogel bake church -o church.glb\n"
+        "  hogel render church.glb -o church.h5 --as-is --shading given");
+    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
+    command.text("-o,--output", options->output, "FILE", "Mesh to write, with the radiance of every vertex: .glb")
+        .required();
+    command.count("--rays", options->bake.rays, "From every vertex, for reflected light");
+    command.count("--bounces", options->bake.bounces, "How often light is reflected");
+    command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
+    command.length("--size", options->size, "Width of the hologram that the scene is fitted to");
+    command.work([options, &session] { return bake(*options, session); });
 }
 
 }  // namespace hogel::cli

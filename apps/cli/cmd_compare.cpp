@@ -42,13 +42,16 @@ int compare_files(const Options& options, const Session& session) {
         if (options.min_sqnr) misses(session, "sqnr", options.min_sqnr, sqnr);
         const ImageComparison result = compare(read_image(options.a), read_image(options.b));
         psnr = result.psnr;
-        fmt::print("psnr       {:.4f} dB\nssim       {:.6f}\nmax_error  {:.6g}\n", result.psnr, result.ssim,
-                   result.max_error);
+        session.result({{"psnr", result.psnr}, {"ssim", result.ssim}, {"max_error", result.max_error}},
+                       fmt::format("psnr       {:.4f} dB\nssim       {:.6f}\nmax_error  {:.6g}\n", result.psnr,
+                                   result.ssim, result.max_error));
     } else if (kind == FileKind::light_field || kind == FileKind::hologram) {
         const SampleComparison result = compare_samples(options, kind, session);
         psnr = result.psnr;
         sqnr = result.sqnr;
-        fmt::print("sqnr       {:.4f} dB\npsnr       {:.4f} dB\nmax_error  {:.6g}\n", *sqnr, *psnr, result.max_error);
+        session.result({{"sqnr", *sqnr}, {"psnr", *psnr}, {"max_error", result.max_error}},
+                       fmt::format("sqnr       {:.4f} dB\npsnr       {:.4f} dB\nmax_error  {:.6g}\n", *sqnr, *psnr,
+                                   result.max_error));
     } else {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is neither a picture, a light field nor a hologram", options.a));
@@ -60,22 +63,17 @@ int compare_files(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Session& session) {
+void add_compare(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "compare", "Say how alike two files are",
-                                    "  hogel compare truth.png wave.png --min-psnr 25\n"
-                                    "  hogel compare full.h5 decoded.h5 --min-sqnr 30",
-                                    [options, &session] { return compare_files(*options, session); });
-    command->add_option("a", options->a, "The truth: a picture, a light field or a hologram")
-        ->type_name("A")
-        ->required();
-    command->add_option("b", options->b, "What is compared with it, of the same kind and size")
-        ->type_name("B")
-        ->required();
-    command->add_option("--min-psnr", options->min_psnr, "Exit with status 1 below this ratio of peak to error")
-        ->type_name("DB");
-    command->add_option("--min-sqnr", options->min_sqnr, "Exit with status 1 below this ratio of signal to error")
-        ->type_name("DB");
+    command.examples(
+        "  hogel compare truth.png wave.png --min-psnr 25\n"
+        "  hogel compare full.h5 decoded.h5 --min-sqnr 30");
+    command.positional("a", options->a, "A", "The truth: a picture, a light field or a hologram");
+    command.positional("b", options->b, "B", "What is compared with it, of the same kind and size");
+    command.number("--min-psnr", options->min_psnr, "DB", "Exit with status 1 below this ratio of peak to error");
+    command.number("--min-sqnr", options->min_sqnr, "DB", "Exit with status 1 below this ratio of signal to error");
+    add_json_flag(command, session);
+    command.work([options, &session] { return compare_files(*options, session); });
 }
 
 }  // namespace hogel::cli

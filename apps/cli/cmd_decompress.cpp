@@ -61,23 +61,20 @@ int decompress_file(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_decompress(CLI::App& app, Session& session) {
+void add_decompress(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "decompress", "Decompress a light field",
-                                    "  hogel decompress pumpkin.hgl -o pumpkin.h5",
-                                    [options, &session] { return decompress_file(*options, session); });
-    command->add_option("input", options->input, "Compressed light field")->type_name("X.hgl")->required();
-    command->add_option("-o,--output", options->output, "Light field to write, HDF5")->type_name("FILE")->required();
+    command.examples("  hogel decompress pumpkin.hgl -o pumpkin.h5");
+    command.positional("input", options->input, "X.hgl", "Compressed light field");
+    command.text("-o,--output", options->output, "FILE", "Light field to write, HDF5").required();
     command
-        ->add_option(
-            "--layers", options->layers,
-            "Decode the first layers alone: coarser, and the rest of the file may be missing\n(hogel info says "
-            "how many there are; default: all)")
-        ->type_name("N")
-        ->check(CLI::PositiveNumber.description(""));
-    CLI::Option* single = command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
-    command->add_flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
-        ->excludes(single);
+        .count("--layers", options->layers,
+               "Decode the first layers alone: coarser, and the rest of the file may be missing\n(hogel info says "
+               "how many there are; default: all)")
+        .no_default();
+    const Option single = command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
+    command.flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
+        .excludes(single);
+    command.work([options, &session] { return decompress_file(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -91,15 +91,15 @@ int hologram(Options options, const Session& session) {
         require_holograms(options.render.request().grids(), request);
         const Scene scene = load_scene(session, options.input, options.render);
         if (options.resume) file.resume = describe_input(options.input, scene);
-        return prepare_for_reading(session, render_light_field(session, scene, options.render),
-                                   request.channels.size(), needs_depth(request.method));
+        return prepare_for_reading(session, render_light_field(session, scene, options.render), request.channels.size(),
+                                   needs_depth(request.method));
     }();
     require_holograms(light_field.grids(), request);
     if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
     const Plan plan = plan_holograms(light_field.grids(), request, file);
     require_resources(plan, "synthesising the hologram", options.output);
-    session.detail(fmt::format("the hologram takes {} of memory, {} of disk, about {:.0f} s",
-                               format_bytes(plan.memory), format_bytes(plan.disk), plan.seconds));
+    session.detail(fmt::format("the hologram takes {} of memory, {} of disk, about {:.0f} s", format_bytes(plan.memory),
+                               format_bytes(plan.disk), plan.seconds));
     const auto holograms = make_holograms(light_field, request);
     {
         Stage stage(session, "hologram");
@@ -113,22 +113,19 @@ int hologram(Options options, const Session& session) {
 
 }  // namespace
 
-void add_hologram(CLI::App& app, Session& session) {
+void add_hologram(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "hologram", "Turn a light field or a scene into a hologram",
-                                    "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
-                                    "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm",
-                                    [options, &session] { return hologram(*options, session); });
-    command->add_option("input", options->input, "Light field, mesh file or built-in scene")
-        ->type_name("X.h5|SCENE")
-        ->required();
-    command->add_option("-o,--output", options->output, "Hologram to write, HDF5")->type_name("FILE")->required();
-    command->add_flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
+    command.examples(
+        "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
+        "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm");
+    command.positional("input", options->input, "X.h5|SCENE", "Light field, mesh file or built-in scene");
+    command.text("-o,--output", options->output, "FILE", "Hologram to write, HDF5").required();
+    command.flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);
-    add_hologram_options(command, options->hologram);
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    command.work([options, &session] { return hologram(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -25,7 +25,7 @@ struct Options {
     std::size_t resolution = defaults.resolution;
     std::size_t looks = 0;  // none given: enough_looks
     std::size_t pupil_samples = defaults.pupil_samples;
-    bool store_hologram = false;
+    bool store_hologram = false, force = false;
 };
 
 struct Focus {
@@ -123,7 +123,7 @@ int make(const Options& options, const Session& session) {
     require_holograms(std::span(&report.light_field, 1), request, cameras);
     state_plan(report.light_field, request, cameras, session);
 
-    const OutputFolder folder(options.output);
+    const OutputFolder folder(options.output, options.force);
     const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
 
     timed(session, report, "light field", [&](Stage& stage) {
@@ -160,31 +160,30 @@ int make(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_make(CLI::App& app, Session& session) {
+void add_make(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
     options->hologram.wavelengths = {defaults.red, defaults.green, defaults.blue};
-    CLI::App* command = add_command(app, session, "make", "From a scene to photographs of its hologram, with a report",
-                                    "  hogel make pumpkin -o pumpkin\n"
-                                    "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4",
-                                    [options, &session] { return make(*options, session); });
-    command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
-    command->add_option("-o,--output", options->output, "Folder for everything that is made")
-        ->type_name("DIR")
-        ->required();
-    command->add_flag("--store-hologram", options->store_hologram,
-                      "Keep hologram.h5 too; otherwise it streams through and is never stored");
-    const auto hologram = [](CLI::Option* option) { option->group("Hologram"); };
-    const auto camera = [](CLI::Option* option) { option->group("Camera"); };
-    hologram(add_length(command, "--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel"));
-    camera(add_length(command, "--eye-distance", options->eye_distance, "Of the lens from the hologram's plane"));
-    camera(add_length(command, "--pupil", options->pupil, "Diameter of the lens"));
-    camera(add_count(command, "--resolution", options->resolution, "Pixels across a photograph"));
-    camera(add_count(command, "--looks", options->looks,
-                     "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
-               ->default_str(fmt::format("up to {}", defaults.looks)));
-    camera(
-        add_count(command, "--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays"));
+    command.examples(
+        "  hogel make pumpkin -o pumpkin\n"
+        "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4");
+    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
+    command.text("-o,--output", options->output, "DIR", "Folder for everything that is made").required();
+    add_force_flag(command, options->force);
+    command.flag("--store-hologram", options->store_hologram,
+                 "Keep hologram.h5 too; otherwise it streams through and is never stored");
+    command.group("Hologram");
+    command.length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
+    command.group("Camera");
+    command.length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
+    command.length("--pupil", options->pupil, "Diameter of the lens");
+    command.count("--resolution", options->resolution, "Pixels across a photograph");
+    command
+        .count("--looks", options->looks,
+               "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
+        .default_text(fmt::format("up to {}", defaults.looks));
+    command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays");
     add_render_options(command, options->render);
+    command.work([options, &session] { return make(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -39,10 +39,10 @@ struct Options {
 };
 
 double parse_exposure(const std::string& text) {
-    double exposure = 0;
-    if (!CLI::detail::lexical_cast(text, exposure) || !(exposure > 0 && exposure < 1e12))
+    const std::optional<double> exposure = parse_number(text);
+    if (!exposure || !(*exposure > 0 && *exposure < 1e12))
         throw Error(ErrorCode::usage, fmt::format("--exposure: '{}' is neither auto nor a positive number", text));
-    return exposure;
+    return *exposure;
 }
 
 using Fields = std::vector<std::shared_ptr<const FieldSource>>;
@@ -61,7 +61,7 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
 }
 
 std::vector<Image> photographs_of_hologram(const Options& options, const Session& session) {
-    const HologramFile file = open_fields(options.input, options.field, session.command, options.hologram.pitch,
+    const HologramFile file = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
                                           options.hologram.wavelengths);
     if (file.fields.size() != 1 && file.fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
@@ -94,8 +94,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     const HologramRequest request = options.hologram.request(session, options.looks);
     require_holograms(light_field.grids(), request, cameras);
     if (kind == InputKind::scene)
-        light_field =
-            prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
+        light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
     const auto holograms = make_holograms(light_field, request);
     Stage stage(session, "wave photograph");
     return develop(stage, holograms, cameras, options);
@@ -144,63 +143,46 @@ int photo(const Options& options, const Session& session) {
     return 0;
 }
 
-void add_photo_options(CLI::App* command, Options& options) {
-    const auto group = [](CLI::Option* option) { option->group("Camera"); };
-    group(add_count(command, "--looks,--average", options.looks,
-                    "Photographs averaged against speckle, unless of a hologram file"));
-    group(command->add_option("--exposure", options.exposure, "What linear values are multiplied by in PNG, or auto")
-              ->type_name("NUMBER|auto")
-              ->capture_default_str());
-    group(command
-              ->add_option("--display", options.display,
-                           "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
-                           "through the middle of "
-                           "the lens, from -pi to pi")
-              ->type_name("intensity|log|phase")
-              ->check(CLI::IsMember({"intensity", "log", "phase"}).description(""))
-              ->capture_default_str());
-    group(command
-              ->add_option("--camera", options.camera,
-                           "How waves are photographed:\nnarrow: the band that enters the lens, tile by tile"
-                           "\nfull: plane waves to the lens and back, exact and slow")
-              ->type_name("narrow|full")
-              ->check(CLI::IsMember({"narrow", "full"}).description(""))
-              ->capture_default_str());
-    group(add_length(command, "--film-distance", options.film_distance,
-                     "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens"));
-    CLI::Option* geometric =
-        command->add_flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
-    group(geometric);
-    group(command->add_flag("--wave", options.wave, "By waves, through the hologram (default for a scene)")
-              ->excludes(geometric));
-    group(
-        add_count(command, "--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph"));
+void add_photo_options(Command& command, Options& options) {
+    command.group("Camera");
+    command.count("--looks,--average", options.looks,
+                  "Photographs averaged against speckle, unless of a hologram file");
+    command.text("--exposure", options.exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto");
+    command.choice("--display", options.display, {"intensity", "log", "phase"}, "intensity|log|phase",
+                   "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
+                   "through the middle of the lens, from -pi to pi");
+    command.choice("--camera", options.camera, {"narrow", "full"}, "narrow|full",
+                   "How waves are photographed:\nnarrow: the band that enters the lens, tile by tile"
+                   "\nfull: plane waves to the lens and back, exact and slow");
+    command.length("--film-distance", options.film_distance,
+                   "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens");
+    const Option geometric =
+        command.flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
+    command.flag("--wave", options.wave, "By waves, through the hologram (default for a scene)").excludes(geometric);
+    command.count("--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph");
 }
 
 }  // namespace
 
-void add_photo(CLI::App& app, Session& session) {
+void add_photo(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "photo", "Photograph a hologram, a light field or a scene",
-                                    "  hogel photo hologram.h5 -o left.png --eye -30,0,300mm --focus 5mm\n"
-                                    "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
-                                    "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
-                                    "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
-                                    "  hogel photo phase.png -o p.png --values phase --pitch 8um --wavelength 532nm",
-                                    [options, &session] { return photo(*options, session); });
-    command
-        ->add_option("input", options->input, "Hologram, light field, mesh file, built-in scene, .npy, .mat or picture")
-        ->type_name("F.h5|X.h5|SCENE")
-        ->required();
-    command->add_option("-o,--output", options->output, "Picture to write: .png, .tif (sRGB) or .exr (linear)")
-        ->type_name("FILE")
-        ->required();
+    command.examples(
+        "  hogel photo hologram.h5 -o left.png --eye -30,0,300mm --focus 5mm\n"
+        "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
+        "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
+        "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
+        "  hogel photo phase.png -o p.png --values phase --pitch 8um --wavelength 532nm");
+    command.positional("input", options->input, "F.h5|X.h5|SCENE",
+                       "Hologram, light field, mesh file, built-in scene, .npy, .mat or picture");
+    command.text("-o,--output", options->output, "FILE", "Picture to write: .png, .tif (sRGB) or .exr (linear)")
+        .required();
     add_camera_options(command, options->view);
     add_photo_options(command, *options);
     add_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
     add_field_options(command, options->field);
+    command.work([options, &session] { return photo(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -11,7 +11,7 @@ namespace {
 
 struct Options {
     std::string input, output, order = "serpentine";
-    bool strips = false;
+    bool strips = false, force = false;
     double exposure = 1;
 };
 
@@ -20,7 +20,7 @@ int print(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
     if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "--exposure: a positive number was expected");
     const LightField light_field = open_light_field(options.input);
-    const OutputFolder folder(options.output);
+    const OutputFolder folder(options.output, options.force);
     Stage stage(session, "pictures");
     const auto names = write_printer_images(folder.path(), light_field,
                                             {.rows = options.strips,
@@ -35,27 +35,21 @@ int print(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_print(CLI::App& app, Session& session) {
+void add_print(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "print", "Write a light field as pictures for a hologram printer",
-                                    "  hogel print pumpkin.h5 -o hogels\n"
-                                    "  hogel print pumpkin.h5 -o strips --strips --order rows",
-                                    [options, &session] { return print(*options, session); });
-    command->add_option("input", options->input, "Light field")->type_name("X.h5")->required();
-    command->add_option("-o,--output", options->output, "Folder for the pictures, numbered in the order of printing")
-        ->type_name("FOLDER")
-        ->required();
-    command->add_flag("--strips", options->strips, "One picture a row of hogels, side by side, instead of one a hogel");
-    command
-        ->add_option("--order", options->order,
-                     "serpentine: every second row from the right\nrows: all rows from the left")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"serpentine", "rows"}).description(""))
-        ->capture_default_str();
-    command
-        ->add_option("--exposure", options->exposure, "What linear values are multiplied by, the same in all pictures")
-        ->type_name("NUMBER")
-        ->capture_default_str();
+    command.examples(
+        "  hogel print pumpkin.h5 -o hogels\n"
+        "  hogel print pumpkin.h5 -o strips --strips --order rows");
+    command.positional("input", options->input, "X.h5", "Light field");
+    command.text("-o,--output", options->output, "FOLDER", "Folder for the pictures, numbered in the order of printing")
+        .required();
+    add_force_flag(command, options->force);
+    command.flag("--strips", options->strips, "One picture a row of hogels, side by side, instead of one a hogel");
+    command.choice("--order", options->order, {"serpentine", "rows"}, "NAME",
+                   "serpentine: every second row from the right\nrows: all rows from the left");
+    command.number("--exposure", options->exposure, "NUMBER",
+                   "What linear values are multiplied by, the same in all pictures");
+    command.work([options, &session] { return print(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -104,9 +104,8 @@ int render(Options options, const Session& session) {
     if (options.resume) resume = describe_input(options.scene, scene);
     LightField rendered = render_light_field(session, scene, options.render);
     if (options.region.columns > 0)
-        rendered = rendered.wrapped([&](const LightField::Source& face) {
-            return std::make_shared<const InRegions>(face, options.region);
-        });
+        rendered = rendered.wrapped(
+            [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
     state_plan(options, rendered, triangle_count(scene), session);
     return options.compressed() ? write_compressed(options, rendered, session)
                                 : write_hdf5(options, rendered, resume, session);
@@ -114,33 +113,28 @@ int render(Options options, const Session& session) {
 
 }  // namespace
 
-void add_render(CLI::App& app, Session& session) {
+void add_render(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "render", "Render a scene into a light field",
-                                    "  hogel render pumpkin -o pumpkin.h5\n"
-                                    "  hogel render bunny.ply -o bunny.h5 --hogels 128x128 --size 20mm --depth\n"
-                                    "  hogel render tower -o all.h5 --hemicube --directions 128x128\n"
-                                    "  hogel render pumpkin -o pumpkin.hgl --sqnr 35",
-                                    [options, &session] { return render(*options, session); });
-    command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
-    command->add_option("-o,--output", options->output, "Light field to write: HDF5, or compressed if it ends in .hgl")
-        ->type_name("FILE")
-        ->required();
-    command->add_flag("--depth", options->file.with_depth, "Store the depth of every ray too");
-    command->add_flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
-    command
-        ->add_option("--sqnr", options->sqnr,
-                     fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})",
-                                 defaults.sqnr))
-        ->type_name("DB");
+    command.examples(
+        "  hogel render pumpkin -o pumpkin.h5\n"
+        "  hogel render bunny.ply -o bunny.h5 --hogels 128x128 --size 20mm --depth\n"
+        "  hogel render tower -o all.h5 --hemicube --directions 128x128\n"
+        "  hogel render pumpkin -o pumpkin.hgl --sqnr 35");
+    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
+    command.text("-o,--output", options->output, "FILE", "Light field to write: HDF5, or compressed if it ends in .hgl")
+        .required();
+    command.flag("--depth", options->file.with_depth, "Store the depth of every ray too");
+    command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
+    command.number(
+        "--sqnr", options->sqnr, "DB",
+        fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
     add_resume_flag(command, options->resume);
     add_render_options(command, options->render);
-    add_counts(command, "--region", options->region,
-               "Hogels that a renderer is given at once (default: what it prefers)")
-        ->default_str("")
-        ->group("Light field of a scene");
+    command.counts("--region", options->region, "Hogels that a renderer is given at once (default: what it prefers)")
+        .no_default();
     add_hemicube_option(command, options->render);
     add_frequencies_option(command, options->render);
+    command.work([options, &session] { return render(*options, session); });
 }
 
 }  // namespace hogel::cli

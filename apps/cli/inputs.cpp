@@ -11,7 +11,6 @@
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
 
-
 namespace hogel::cli {
 namespace {
 
@@ -19,6 +18,40 @@ namespace {
 const std::vector<std::string> method_names{"fourier", "basis", "olas"};
 const std::vector<std::string> average_names{"radiance", "amplitude"};
 const std::vector<std::string> phase_names{"random", "fixed", "designed", "phase-added", "phase-added-exact"};
+
+constexpr const char* light_field_group = "Light field of a scene";
+
+void add_hologram_options(Command& command, HologramChoices& options, const std::vector<std::string>& names,
+                          const std::string& method_help) {
+    command.group("Hologram");
+    command.wavelengths(options.wavelengths);
+    command.length("--pitch", options.pitch, "Distance of samples, rounded to divide a hogel");
+    command.length("--line-pitch", options.lines,
+                   "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions");
+    command.choice("--method", options.method, names, "NAME",
+                   "fourier: one transform a hogel\n"
+                   "basis: a sum of basis fringes a hogel\n"
+                   "olas: overlapping windows, for hogels of a few samples; needs depth" +
+                       method_help);
+    command.choice("--phase", options.phase, phase_names, "NAME",
+                   "Phases of each hogel's directions\n"
+                   "random: independent everywhere (default)\n"
+                   "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
+                   "designed: the same in all hogels, for a fringe of flat modulus\n"
+                   "phase-added: of spherical waves from what rays meet; needs depth\n"
+                   "phase-added-exact: the same, each ray with its own frequency");
+    command.choice("--lobes", options.average, average_names, "radiance|amplitude",
+                   "What a hogel's lobes take from the directions that they light: their mean radiance, or "
+                   "(always with basis) mean amplitude");
+    command.text("--basis", options.basis, "NAME",
+                 fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
+                             "direction), {} (default: the file's, or {})",
+                             fmt::join(transform::transform_names(), ", "), defaults.basis));
+    command
+        .number("--tolerance", options.tolerance, "0..1",
+                "Share of a hogel's amplitude that left-out basis fringes may carry")
+        .range(0, 1);
+}
 
 }  // namespace
 
@@ -77,7 +110,8 @@ HologramMethod HologramChoices::hologram_method() const {
                                                 : Phases::random;
     const LobeAverage lobes = average == "amplitude" ? LobeAverage::amplitude : LobeAverage::radiance;
     if (method == "basis") {
-        if (phases == Phases::random) refuse("basis fringes have the same phases in all hogels; expected fixed or designed");
+        if (phases == Phases::random)
+            refuse("basis fringes have the same phases in all hogels; expected fixed or designed");
         return Basis{.transform = basis.empty() ? std::string(defaults.basis) : basis,
                      .tolerance = tolerance,
                      .phases = phases == Phases::designed ? SharedPhases::designed : SharedPhases::fixed};
@@ -101,136 +135,78 @@ HologramRequest HologramChoices::request(const Session& session, std::size_t loo
     return request;
 }
 
-void add_render_options(CLI::App* command, RenderOptions& options) {
-    const auto group = [](CLI::Option* option) { option->group("Light field of a scene"); };
+void add_render_options(Command& command, RenderOptions& options) {
+    command.group(light_field_group);
     std::string algorithms;
-    for (const RendererInfo& renderer : renderers().rows())
-        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.text);
-    group(command->add_option("--algorithm", options.algorithm, "Renderer:" + algorithms)
-              ->type_name("NAME")
-              ->capture_default_str());
+    for (const RendererInfo& renderer : renderers())
+        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.description);
+    command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms);
     std::string shadings;
-    for (const ShadingInfo& shading : shading_models().rows())
-        shadings += fmt::format("\n{}: {}", shading.name, shading.text);
-    group(command->add_option("--shading", options.shading, "Where light is worked out:" + shadings)
-              ->type_name("NAME")
-              ->capture_default_str());
-    group(add_count(command, "--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map"));
-    group(command
-              ->add_option("--cache-spacing", options.cache_spacing,
-                           "Of the points of a surface at which light is worked out, in parts of the width of a ray "
-                           "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
-              ->type_name("F")
-              ->check(CLI::Range(0.0, 16.0).description(""))
-              ->capture_default_str());
-    group(command->add_flag("--cull-back-faces", options.fronts_only,
-                            "Show triangles from their front alone, where their corners go round counterclockwise"));
-    group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
-    group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
-    group(add_counts(command, "--samples", options.samples,
-                     "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
-                     "makes 16"));
-    group(add_length(command, "--size", options.size, "Width of the hologram"));
-    group(add_angles(command, "--fov", options.field_of_view, "Field of view, the full angle; or across and down"));
-    group(add_angles(command, "--toward", options.toward,
-                     "Where the middle of the view looks behind the hologram: angles to the right and up"));
-    group(command
-              ->add_option("--front", options.front,
-                           "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all; -0.1: it "
-                           "begins a tenth of its depth behind it")
-              ->type_name("F")
-              ->check(CLI::Range(-100.0, 1.0).description(""))
-              ->capture_default_str());
-    CLI::Option* as_is = command->add_flag("--as-is", options.as_is,
-                                           "Take a mesh file where it is, its numbers as metres, z towards the viewer");
-    group(as_is);
-    group(command
-              ->add_flag_function(
-                  "--fit", [](std::int64_t) {}, "Scale and move a mesh file to fill the hologram (default)")
-              ->excludes(as_is));
-}
-
-void add_hemicube_option(CLI::App* command, RenderOptions& options) {
+    for (const ShadingInfo& shading : shading_models())
+        shadings += fmt::format("\n{}: {}", shading.name, shading.description);
+    command.text("--shading", options.shading, "NAME", "Where light is worked out:" + shadings);
+    command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map");
     command
-        ->add_flag(
-            "--hemicube", options.hemicube,
-            "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides")
-        ->group("Light field of a scene")
-        ->excludes("--fov")
-        ->excludes("--toward");
+        .number("--cache-spacing", options.cache_spacing, "F",
+                "Of the points of a surface at which light is worked out, in parts of the width of a ray "
+                "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
+        .range(0, 16);
+    command.flag("--cull-back-faces", options.fronts_only,
+                 "Show triangles from their front alone, where their corners go round counterclockwise");
+    command.counts("--hogels", options.hogels, "Hogels across and down");
+    command.counts("--directions", options.directions, "Directions across and down in each hogel");
+    command.counts("--samples", options.samples,
+                   "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
+                   "makes 16");
+    command.length("--size", options.size, "Width of the hologram");
+    command.angles("--fov", options.field_of_view, "Field of view, the full angle; or across and down");
+    command.angles("--toward", options.toward,
+                   "Where the middle of the view looks behind the hologram: angles to the right and up");
+    command
+        .number("--front", options.front, "F",
+                "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all; -0.1: it "
+                "begins a tenth of its depth behind it")
+        .range(-100, 1);
+    const Option as_is = command.flag("--as-is", options.as_is,
+                                      "Take a mesh file where it is, its numbers as metres, z towards the viewer");
+    command.flag("--fit", "Scale and move a mesh file to fill the hologram (default)").excludes(as_is);
 }
 
-void add_frequencies_option(CLI::App* command, RenderOptions& options) {
-    add_length(command, "--frequencies", options.frequencies,
-               "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
-               "with --algorithm raytrace")
-        ->group("Light field of a scene")
-        ->excludes("--hemicube")
-        ->excludes("--directions")
-        ->excludes("--toward");
+void add_hemicube_option(Command& command, RenderOptions& options) {
+    command.group(light_field_group);
+    command
+        .flag("--hemicube", options.hemicube,
+              "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides")
+        .excludes("--fov")
+        .excludes("--toward");
 }
 
-void add_hologram_options(CLI::App* command, HologramChoices& options) {
-    const auto group = [](CLI::Option* option) { option->group("Hologram"); };
-    group(add_wavelengths(command, options.wavelengths));
-    group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
-    group(add_length(command, "--line-pitch", options.lines,
-                     "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions"));
-    group(command
-              ->add_option("--method", options.method,
-                           "fourier: one transform a hogel\n"
-                           "basis: a sum of basis fringes a hogel\n"
-                           "olas: overlapping windows, for hogels of a few samples; needs depth")
-              ->type_name("NAME")
-              ->check(CLI::IsMember(method_names).description(""))
-              ->capture_default_str());
-    group(command
-              ->add_option("--phase", options.phase,
-                           "Phases of each hogel's directions\n"
-                           "random: independent everywhere (default)\n"
-                           "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
-                           "designed: the same in all hogels, for a fringe of flat modulus\n"
-                           "phase-added: of spherical waves from what rays meet; needs depth\n"
-                           "phase-added-exact: the same, each ray with its own frequency")
-              ->type_name("NAME")
-              ->check(CLI::IsMember(phase_names).description("")));
-    group(command
-              ->add_option("--lobes", options.average,
-                           "What a hogel's lobes take from the directions that they light: their mean radiance, or "
-                           "(always with basis) mean amplitude")
-              ->type_name("radiance|amplitude")
-              ->check(CLI::IsMember(average_names).description(""))
-              ->capture_default_str());
-    group(command
-              ->add_option("--basis", options.basis,
-                           fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
-                                       "direction), {} (default: the file's, or {})",
-                                       fmt::join(transform::transform_names(), ", "), defaults.basis))
-              ->type_name("NAME"));
-    group(command
-              ->add_option("--tolerance", options.tolerance,
-                           "Share of a hogel's amplitude that left-out basis fringes may carry")
-              ->type_name("0..1")
-              ->check(CLI::Range(0.0, 1.0).description(""))
-              ->capture_default_str());
+void add_frequencies_option(Command& command, RenderOptions& options) {
+    command.group(light_field_group);
+    command
+        .length(
+            "--frequencies", options.frequencies,
+            "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
+            "with --algorithm raytrace")
+        .excludes("--hemicube")
+        .excludes("--directions")
+        .excludes("--toward");
 }
 
-void add_scene_hologram_options(CLI::App* command, HologramChoices& options) {
-    std::string names;
-    std::vector<std::string> known;
-    known = method_names;
+void add_hologram_options(Command& command, HologramChoices& options) {
+    add_hologram_options(command, options, method_names, "");
+}
+
+void add_scene_hologram_options(Command& command, HologramChoices& options) {
+    std::vector<std::string> names = method_names;
+    std::string help = "\nWithout a light field, from a scene:";
     for (const SceneMethod& method : scene_methods()) {
-        known.emplace_back(method.name);
-        names += fmt::format("\n{}: {}", method.name, method.description);
+        names.emplace_back(method.name);
+        help += fmt::format("\n{}: {}", method.name, method.description);
     }
-    CLI::Option* method = command->get_option("--method");
-    method->description(method->get_description() + "\nWithout a light field, from a scene:" + names);
-    CLI::Validator* check = method->get_validator();
-    *check = CLI::IsMember(known).description("");
-    const auto group = [](CLI::Option* option) { option->group("Hologram"); };
-    group(add_length(command, "--spacing", options.spacing,
-                     "Of points on surfaces and along edges; height of hpo lines"));
-    group(add_count(command, "--planes", options.planes, "Depth planes of fresnel and planes"));
+    add_hologram_options(command, options, names, help);
+    command.length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines");
+    command.count("--planes", options.planes, "Depth planes of fresnel and planes");
 }
 
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "command_line.h"
 #include "hogel/pipeline.h"
 #include "session.h"
 
@@ -35,11 +35,11 @@ struct RenderOptions {
     LightFieldGrid grid() const;
     LightFieldRequest request() const;
 };
-void add_render_options(CLI::App* command, RenderOptions& options);
+void add_render_options(Command& command, RenderOptions& options);
 /// --hemicube, for commands that make use of all faces.
-void add_hemicube_option(CLI::App* command, RenderOptions& options);
+void add_hemicube_option(Command& command, RenderOptions& options);
 /// --frequencies, for the command that makes light fields.
-void add_frequencies_option(CLI::App* command, RenderOptions& options);
+void add_frequencies_option(Command& command, RenderOptions& options);
 
 /// How a light field becomes a hologram.
 struct HologramChoices {
@@ -52,14 +52,14 @@ struct HologramChoices {
     double tolerance = 0;
     double spacing = defaults.spacing;
     std::size_t planes = defaults.planes;
-    double lines = 0;           ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
+    double lines = 0;  ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
 
     HologramMethod hologram_method() const;
     HologramRequest request(const Session& session, std::size_t looks) const;
 };
-void add_hologram_options(CLI::App* command, HologramChoices& options);
-/// More of them, for methods that make the hologram of a scene without a light field.
-void add_scene_hologram_options(CLI::App* command, HologramChoices& options);
+void add_hologram_options(Command& command, HologramChoices& options);
+/// These, and more for methods that make the hologram of a scene without a light field.
+void add_scene_hologram_options(Command& command, HologramChoices& options);
 
 /// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), with lights.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 
+#include "command_line.h"
 #include "hogel/pipeline.h"
 #include "session.h"
 
 namespace hogel::cli {
 
+/// --force, for folders that may hold the outputs of another run.
+void add_force_flag(Command& command, bool& force);
+
 /// --resume, for outputs that take long.
-void add_resume_flag(CLI::App* command, bool& resume);
+void add_resume_flag(Command& command, bool& resume);
 /// One line on a compressed light field, and one on its depth.
 void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result);
 
-/// Creates a folder and those above it, and removes it again when the work failed before anything was put into it.
+/// A folder for the outputs of `hogel make` or `hogel print`. Creates it and those above it, and removes it again when
+/// the work failed before anything was put into it.
 class OutputFolder {
   public:
-    explicit OutputFolder(std::filesystem::path path);
+    /// Throws Error(cannot_write) where the folder cannot be created, or, without `force`, holds outputs of another
+    /// run.
+    OutputFolder(std::filesystem::path path, bool force);
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
