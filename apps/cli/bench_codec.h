@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hogel/codec/tile_coder.h"
+#include "hogel/compress.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -34,7 +34,7 @@ struct QualityRange {
 /// One of our coders, with steps that halve until the whole range is covered.
 /// @param go_on   asked on the way
 /// Throws Error(cancelled) once that says no.
-RateCurve measure_method(const LightFieldBuffer& field, const codec::CodingMethod& method, const QualityRange& range,
+RateCurve measure_method(const LightFieldBuffer& field, const CodingMethod& method, const QualityRange& range,
                          const Progress& go_on);
 
 /// Coders that other programs have.

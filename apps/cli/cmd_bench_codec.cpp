@@ -10,7 +10,6 @@
 #include "commands.h"
 #include "hogel/compress.h"
 #include "hogel/core/output_file.h"
-#include "hogel/transform/transform.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "plot.h"
@@ -51,20 +50,19 @@ std::unique_ptr<LightFieldSource> open(const Session& session, const Options& op
 }
 
 // Each coder with the transforms that go with it.
-std::vector<codec::CodingMethod> methods_of(const Options& options) {
+std::vector<CodingMethod> methods_of(const Options& options) {
     const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::ranges::count(names, name) > 0;
     };
-    std::vector<codec::CodingMethod> methods;
-    for (const std::string_view coder : codec::coder_names()) {
-        if (!wanted(options.coders, coder)) continue;
-        if (codec::default_transform(coder).empty()) methods.push_back({std::string(coder), ""});
-        for (const std::string_view transform : transform::transform_names())
-            if (!codec::default_transform(coder).empty() && (coder == "jpeg4d") == (transform == "dct8") &&
+    std::vector<CodingMethod> methods;
+    for (const CoderInfo& coder : coders().rows()) {
+        if (!wanted(options.coders, coder.name)) continue;
+        if (coder.transform.empty()) methods.push_back({coder.name, ""});
+        for (const std::string& transform : transform_names())
+            if (!coder.transform.empty() && (coder.name == "jpeg4d") == (transform == "dct8") &&
                 wanted(options.transforms, transform)) {
-                methods.push_back({std::string(coder), std::string(transform)});
-                if (coder == "jpeg4d")
-                    methods.push_back({std::string(coder), std::string(transform), coding::QuantisationTable::jpeg});
+                methods.push_back({coder.name, transform});
+                if (coder.quantisation_table) methods.push_back({coder.name, transform, QuantisationTable::jpeg});
             }
     }
     return methods;
@@ -97,8 +95,7 @@ std::string table(const std::vector<RateCurve>& curves, const std::vector<double
 
 int bench(const Options& options, const Session& session) {
     const auto source = open(session, options);
-    for (const std::string& name : options.coders)
-        codec::make_tile_coder({name, std::string(codec::default_transform(name))}, source->grid());
+    for (const std::string& name : options.coders) coders().find(name);
     std::optional<Stage> reading(std::in_place, session, "reading");
     const LightFieldBuffer field = load(*source, options.grey, reading->progress());
     reading.reset();
@@ -112,7 +109,7 @@ int bench(const Options& options, const Session& session) {
     const QualityRange range{sqnrs.front(), sqnrs.back()};
     std::vector<RateCurve> curves;
     const Progress go_on = [](double) { return interrupted_by() == 0; };
-    for (const codec::CodingMethod& method : methods_of(options)) {
+    for (const CodingMethod& method : methods_of(options)) {
         session.detail(fmt::format("{} {}", method.coder, method.transform));
         curves.push_back(measure_method(field, method, range, go_on));
     }
@@ -163,13 +160,13 @@ void add_bench_codec(CLI::App& app, Session& session) {
     command->add_option("-o,--output", options->output, "Folder for a plot, SVG")->type_name("DIR");
     command
         ->add_option("--coders", options->coders,
-                     fmt::format("{}; all if none are named", fmt::join(codec::coder_names(), ", ")))
+                     fmt::format("{}; all if none are named", fmt::join(coders().names(), ", ")))
         ->type_name("NAME,...")
         ->delimiter(',');
     command->add_option("--transforms", options->transforms, "Transforms; all if none are named")
         ->type_name("NAME,...")
         ->delimiter(',')
-        ->check(CLI::IsMember(transform::transform_names()).description(""));
+        ->check(CLI::IsMember(transform_names()).description(""));
     command->add_option("--sqnr", options->sqnrs, "SQNRs to tell the rate at")
         ->type_name("DB,...")
         ->delimiter(',')

@@ -3,32 +3,40 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <optional>
 
 #include "commands.h"
 #include "hogel/compress.h"
-#include "hogel/transform/transform.h"
 #include "inputs.h"
 #include "outputs.h"
 
 namespace hogel::cli {
-
-using namespace codec::format;
 
 namespace {
 
 struct Options {
     std::string input, output;
     CompressionOptions compression;
+    std::optional<double> sqnr, pixels_per_bit, step, max_error;
+    bool lossless = false;
     std::string hemicube = "faces", table, tone = "none";
     double tone_decades = defaults.tone_decades;
     Counts tile;
     bool no_depth = false;
 };
 
-const std::map<std::string, coding::QuantisationTable> tables{{"jpeg", coding::QuantisationTable::jpeg},
-                                                              {"own", coding::QuantisationTable::own}};
+const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
+                                                      {"own", QuantisationTable::own}};
 const std::vector<std::string> tones{"none", "histogram"};
 const std::vector<std::string> layouts{"faces", "unfolded"};
+
+CompressionTarget target_of(const Options& options) {
+    if (options.pixels_per_bit) return PixelsPerBit{*options.pixels_per_bit};
+    if (options.step) return Step{*options.step};
+    if (options.max_error) return MaxError{*options.max_error};
+    if (options.lossless) return Lossless{};
+    return Sqnr{options.sqnr.value_or(defaults.sqnr)};
+}
 
 int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
@@ -38,14 +46,10 @@ int compress_file(Options options, const Session& session) {
     for (const auto& source : sources) faces.push_back(source.get());
     require_writable(options.output);
     CompressionOptions& compression = options.compression;
-    CompressionTarget& target = compression.target;
-    if (!target.sqnr && !target.pixels_per_bit && !target.step && !target.max_error && !target.lossless)
-        target.sqnr = defaults.sqnr;
+    compression.target = target_of(options);
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
-    if (compression.method.transform.empty())
-        compression.method.transform = codec::default_transform(compression.method.coder);
     if (!options.table.empty()) {
-        if (compression.method.coder != "jpeg4d")
+        if (!coders().find(compression.method.coder).quantisation_table)
             throw Error(ErrorCode::usage, fmt::format("coder {} has no quantisation table; --table goes with jpeg4d",
                                                       compression.method.coder));
         compression.method.table = tables.at(options.table);
@@ -72,43 +76,42 @@ void add_compress(CLI::App& app, Session& session) {
                                     "  hogel compress pumpkin.h5 -o exact.hgl --lossless\n"
                                     "  hogel compress pumpkin.h5 -o k.hgl --coder ezw --transform ai33 --sqnr 30",
                                     [options, &session] { return compress_file(*options, session); });
-    codec::CodingMethod& method = options->compression.method;
-    CompressionTarget& target = options->compression.target;
+    CodingMethod& method = options->compression.method;
     command->add_option("input", options->input, "Light field")->type_name("X.h5|X.hgl")->required();
     command->add_option("-o,--output", options->output, "Compressed light field to write")
         ->type_name("FILE.hgl")
         ->required();
     CLI::Option* sqnr =
         command
-            ->add_option("--sqnr", target.sqnr,
+            ->add_option("--sqnr", options->sqnr,
                          fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr))
             ->type_name("DB");
     CLI::Option* ppb =
-        command->add_option("--ppb", target.pixels_per_bit, "Size, to the byte: rays, with all their colours, a bit")
+        command->add_option("--ppb", options->pixels_per_bit, "Size, to the byte: rays, with all their colours, a bit")
             ->type_name("N")
             ->excludes(sqnr);
-    CLI::Option* step = command->add_option("--step", target.step, "The quantiser's step, in units of radiance")
+    CLI::Option* step = command->add_option("--step", options->step, "The quantiser's step, in units of radiance")
                             ->type_name("N")
                             ->excludes(sqnr)
                             ->excludes(ppb);
     CLI::Option* max_error =
-        command->add_option("--max-error", target.max_error, "Every sample within this of what it was, in radiance")
+        command->add_option("--max-error", options->max_error, "Every sample within this of what it was, in radiance")
             ->type_name("E")
             ->excludes(sqnr)
             ->excludes(ppb)
             ->excludes(step);
-    command->add_flag("--lossless", target.lossless, "Every bit of every sample as it was")
+    command->add_flag("--lossless", options->lossless, "Every bit of every sample as it was")
         ->excludes(sqnr)
         ->excludes(ppb)
         ->excludes(step)
         ->excludes(max_error);
-    command->add_option("--coder", method.coder, fmt::format("{}", fmt::join(codec::coder_names(), ", ")))
+    command->add_option("--coder", method.coder, fmt::format("{}", fmt::join(coders().names(), ", ")))
         ->type_name("NAME")
         ->capture_default_str();
     command
-        ->add_option("--transform", method.transform,
-                     fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d",
-                                 fmt::join(transform::transform_names(), ", ")))
+        ->add_option(
+            "--transform", method.transform,
+            fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform_names(), ", ")))
         ->type_name("NAME");
     command
         ->add_option("--table", options->table,

@@ -91,7 +91,7 @@ int write_compressed(const Options& options, Faces rendered, const Session& sess
     std::vector<const LightFieldSource*> faces;
     for (const auto& source : sources) faces.push_back(source.get());
     CompressionOptions compression;
-    compression.target.sqnr = options.sqnr.value_or(defaults.sqnr);
+    compression.target = Sqnr{options.sqnr.value_or(defaults.sqnr)};
     compression.with_depth = options.file.with_depth;
     compression.metadata = describe_run(session);
     Stage stage(session, "compressing");

@@ -19,7 +19,6 @@
 #include "hogel/scenes.h"
 #include "hogel/shading.h"
 #include "hogel/shading/light_cache.h"
-#include "hogel/transform/transform.h"
 
 namespace hogel::cli {
 namespace {
@@ -216,7 +215,7 @@ void add_hologram_options(CLI::App* command, HologramChoices& options) {
               ->add_option("--basis", options.basis,
                            fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
                                        "direction), {} (default: the file's, or {})",
-                                       fmt::join(transform::transform_names(), ", "), defaults.basis))
+                                       fmt::join(transform_names(), ", "), defaults.basis))
               ->type_name("NAME"));
     group(command
               ->add_option("--tolerance", options.tolerance,
@@ -329,8 +328,8 @@ std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const s
 std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramChoices& hologram) {
     if (methods.at(hologram.method) == Method::basis && is_stream(name)) {
         const StreamInfo info = read_stream_info(name);
-        const codec::CodingMethod& stored = info.method;
-        if (stored.coder == "fringes" && !info.mapping.changes() &&
+        const CodingMethod& stored = info.method;
+        if (stored.coder == "fringes" && !info.tone && info.chrominance == 1 &&
             (hologram.basis.empty() || hologram.basis == stored.transform)) {
             hologram.basis = stored.transform;
             hologram.coefficients = true;

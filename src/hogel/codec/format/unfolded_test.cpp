@@ -106,7 +106,7 @@ TEST(Hemicube, comes_back_in_either_layout) {
         for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"ezw", "ai33"}, {"jpeg4d", "dct8"}}) {
             CompressionOptions options;
             options.method = method;
-            options.target.sqnr = 30;
+            options.target = Sqnr{30};
             options.layout = layout;
             options.tile = HogelRange{0, 0, 3, 3};
             const CompressionResult result = compress(sources(faces), folder / "a.hgl", options);
@@ -150,7 +150,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     };
     for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
         CompressionOptions options;
-        options.target.step = 0.02;
+        options.target = Step{0.02};
         options.layout = layout;
         compress(sources(faces), folder / "a.hgl", options);
         const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
