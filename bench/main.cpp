@@ -202,7 +202,7 @@ void add_codec(CLI::App& app, Program& program) {
     add_session_options(command, program.session);
     add_output(command, options->output);
     add_names(command, "--coders", options->coders,
-              fmt::format("{}; all if none are named", fmt::join(codec::coder_names(), ", ")));
+              fmt::format("{}; all if none are named", fmt::join(coders().names(), ", ")));
     command->add_option("--transforms", options->transforms, "Transforms; all if none are named")
         ->type_name("NAME,...")
         ->delimiter(',')

@@ -3,10 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <optional>
 
 #include "commands.h"
 #include "hogel/compress.h"
-#include "hogel/transform/transform.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -16,16 +16,26 @@ namespace {
 struct Options {
     std::string input, output;
     CompressionOptions compression;
+    std::optional<double> sqnr, pixels_per_bit, step, max_error;
+    bool lossless = false;
     std::string hemicube = "faces", table, tone = "none";
     double tone_decades = defaults.tone_decades;
     Counts tile;
     bool no_depth = false;
 };
 
-const std::map<std::string, coding::QuantisationTable> tables{{"jpeg", coding::QuantisationTable::jpeg},
-                                                              {"own", coding::QuantisationTable::own}};
+const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
+                                                      {"own", QuantisationTable::own}};
 const std::vector<std::string> tones{"none", "histogram"};
 const std::vector<std::string> layouts{"faces", "unfolded"};
+
+CompressionTarget target_of(const Options& options) {
+    if (options.pixels_per_bit) return PixelsPerBit{*options.pixels_per_bit};
+    if (options.step) return Step{*options.step};
+    if (options.max_error) return MaxError{*options.max_error};
+    if (options.lossless) return Lossless{};
+    return Sqnr{options.sqnr.value_or(defaults.sqnr)};
+}
 
 int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
@@ -33,14 +43,10 @@ int compress_file(Options options, const Session& session) {
     const LightField light_field = open_light_field(options.input);
     require_writable(options.output);
     CompressionOptions& compression = options.compression;
-    CompressionTarget& target = compression.target;
-    if (!target.sqnr && !target.pixels_per_bit && !target.step && !target.max_error && !target.lossless)
-        target.sqnr = defaults.sqnr;
+    compression.target = target_of(options);
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
-    if (compression.method.transform.empty())
-        compression.method.transform = codec::default_transform(compression.method.coder);
     if (!options.table.empty()) {
-        if (compression.method.coder != "jpeg4d")
+        if (!coders().find(compression.method.coder).quantisation_table)
             throw Error(ErrorCode::usage, fmt::format("coder {} has no quantisation table; --table goes with jpeg4d",
                                                       compression.method.coder));
         compression.method.table = tables.at(options.table);
@@ -58,21 +64,21 @@ int compress_file(Options options, const Session& session) {
 }
 
 // What to give up: one of these.
-void add_target_options(Command& command, CompressionTarget& target) {
+void add_target_options(Command& command, Options& options) {
     const Option sqnr = command.number(
-        "--sqnr", target.sqnr, "DB", fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr));
+        "--sqnr", options.sqnr, "DB", fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr));
     const Option ppb =
-        command.number("--ppb", target.pixels_per_bit, "N", "Size, to the byte: rays, with all their colours, a bit")
+        command.number("--ppb", options.pixels_per_bit, "N", "Size, to the byte: rays, with all their colours, a bit")
             .excludes(sqnr);
-    const Option step = command.number("--step", target.step, "N", "The quantiser's step, in units of radiance")
+    const Option step = command.number("--step", options.step, "N", "The quantiser's step, in units of radiance")
                             .excludes(sqnr)
                             .excludes(ppb);
     const Option max_error =
-        command.number("--max-error", target.max_error, "E", "Every sample within this of what it was, in radiance")
+        command.number("--max-error", options.max_error, "E", "Every sample within this of what it was, in radiance")
             .excludes(sqnr)
             .excludes(ppb)
             .excludes(step);
-    command.flag("--lossless", target.lossless, "Every bit of every sample as it was")
+    command.flag("--lossless", options.lossless, "Every bit of every sample as it was")
         .excludes(sqnr)
         .excludes(ppb)
         .excludes(step)
@@ -80,11 +86,11 @@ void add_target_options(Command& command, CompressionTarget& target) {
 }
 
 void add_method_options(Command& command, Options& options) {
-    codec::CodingMethod& method = options.compression.method;
-    command.text("--coder", method.coder, "NAME", fmt::format("{}", fmt::join(codec::coder_names(), ", ")));
+    CodingMethod& method = options.compression.method;
+    command.text("--coder", method.coder, "NAME", fmt::format("{}", fmt::join(coders().names(), ", ")));
     command.text("--transform", method.transform, "NAME",
                  fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d",
-                             fmt::join(transform::transform_names(), ", ")));
+                             fmt::join(transform_names(), ", ")));
     command.choice("--table", options.table, {"jpeg", "own"}, "jpeg|own",
                    "Quantisation table of jpeg4d: JPEG's, or one optimised for the light field (default: own)");
     command.choice("--hemicube", options.hemicube, layouts, "faces|unfolded",
@@ -124,7 +130,7 @@ void add_compress(Command& command, Session& session) {
         "  hogel compress pumpkin.h5 -o k.hgl --coder ezw --transform ai33 --sqnr 30");
     command.positional("input", options->input, "X.h5|X.hgl", "Light field");
     command.text("-o,--output", options->output, "FILE.hgl", "Compressed light field to write").required();
-    add_target_options(command, options->compression.target);
+    add_target_options(command, *options);
     add_method_options(command, *options);
     add_mapping_options(command, *options);
     command.counts("--tile", options->tile, "Hogels across and down that are coded together; 0: as suits").no_default();

@@ -42,12 +42,12 @@ std::unique_ptr<LightFieldSource> open(const Session& session, const CodecOption
 }
 
 // Each coder with the transforms that go with it.
-std::vector<codec::CodingMethod> methods_of(const CodecOptions& options) {
+std::vector<CodingMethod> methods_of(const CodecOptions& options) {
     const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::ranges::count(names, name) > 0;
     };
-    std::vector<codec::CodingMethod> methods;
-    for (const std::string_view coder : codec::coder_names()) {
+    std::vector<CodingMethod> methods;
+    for (const std::string& coder : coders().names()) {
         if (!wanted(options.coders, coder)) continue;
         if (codec::default_transform(coder).empty()) methods.push_back({std::string(coder), ""});
         for (const std::string_view transform : transform::transform_names())
@@ -55,7 +55,7 @@ std::vector<codec::CodingMethod> methods_of(const CodecOptions& options) {
                 wanted(options.transforms, transform)) {
                 methods.push_back({std::string(coder), std::string(transform)});
                 if (coder == "jpeg4d")
-                    methods.push_back({std::string(coder), std::string(transform), coding::QuantisationTable::jpeg});
+                    methods.push_back({std::string(coder), std::string(transform), QuantisationTable::jpeg});
             }
     }
     return methods;
@@ -90,7 +90,7 @@ std::string table(const std::vector<RateCurve>& curves, const std::vector<double
 std::vector<RateCurve> measure(const LightFieldBuffer& field, const CodecOptions& options, const QualityRange& range,
                                const Session& session) {
     std::vector<RateCurve> curves;
-    for (const codec::CodingMethod& method : methods_of(options)) {
+    for (const CodingMethod& method : methods_of(options)) {
         session.detail(fmt::format("{} {}", method.coder, method.transform));
         curves.push_back(measure_method(field, method, range));
     }

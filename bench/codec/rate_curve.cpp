@@ -46,13 +46,13 @@ std::optional<RatePoint> RateCurve::at_rate(double pixels_per_bit) const {
     return std::nullopt;
 }
 
-RateCurve measure_method(const LightFieldBuffer& field, const codec::CodingMethod& method, const QualityRange& range) {
+RateCurve measure_method(const LightFieldBuffer& field, const CodingMethod& method, const QualityRange& range) {
     constexpr int max_points = 24;
     const ThreadLimit one(1);
     const TemporaryFolder folder;
     const std::filesystem::path path = folder.path() / "a.hgl";
     RateCurve curve{method.transform.empty() ? method.coder : method.coder + " " + method.transform, {}};
-    if (method.table == coding::QuantisationTable::jpeg) curve.name = method.coder + ", table jpeg";
+    if (method.table == QuantisationTable::jpeg) curve.name = method.coder + ", table jpeg";
     CompressionOptions options;
     options.method = method;
     // A quantiser's error is step/√12 where there is detail of the step's size, and less where there is none.
@@ -60,7 +60,7 @@ RateCurve measure_method(const LightFieldBuffer& field, const codec::CodingMetho
     const double samples = field.grid().samples() * 1e-6;
     LightFieldBuffer decoded(field.grid());
     for (int k = 0; k < max_points; ++k, step /= 1.6) {
-        options.target.step = step;
+        options.target = Step{step};
         double began = processor_seconds();
         const CompressionResult result = compress(field, path, options, until_interrupted());
         const double encoding = processor_seconds() - began;

@@ -34,6 +34,6 @@ struct QualityRange {
 
 /// Measures one of the library's coders with ever smaller quantiser steps until the range is covered. Throws
 /// Error(cancelled) after an interrupt.
-RateCurve measure_method(const LightFieldBuffer& field, const codec::CodingMethod& method, const QualityRange& range);
+RateCurve measure_method(const LightFieldBuffer& field, const CodingMethod& method, const QualityRange& range);
 
 }  // namespace hogel::bench

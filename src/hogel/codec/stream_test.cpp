@@ -19,7 +19,7 @@ namespace {
 CompressionOptions small_tiles(const char* coder, const char* transform) {
     CompressionOptions options;
     options.method = {coder, transform};
-    options.target.step = 0.02;
+    options.target = Step{0.02};
     options.tile = HogelRange{0, 0, 3, 2};
     options.metadata = {{"what", "a test"}, {"", "Ελλάδα"}};
     return options;
@@ -67,7 +67,7 @@ TEST(Stream, reads_any_range_the_same) {
 // All of the sampling comes back, directions off centre and on the side of a hemicube too.
 TEST(Stream, keeps_the_grid) {
     const TestFolder folder;
-    LightFieldGrid grid{3, 2, 1e-3, 4, 5, Perspective{0.5, 0.7}, 1};
+    LightFieldGrid grid{3, 2, 1e-3, 4, 5, Perspective{Perspective{0.5, 0.7}, 1}};
     grid.range().center_u = 0.5;
     grid.range().center_v = -0.75;
     std::get<Perspective>(grid.view).face = Face::top;
@@ -117,8 +117,8 @@ TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
     const LightFieldBuffer field = textured_planes(9, 5, 24, 16, 1);
     for (const bool lossless : {false, true}) {
         CompressionOptions options;
-        options.target.lossless = lossless;
-        if (!lossless) options.target.step = 0.02;
+        options.target = Step{0.02};
+        if (lossless) options.target = Lossless{};
         options.tile = HogelRange{0, 0, 5, 5};
         compress(field, folder / "a.hgl", options);
         const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
@@ -205,7 +205,7 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
     const TestFolder folder;
     const LightFieldBuffer field = with_depth(5);
     CompressionOptions options;
-    options.target.sqnr = 25;
+    options.target = Sqnr{25};
     options.tile = HogelRange{0, 0, 3, 2};
     options.with_depth = true;
     for (const double error : {0.0, 1e-4, 1e-7}) {
@@ -254,7 +254,7 @@ TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
     const TestFolder folder;
     const LightFieldBuffer field = with_depth(2);
     CompressionOptions options;
-    options.target.sqnr = 20;
+    options.target = Sqnr{20};
     options.with_depth = true;
     options.depth_error = 1e-3;
     const CompressionResult result = compress(field, folder / "good.hgl", options);

@@ -22,7 +22,7 @@ namespace hogel::codec {
 // Two textured planes at different depths, the nearer one covering the middle, with a little noise.
 inline LightFieldBuffer textured_planes(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u,
                                         std::size_t directions_v, std::size_t channels) {
-    LightFieldGrid grid{hogels_s, hogels_t, 1e-3, directions_u, directions_v, Perspective{0.3, 0.3}, channels};
+    LightFieldGrid grid{hogels_s, hogels_t, 1e-3, directions_u, directions_v, Perspective{Perspective{0.3, 0.3}, channels}};
     LightFieldBuffer field(grid);
     const double per_hogel = grid.pitch / grid.step_u();  // depth at which a hogel is a direction
     for (std::size_t j = 0; j < hogels_t; ++j)

@@ -25,7 +25,7 @@ LightField open_for_holograms(const std::filesystem::path& path, HologramRequest
     auto* const basis = std::get_if<Basis>(&request.method);
     if (basis == nullptr || !is_stream(path)) return open_light_field(path);
     const StreamInfo info = read_stream_info(path);
-    const bool fits = info.method.coder == "fringes" && !info.tone_mapped && info.chrominance == 1 &&
+    const bool fits = info.method.coder == "fringes" && !info.tone && info.chrominance == 1 &&
                       (any_transform || basis->transform == info.method.transform);
     if (!fits) return open_light_field(path);
     basis->transform = info.method.transform;

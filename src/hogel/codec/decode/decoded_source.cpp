@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hogel/codec/format/stream_file.h"
+#include "hogel/codec/format/unfolded.h"
 #include "hogel/core/lru_cache.h"
 #include "hogel/error.h"
 
@@ -39,7 +40,7 @@ class DecodedStream {
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
                                     path.string(), info().method.coder));
-        if (info().mapping.changes())
+        if (info().companding.changes())
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is coded along a tone curve, or with coarser chrominance; expected radiances "
                                     "as they are",
@@ -49,7 +50,7 @@ class DecodedStream {
                         fmt::format("{}: is a hemicube; expected the directions of a single face", path.string()));
     }
 
-    const StreamInfo& info() const { return reader_.info(); }
+    const StreamHeader& info() const { return reader_.info(); }
 
     // Reads a face: as many directions as the tile has of a part, from a place on.
     void read(std::size_t part, Unfolding::Place place, LightFieldTile& tile) const {
@@ -183,7 +184,7 @@ class DecodedFace final : public LightFieldSource {
     void read(LightFieldTile& tile) const override {
         validate(tile, grid_);
         stream_->read(part_, place_, tile);
-        stream_->info().mapping.undo(tile.radiance.view());
+        stream_->info().companding.undo(tile.radiance.view());
         if (depth_ && tile.depth.size() > 0) read_depth(*depth_, stream_->info().depth.beyond, tile);
     }
 

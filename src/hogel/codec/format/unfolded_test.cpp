@@ -13,7 +13,7 @@ namespace {
 
 // A hemicube around hogels that see a smooth sky: the same function of direction on all faces.
 std::vector<LightFieldBuffer> smooth_hemicube(std::size_t hogels, std::size_t directions_u, std::size_t directions_v) {
-    const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, Perspective{1, 1}, 1};
+    const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, Perspective{Perspective{1, 1}, 1}};
     std::vector<LightFieldBuffer> faces;
     for (const LightFieldGrid& face : hemicube(grid)) {
         LightFieldBuffer& field = faces.emplace_back(face);
@@ -106,7 +106,7 @@ TEST(Hemicube, comes_back_in_either_layout) {
         for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"ezw", "ai33"}, {"jpeg4d", "dct8"}}) {
             CompressionOptions options;
             options.method = method;
-            options.target.sqnr = 30;
+            options.target = Sqnr{30};
             options.layout = layout;
             options.tile = HogelRange{0, 0, 3, 3};
             const CompressionResult result = compress(sources(faces), folder / "a.hgl", options);
@@ -150,7 +150,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     };
     for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
         CompressionOptions options;
-        options.target.step = 0.02;
+        options.target = Step{0.02};
         options.layout = layout;
         compress(sources(faces), folder / "a.hgl", options);
         const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");

@@ -27,7 +27,7 @@ struct Companding {
 };
 
 /// The light field with its radiances mapped, where they are read. Both arguments must outlive it.
-std::unique_ptr<LightFieldSource> map_radiances(const LightFieldSource& source, const Companding& mapping);
+std::unique_ptr<LightFieldSource> companded(const LightFieldSource& source, const Companding& companding);
 
 /// What luminances all of the light fields together have; reads them once, tile by tile on all threads.
 LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> faces, const Progress& progress = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/codec/format/radiance_mapping.h"
+#include "hogel/codec/format/companding.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "hogel/codec/encode/histogram_tone_mapping.h"
-#include "hogel/codec/format/bytes.h"
+#include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/test_fields.h"
 #include "hogel/compress.h"
 #include "hogel/core/parallel.h"
@@ -26,13 +26,13 @@ LightFieldBuffer high_range(std::size_t hogels_s, std::size_t hogels_t, std::siz
 
 Companding mapping_of(const LightFieldBuffer& field, double decades, float chrominance) {
     const LightFieldSource* const source = &field;
-    return {encode::adjusted_curve(luminance_histogram({&source, 1}), decades), chrominance};
+    return {encode::tone_curve_of(luminance_histogram({&source, 1}), decades), chrominance};
 }
 
 CompressionOptions mapped(const CodingMethod& method, std::optional<double> decades, double chrominance) {
     CompressionOptions options;
     options.method = method;
-    options.target.sqnr = 40;
+    options.target = Sqnr{40};
     options.tone_decades = decades;
     options.chrominance = chrominance;
     options.tile = HogelRange{0, 0, 4, 3};
@@ -95,7 +95,7 @@ TEST(Companding, goes_with_every_coder) {
                                        {"jpeg4d", "dct8"},
                                        {"fringes", "cdf97"}}) {
         const CompressionResult result = compress(field, folder / "a.hgl", mapped(method, 2, 2));
-        const Companding mapping = read_stream_info(folder / "a.hgl").mapping;
+        const Companding mapping = StreamReader(folder / "a.hgl").info().companding;
         EXPECT_EQ(mapping, mapping_of(field, 2, 2));
         LightFieldBuffer truth = field, other = decoded(folder / "a.hgl");
         mapping.apply(truth.radiance.view());
@@ -127,8 +127,8 @@ TEST(Companding, goes_with_hemicubes) {
         CompressionOptions options = mapped({"threepass", "cdf97"}, 2, 2);
         options.layout = layout;
         compress(faces, folder / "a.hgl", options);
-        const Companding mapping = read_stream_info(folder / "a.hgl").mapping;
-        EXPECT_EQ(mapping.tone, encode::adjusted_curve(luminance_histogram(faces), 2));
+        const Companding mapping = StreamReader(folder / "a.hgl").info().companding;
+        EXPECT_EQ(mapping.tone, encode::tone_curve_of(luminance_histogram(faces), 2));
         const auto sources = open_stream_faces(folder / "a.hgl");
         for (std::size_t i = 0; i < faces.size(); ++i) {
             LightFieldBuffer truth = fields[i], other(fields[i].grid());
@@ -197,8 +197,8 @@ TEST(Companding, asks_that_make_no_sense_are_refused) {
     for (const double bad : {0.0, -1.0, 21.0, double(NAN)}) EXPECT_TRUE(refused(colours, mapped({}, bad, 1)));
     for (const bool lossless : {false, true}) {
         CompressionOptions exact = mapped({}, 2, 1);
-        exact.target = {};
-        lossless ? void(exact.target.lossless = true) : void(exact.target.max_error = 0.1);
+        exact.target = MaxError{0.1};
+        if (lossless) exact.target = Lossless{};
         EXPECT_TRUE(refused(colours, exact));
         exact.tone_decades.reset();
         EXPECT_FALSE(refused(colours, exact));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/codec/format/radiance_mapping.h"
+#include "hogel/codec/format/companding.h"
 
 #include <algorithm>
 
@@ -51,20 +51,21 @@ void scale(View<float, 5> radiance, Factor&& factor_of, float chrominance) {
     for_each_part(radiance, Scale{factor_of, chrominance});
 }
 
-class MappedSource final : public LightFieldSource {
+class CompandedSource final : public LightFieldSource {
   public:
-    MappedSource(const LightFieldSource& source, const Companding& mapping) : source_(source), mapping_(mapping) {}
+    CompandedSource(const LightFieldSource& source, const Companding& companding)
+        : source_(source), companding_(companding) {}
     const LightFieldGrid& grid() const override { return source_.grid(); }
     bool has_depth() const override { return source_.has_depth(); }
     HogelRange preferred_tile() const override { return source_.preferred_tile(); }
     void read(LightFieldTile& tile) const override {
         source_.read(tile);
-        mapping_.apply(tile.radiance.view());
+        companding_.apply(tile.radiance.view());
     }
 
   private:
     const LightFieldSource& source_;
-    const Companding& mapping_;
+    const Companding& companding_;
 };
 
 void count(const LightFieldTile& tile, LuminanceHistogram& histogram) {
@@ -88,8 +89,8 @@ void Companding::undo(View<float, 5> radiance) const {
     if (changes()) scale(radiance, factor, chrominance);
 }
 
-std::unique_ptr<LightFieldSource> map_radiances(const LightFieldSource& source, const Companding& mapping) {
-    return std::make_unique<MappedSource>(source, mapping);
+std::unique_ptr<LightFieldSource> companded(const LightFieldSource& source, const Companding& companding) {
+    return std::make_unique<CompandedSource>(source, companding);
 }
 
 LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> faces, const Progress& progress) {
