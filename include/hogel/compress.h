@@ -95,11 +95,7 @@ struct CompressionResult {
 /// appears when it is complete. Throws Error(usage) for a target or method that makes no sense, a rate that no step
 /// gives, and a quality finer than the coder can be; Error(bad_input) for radiance that is not finite (unless the
 /// target is MaxError or Lossless), Error(cannot_write).
-CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
-                           const CompressionOptions& options, const Progress& progress = {});
-
-/// Codes all faces of a hemicube, the front first, into one stream. Quality and rate are those of all together.
-CompressionResult compress(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress = {});
 
 /// What the header of a stream says.
@@ -154,17 +150,13 @@ struct StreamOptions {
 /// least one. Of a hemicube this opens the front. Depth is there if the file has it. Throws Error(bad_input) for a file
 /// that is damaged, of another version, or cut off before the end of the last layer that is wanted; damage inside a
 /// tile shows when that tile is read. Throws Error(usage) for more layers than there are.
-std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, const StreamOptions& options = {});
-
-/// Opens all faces, the front first. They share what is decoded.
-std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::filesystem::path& path,
-                                                                 const StreamOptions& options = {});
+LightField open_stream(const std::filesystem::path& path, const StreamOptions& options = {});
 
 /// Opens a stream of the coder fringes without undoing the transform of the directions, for holograms made of basis
 /// fringes ([K] 4.2.3): in place of radiances the coefficients of √L, an array [n_V][n_U] for each hogel and channel,
 /// of the transform that the header names. Throws Error(bad_input) as open_stream() does, for another coder, for a
 /// light field that was coded along a tone curve or with coarser chrominance, and for a hemicube.
-std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path);
+LightField open_coefficients(const std::filesystem::path& path);
 
 /// The directions of an array [n_V][n_U] that belong to a light field: rows begin_v to end_v completely, of other rows
 /// the columns begin_u to end_u. By default all; of an unfolded hemicube its faces without the corners.

@@ -113,7 +113,7 @@ Row measured(Row row) {
     for (const auto& face : light_field(row.scene)) faces.push_back(face.get());
     const std::filesystem::path path =
         std::filesystem::temp_directory_path() / fmt::format("hogel_rates_{}.hgl", getpid());
-    const CompressionResult result = compress(faces, path, options);
+    const CompressionResult result = compress(borrow(faces), path, options);
     std::filesystem::remove(path);
     row.sqnr = result.sqnr;
     row.bytes = result.bytes;

@@ -36,7 +36,7 @@ LightFieldBuffer through(const LightFieldBuffer& field, const CompressionOptions
     const CompressionResult found = compress(field, folder / "a.hgl", options);
     if (result) *result = found;
     LightFieldBuffer decoded(field.grid());
-    copy(*open_stream(folder / "a.hgl"), decoded);
+    copy(*open_front(folder / "a.hgl"), decoded);
     return decoded;
 }
 
@@ -70,7 +70,7 @@ TEST(Lossless, every_bit_comes_back) {
         for (float& value : rough.radiance.elements()) value = ten_bits(value);
         expect_same_bits(rough, through(rough, lossless()));
     }
-    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, Perspective{Perspective{0.3, 0.3}, 3}});
+    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, Perspective{0.3, 0.3}, 3});
     expect_same_bits(dark, through(dark, lossless()));
 }
 
@@ -152,7 +152,7 @@ TEST(Exact, reads_any_hogels_the_same) {
         const LightFieldBuffer field = textured_planes(5, 4, directions, directions, 1);
         compress(field, folder / "a.hgl", lossless());
         for (const HogelRange& range : {HogelRange{3, 2, 1, 1}, {1, 0, 3, 3}, {0, 3, 5, 1}, {4, 1, 1, 2}}) {
-            const auto source = open_stream(folder / "a.hgl");
+            const auto source = open_front(folder / "a.hgl");
             for (const HogelRange& next : {range, HogelRange{0, 0, 5, 4}}) {
                 LightFieldTile tile(field.grid(), next, false), expected = tile;
                 source->read(tile);
@@ -175,7 +175,7 @@ TEST(Exact, bytes_of_any_kind_do_no_harm) {
     try_coder(*make_lossless_coder(field.grid(), {}));
     try_coder(*make_bounded_coder(field.grid(), {}, 0.01));
     // A hogel with a code of its own.
-    LightFieldBuffer noise(LightFieldGrid{1, 1, 1e-3, 72, 64, Perspective{Perspective{0.3, 0.3}, 1}});
+    LightFieldBuffer noise(LightFieldGrid{1, 1, 1e-3, 72, 64, Perspective{0.3, 0.3}, 1});
     std::uint32_t k = 0;
     for (float& value : noise.radiance.elements()) value = static_cast<float>(core::philox({k++, 7, 7, 7}, {1, 2})[0]);
     LightFieldTile one(noise.grid(), {0, 0, 1, 1}, false);

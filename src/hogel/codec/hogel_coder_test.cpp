@@ -27,7 +27,7 @@ LightFieldTile whole(const LightFieldBuffer& field) {
 
 // A plane with a picture of waves that directions sample well, `disparity` directions away from hogel to hogel.
 LightFieldBuffer plane_at(double disparity, std::size_t hogels, std::size_t directions, std::size_t directions_v) {
-    LightFieldGrid grid{hogels, hogels, 1e-3, directions, directions_v, Perspective{Perspective{0.3, 0.25}, 1}};
+    LightFieldGrid grid{hogels, hogels, 1e-3, directions, directions_v, Perspective{0.3, 0.25}, 1};
     LightFieldBuffer field(grid);
     const double depth = grid.pitch / grid.step_u() / disparity, period = 14 * grid.step_u() * depth;
     for (std::size_t j = 0; j < hogels; ++j)
@@ -288,13 +288,13 @@ TEST(HogelCoder, bytes_of_any_kind_do_no_harm) {
 }
 
 TEST(HogelCoder, tiles_that_are_too_large_are_refused) {
-    const LightFieldGrid grid{65, 1, 1e-3, 4, 4, Perspective{Perspective{0.3, 0.3}, 1}};
+    const LightFieldGrid grid{65, 1, 1e-3, 4, 4, Perspective{0.3, 0.3}, 1};
     const auto coder = make_hogel_coder(grid);
     LightFieldTile tile(grid, {0, 0, 65, 1}, false);
     EXPECT_THROW(coder->encode(tile, 0.1), Error);
     EXPECT_LE(coder->preferred_tile(grid).ns, 33u);
     // A colour light field of 512 × 512 directions: tiles that still fit.
-    const LightFieldGrid large{128, 128, 1e-3, 512, 512, Perspective{Perspective{0.3, 0.3}, 3}};
+    const LightFieldGrid large{128, 128, 1e-3, 512, 512, Perspective{0.3, 0.3}, 3};
     const HogelRange preferred = coder->preferred_tile(large);
     EXPECT_LE(double(preferred.hogels()) * 512 * 512 * 3, 0x1p27);
     EXPECT_GE(preferred.ns, 12u);

@@ -198,27 +198,22 @@ class DecodedFace final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, const StreamOptions& options) {
-    return std::move(open_stream_faces(path, options).front());
-}
-
-std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::filesystem::path& path,
-                                                                 const StreamOptions& options) {
+LightField open_stream(const std::filesystem::path& path, const StreamOptions& options) {
     const auto stream = std::make_shared<const DecodedStream>(path, options, false);
     const StreamInfo& info = stream->info();
     std::shared_ptr<const DecodedStream> depth;
     if (info.depth_there || (info.depth.bytes > 0 && options.layers == 0))
         depth = std::make_shared<const DecodedStream>(path, StreamOptions{.memory = options.memory}, false,
                                                       StreamReader::Content::its_depth);
-    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    std::vector<LightField::Source> faces;
     for (std::size_t face = 0; face <= info.sides.size(); ++face)
-        faces.push_back(std::make_unique<DecodedFace>(
+        faces.push_back(std::make_shared<const DecodedFace>(
             stream, face, depth ? std::make_unique<DecodedFace>(depth, face) : std::unique_ptr<DecodedFace>()));
-    return faces;
+    return LightField(std::move(faces));
 }
 
-std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path) {
-    return std::make_unique<DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
+LightField open_coefficients(const std::filesystem::path& path) {
+    return std::make_shared<const DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
 }
 
 }  // namespace hogel

@@ -16,6 +16,7 @@
 #include "hogel/codec/format/stacked.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/unfolded.h"
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
 namespace hogel {
@@ -190,15 +191,11 @@ Found code_to_target(const CompressionTarget& target, double rays, const std::st
 
 }  // namespace
 
-CompressionResult compress(const LightFieldSource& source, const std::filesystem::path& path,
-                           const CompressionOptions& options, const Progress& progress) {
-    const LightFieldSource* const only = &source;
-    return compress({&only, 1}, path, options, progress);
-}
-
-CompressionResult compress(std::span<const LightFieldSource* const> sources, const std::filesystem::path& path,
+CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
+    std::vector<const LightFieldSource*> sources;
+    for (const LightField::Source& face : light_field.faces()) sources.push_back(face.get());
     check(options.target);
     const LightFieldGrid& grid = sources.front()->grid();
     StreamHeader header;

@@ -36,7 +36,7 @@ TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(9, 7, 24, 20, 3);
     compress(field, folder / "a.hgl", with_sqnr({"fringes", "ai33"}, 30));
-    const auto source = open_coefficients(folder / "a.hgl");
+    const auto source = open_coefficients(folder / "a.hgl").faces().front();
     LightFieldBuffer coefficients(source->grid());
     copy(*source, coefficients);
     const transform::Pyramid pyramid = transform::Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
@@ -157,7 +157,7 @@ TEST(Compress, sizes_of_all_kinds_come_back) {
 
 TEST(Compress, nothing_to_see_takes_nearly_no_bytes) {
     const TestFolder folder;
-    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, Perspective{Perspective{0.3, 0.3}, 3}});
+    const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, Perspective{0.3, 0.3}, 3});
     for (const CodingMethod& method : all_methods()) {
         const CompressionResult result = compress(dark, folder / "a.hgl", with_sqnr(method, 40));
         EXPECT_LT(result.bytes, 300u);

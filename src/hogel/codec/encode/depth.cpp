@@ -108,7 +108,7 @@ StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces,
     CompressionOptions exact;
     exact.target = MaxError{coding.error};
     exact.tile = options.tile;
-    return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
+    return {compress(borrow(depths), path, exact).bytes, coding.error, coding.beyond};
 }
 
 }  // namespace hogel::codec::encode

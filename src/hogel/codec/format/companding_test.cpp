@@ -129,7 +129,7 @@ TEST(Companding, goes_with_hemicubes) {
         compress(faces, folder / "a.hgl", options);
         const Companding mapping = StreamReader(folder / "a.hgl").info().companding;
         EXPECT_EQ(mapping.tone, encode::tone_curve_of(luminance_histogram(faces), 2));
-        const auto sources = open_stream_faces(folder / "a.hgl");
+        const auto sources = open_faces(folder / "a.hgl");
         for (std::size_t i = 0; i < faces.size(); ++i) {
             LightFieldBuffer truth = fields[i], other(fields[i].grid());
             copy(*sources[i], other);

@@ -109,9 +109,9 @@ TEST(Gathered, reads_any_range_the_same) {
         ASSERT_EQ(layers, by_columns ? 5u : 4u);
         for (std::size_t layer = 1; layer <= layers; ++layer) {
             LightFieldBuffer whole(field.grid());
-            copy(*open_stream(folder / "a.hgl", {.layers = layer}), whole);
+            copy(*open_front(folder / "a.hgl", {.layers = layer}), whole);
             EXPECT_GE(sqnr_of(field, whole), layer == layers ? 25 : 5);
-            const auto source = open_stream(folder / "a.hgl", {.memory = 1, .layers = layer});
+            const auto source = open_front(folder / "a.hgl", {.memory = 1, .layers = layer});
             core::parallel_for(60, [&](std::size_t i) {
                 HogelRange range{i % field.grid().hogels_s, i * 7 % field.grid().hogels_t, 0, 0};
                 range.ns = 1 + i % (field.grid().hogels_s - range.s0);
@@ -129,7 +129,7 @@ TEST(Gathered, reads_any_range_the_same) {
 // A plane, whose rows are alike, is gathered; rows that each lie at a depth of their own are not.
 TEST(Gathered, is_chosen_where_rows_are_alike) {
     const TestFolder folder;
-    LightFieldBuffer alike(LightFieldGrid{24, 24, 1e-3, 48, 1, Perspective{Perspective{0.3, 0.3}, 1}}), apart(alike.grid());
+    LightFieldBuffer alike(LightFieldGrid{24, 24, 1e-3, 48, 1, Perspective{0.3, 0.3}, 1}), apart(alike.grid());
     for (std::size_t t = 0; t < 24; ++t)
         for (std::size_t s = 0; s < 24; ++s)
             for (std::size_t u = 0; u < 48; ++u) {
@@ -231,7 +231,7 @@ TEST(Gathered, hemisquares_come_back) {
     options.depth_error = 1e-5;
     const std::vector<const LightFieldSource*> sources{&faces[0], &faces[1], &faces[2]};
     compress(sources, folder / "a.hgl", options);
-    const auto opened = open_stream_faces(folder / "a.hgl");
+    const auto opened = open_faces(folder / "a.hgl");
     ASSERT_EQ(opened.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
         LightFieldBuffer back(opened[k]->grid(), true);

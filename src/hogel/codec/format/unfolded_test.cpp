@@ -13,7 +13,7 @@ namespace {
 
 // A hemicube around hogels that see a smooth sky: the same function of direction on all faces.
 std::vector<LightFieldBuffer> smooth_hemicube(std::size_t hogels, std::size_t directions_u, std::size_t directions_v) {
-    const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, Perspective{Perspective{1, 1}, 1}};
+    const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, Perspective{1, 1}, 1};
     std::vector<LightFieldBuffer> faces;
     for (const LightFieldGrid& face : hemicube(grid)) {
         LightFieldBuffer& field = faces.emplace_back(face);
@@ -110,7 +110,7 @@ TEST(Hemicube, comes_back_in_either_layout) {
             options.layout = layout;
             options.tile = HogelRange{0, 0, 3, 3};
             const CompressionResult result = compress(sources(faces), folder / "a.hgl", options);
-            const auto decoded = open_stream_faces(folder / "a.hgl", {.memory = 1});
+            const auto decoded = open_faces(folder / "a.hgl", {.memory = 1});
             ASSERT_EQ(decoded.size(), 5u);
             double signal = 0, error = 0;
             for (std::size_t i = 0; i < 5; ++i) {
@@ -138,7 +138,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
         write_bytes(folder / "b.hgl", bytes);
         try {
-            for (const auto& face : open_stream_faces(folder / "b.hgl")) {
+            for (const auto& face : open_faces(folder / "b.hgl")) {
                 LightFieldBuffer field(face->grid());
                 copy(*face, field);
             }
