@@ -21,15 +21,13 @@ namespace hogel {
 /// How samples are stored: 16-bit or 32-bit floats (IEEE 754 binary16, binary32).
 enum class SampleType { half, single };
 
-/// Opens the front face of a light field: a compressed one (.hgl), or one in an HDF5 file with a dataset "radiance"
-/// [c][t][s][v][u] (half or single floats) and optionally a dataset "depth" [t][s][v][u] (single, metres). The sampling
-/// is in attributes of "radiance"; docs/files.md names them all. Opening reads the header alone. Datasets in one
-/// contiguous piece, as hogel writes them, are read by all threads at once, chunked or compressed ones by one at a
-/// time. Throws Error(bad_input) for a file that is missing, damaged, truncated, inconsistent or of another kind.
-std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path);
-
-/// Opens all faces that a light field file holds, in the order of all_faces.
-std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path);
+/// Opens a light field with all faces that the file holds: a compressed one (.hgl), or one in an HDF5 file with a
+/// dataset "radiance" [c][t][s][v][u] (half or single floats) and optionally a dataset "depth" [t][s][v][u] (single,
+/// metres) for each face. The sampling is in attributes of "radiance"; docs/files.md names them all. Opening reads the
+/// header alone. Datasets in one contiguous piece, as hogel writes them, are read by all threads at once, chunked or
+/// compressed ones by one at a time. Throws Error(bad_input) for a file that is missing, damaged, truncated,
+/// inconsistent or of another kind.
+LightField open_light_field(const std::filesystem::path& path);
 
 struct LightFieldFileOptions {
     SampleType type = SampleType::half;
@@ -42,24 +40,20 @@ struct LightFieldFileOptions {
     std::optional<std::string> resume = std::nullopt;
 };
 
-/// Creates a light field of one face in an HDF5 file. The file appears under its name when finish() is called; before
-/// that it is a temporary beside it, removed with the sink unless it can be resumed. Room on the disk is reserved at
-/// once, so that a disk that is too small fails before the work. In half floats, values beyond 65504 are infinite.
-/// Throws Error(cannot_write).
-std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
-                                                   const LightFieldFileOptions& options = {});
-
-/// Creates several faces of the same hogels in one file, the front first: one sink for each face. The file appears
-/// under its name when the last of them is finished.
-std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std::filesystem::path& path,
-                                                                      std::span<const LightFieldGrid> grids,
-                                                                      const LightFieldFileOptions& options = {});
+/// Creates a light field in an HDF5 file: one sink for each face, the front first. The file appears under its name when
+/// the last of them is finished; before that it is a temporary beside it, removed with the sinks unless it can be
+/// resumed. Room on the disk is reserved at once, so that a disk that is too small fails before the work. In half
+/// floats, values beyond 65504 are infinite. Throws Error(usage) where the grids are not those of one light field,
+/// Error(cannot_write).
+std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
+                                                                std::span<const LightFieldGrid> grids,
+                                                                const LightFieldFileOptions& options = {});
 
 /// A hologram in an HDF5 file: one field for each wavelength, for instance red, green and blue. Field number i is the
 /// dataset "field<i>/samples", [y][x] of compounds {r, i} (single floats), which h5py reads as complex64, or [y][x][2]
 /// of half floats, with its sampling and wavelength in attributes (docs/files.md).
 struct HologramFile {
-    std::vector<std::unique_ptr<FieldSource>> fields;
+    std::vector<std::shared_ptr<const FieldSource>> fields;
     Metadata metadata;
 };
 
@@ -128,7 +122,7 @@ struct ExternalField {
 /// the left, and the middle of the array lies at x = y = 0. NPY files are read where they are asked for, others are
 /// read whole at once. Throws Error(bad_input) for a file that is damaged or of another kind, and Error(usage) where
 /// `what.values` does not suit its numbers.
-std::unique_ptr<FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what);
+std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what);
 
 /// Whether a file begins as an array that open_external_field() reads does. Throws Error(bad_input) for a file that is
 /// missing.

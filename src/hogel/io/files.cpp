@@ -90,12 +90,8 @@ FileSummary summarize(const std::filesystem::path& path) {
     return summary;
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path) {
-    return is_stream(path) ? open_stream_faces(path) : io::hdf5::open_faces(path);
-}
-
-std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path) {
-    return std::move(open_light_field_faces(path).front());
+LightField open_light_field(const std::filesystem::path& path) {
+    return is_stream(path) ? open_stream(path) : LightField(io::hdf5::open_faces(path));
 }
 
 }  // namespace hogel

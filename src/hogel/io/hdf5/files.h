@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include "hogel/files.h"
@@ -21,6 +20,6 @@ FileKind kind_of(const std::filesystem::path& path);
 void summarize(const std::filesystem::path& path, FileSummary& summary);
 
 /// The faces of a light field, the front first. Throws Error(bad_input).
-std::vector<std::unique_ptr<LightFieldSource>> open_faces(const std::filesystem::path& path);
+std::vector<LightField::Source> open_faces(const std::filesystem::path& path);
 
 }  // namespace hogel::io::hdf5

@@ -178,13 +178,13 @@ DatasetReader radiance_of_front(hid_t file, const LightFieldGrid& grid,
     return {file, "radiance", radiance_box(grid, {0, 0, grid.hogels_s, grid.hogels_t}).extent, false, raw};
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> open_faces(const std::filesystem::path& path) {
-    std::vector<std::unique_ptr<LightFieldSource>> faces;
+std::vector<LightField::Source> open_faces(const std::filesystem::path& path) {
+    std::vector<LightField::Source> faces;
     const hdf5::Session session;
     const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
     for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
-        faces.push_back(std::make_unique<LightFieldReader>(file.id(), grid, path, raw));
+        faces.push_back(std::make_shared<LightFieldReader>(file.id(), grid, path, raw));
     return faces;
 }
 
@@ -195,22 +195,13 @@ namespace hogel {
 using namespace io;
 using namespace io::hdf5;
 
-std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
-                                                   const LightFieldFileOptions& options) {
-    return std::move(create_light_field_faces(path, {&grid, 1}, options).front());
-}
-
-std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std::filesystem::path& path,
-                                                                      std::span<const LightFieldGrid> grids,
-                                                                      const LightFieldFileOptions& options) {
+std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
+                                                                std::span<const LightFieldGrid> grids,
+                                                                const LightFieldFileOptions& options) {
+    for (const LightFieldGrid& grid : grids) validate(grid, ErrorCode::usage, "light field");
+    require_faces(grids);
     std::vector<hdf5::NewDataset> datasets;
     for (const LightFieldGrid& grid : grids) {
-        validate(grid, ErrorCode::usage, "light field");
-        const auto same_face = [&](const LightFieldGrid& other) { return other.face() == grid.face(); };
-        if (!same_hogels(grid, grids.front()) || std::ranges::count_if(grids, same_face) != 1)
-            throw Error(ErrorCode::usage, fmt::format("light field '{}': its faces must have the same hogels and "
-                                                      "channels, each face once",
-                                                      path.string()));
         const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
         datasets.push_back({dataset_name(grid.face(), "radiance"),
                             options.type == SampleType::half ? Element::half : Element::single,
@@ -221,16 +212,14 @@ std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std:
                                 depth_box(grid, all).extent,
                                 {{"axis_order", "t,s,v,u"}, {"unit", "m"}}});
     }
-    if (grids.empty() || grids.front().face() != Face::front)
-        throw Error(ErrorCode::usage, fmt::format("light field '{}': its front face must come first", path.string()));
     std::shared_ptr<SharedFile> shared(new SharedFile{
         {path, hdf5::root_attributes(hdf5::light_field_format, options.metadata), std::move(datasets), options.resume},
         grids.size()});
     std::vector<std::unique_ptr<LightFieldSink>> sinks;
-    const std::size_t datasets_a_face = options.with_depth ? 2 : 1;
+    const std::size_t datasets_per_face = options.with_depth ? 2 : 1;
     for (const LightFieldGrid& grid : grids)
         sinks.push_back(
-            std::make_unique<LightFieldWriter>(grid, datasets_a_face * sinks.size(), options.with_depth, shared));
+            std::make_unique<LightFieldWriter>(grid, datasets_per_face * sinks.size(), options.with_depth, shared));
     return sinks;
 }
 
