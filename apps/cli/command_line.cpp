@@ -12,7 +12,7 @@
 namespace hogel::cli {
 
 Option Option::required() const {
-    option_->required();
+    option_->required()->default_str("");  // a default would never be taken
     return *this;
 }
 

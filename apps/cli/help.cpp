@@ -64,10 +64,13 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
 
 std::string HelpFormatter::make_positionals(const CLI::App* app) const {
     std::string text;
-    for (const CLI::Option* option : app->get_options())
-        if (option->get_positional())
-            text +=
-                fmt::format("  {:<{}}{}\n", option->get_type_name(), get_column_width() - 2, option->get_description());
+    const std::size_t width = get_column_width() - 2;
+    for (const CLI::Option* option : app->get_options()) {
+        if (!option->get_positional()) continue;
+        std::string type = option->get_type_name();
+        if (type.size() >= width) type += "\n" + std::string(width + 2, ' ');
+        text += fmt::format("  {:<{}}{}\n", type, width, option->get_description());
+    }
     return text.empty() ? text : "\n" + text;
 }
 
