@@ -88,9 +88,9 @@ void add_target_options(Command& command, Options& options) {
 void add_method_options(Command& command, Options& options) {
     CodingMethod& method = options.compression.method;
     command.text("--coder", method.coder, "NAME", fmt::format("{}", fmt::join(coders().names(), ", ")));
-    command.text("--transform", method.transform, "NAME",
-                 fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d",
-                             fmt::join(transform_names(), ", ")));
+    command.text(
+        "--transform", method.transform, "NAME",
+        fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform_names(), ", ")));
     command.choice("--table", options.table, {"jpeg", "own"}, "jpeg|own",
                    "Quantisation table of jpeg4d: JPEG's, or one optimised for the light field (default: own)");
     command.choice("--hemicube", options.hemicube, layouts, "faces|unfolded",

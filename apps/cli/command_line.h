@@ -13,7 +13,7 @@
 #include "hogel/geometry.h"
 #include "hogel/image.h"
 
-// The parser is CLI11. Its header costs 15 seconds of compilation in each file that includes it, hence none here.
+// The parser is CLI11, whose header takes long to compile: command_line.cpp and help.cpp alone include it.
 namespace CLI {
 class App;
 class Option;
@@ -79,7 +79,7 @@ class Command {
     Option flag(const std::string& name, bool& value, const std::string& help);
     /// A flag that changes nothing: it names the default.
     Option flag(const std::string& name, const std::string& help);
-    /// One of several words.
+    /// One of several words, such as the names() of a table.
     Option choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
                   const std::string& type, const std::string& help);
 

@@ -10,6 +10,8 @@
 
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
+#include "hogel/transform/transform.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
 namespace {
@@ -80,7 +82,7 @@ LightFieldGrid RenderOptions::grid() const {
 LightFieldRequest RenderOptions::request() const {
     LightFieldRequest request;
     request.renderer = algorithm;
-    request.shading.model = shading_model(shading);
+    request.shading.model = shading;
     request.shading.shadow_map = shadow_map;
     request.cache_spacing = cache_spacing;
     request.grid = grid();
@@ -138,12 +140,12 @@ HologramRequest HologramChoices::request(const Session& session, std::size_t loo
 void add_render_options(Command& command, RenderOptions& options) {
     command.group(light_field_group);
     std::string algorithms;
-    for (const RendererInfo& renderer : renderers())
-        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.description);
+    for (const RendererInfo& renderer : renderers().rows())
+        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.text);
     command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms);
     std::string shadings;
-    for (const ShadingInfo& shading : shading_models())
-        shadings += fmt::format("\n{}: {}", shading.name, shading.description);
+    for (const ShadingInfo& shading : shading_models().rows())
+        shadings += fmt::format("\n{}: {}", shading.name, shading.text);
     command.text("--shading", options.shading, "NAME", "Where light is worked out:" + shadings);
     command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map");
     command
@@ -200,9 +202,9 @@ void add_hologram_options(Command& command, HologramChoices& options) {
 void add_scene_hologram_options(Command& command, HologramChoices& options) {
     std::vector<std::string> names = method_names;
     std::string help = "\nWithout a light field, from a scene:";
-    for (const SceneMethod& method : scene_methods()) {
+    for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
         names.emplace_back(method.name);
-        help += fmt::format("\n{}: {}", method.name, method.description);
+        help += fmt::format("\n{}: {}", method.name, method.text);
     }
     add_hologram_options(command, options, names, help);
     command.length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines");
