@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Adam, Kingma and Ba 2015, with its usual rates of forgetting; a step is at most about this many radians.
+// Adam, Kingma and Ba 2015, with its usual decay rates; a step is at most about this many radians.
 constexpr double first_rate = 0.9, second_rate = 0.999, radians_a_step = 0.25;
 
 // Sums over the squares of one row, for the scale between the pattern's local spectra and the field's.
@@ -27,7 +27,8 @@ struct Squares {
 
     std::size_t columns(std::size_t width) const { return (width + shift_x + side - 1) / side; }
     std::size_t rows(std::size_t height) const { return (height + shift_y + side - 1) / side; }
-    // Calls visit(pixel's row and column, row and column in the square) for what of a square lies on the modulator.
+    // Calls visit(row and column of the pixel, row and column in the square) for the pixels of a square on the
+    // modulator.
     template <class Visit>
     void visit(std::size_t i, std::size_t j, const Shape<2>& shape, Visit&& visit) const {
         for (std::size_t q = 0; q < side; ++q) {
