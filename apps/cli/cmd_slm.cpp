@@ -6,6 +6,8 @@
 #include "commands.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -25,7 +27,7 @@ Modulator modulator_of(const Options& options) {
     if (options.device.empty() == !described)
         throw Error(ErrorCode::usage,
                     "name a modulator with --device, or describe one with --pixels and --pixel-pitch");
-    if (!described) return find_modulator(options.device);
+    if (!described) return modulators().find(options.device);
     if (options.levels > 256) throw Error(ErrorCode::usage, "--levels: 2 to 256 were expected");
     return {"", options.pixels.columns, options.pixels.rows, options.pixel_pitch,
             static_cast<unsigned>(options.levels)};
@@ -33,7 +35,7 @@ Modulator modulator_of(const Options& options) {
 
 int slm(const Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
-    pattern_options.encoding = encodings().at(options.encoding);
+    pattern_options.encoding = encodings().find(options.encoding).encoding;
     pattern_options.modulator = modulator_of(options);
     pattern_options.seed = session.seed;
     require_raw_pixels_name(options.output);
@@ -56,7 +58,7 @@ int slm(const Options& options, const Session& session) {
             levels.data()[i * colours + c] = pattern.levels.data()[i];
         const std::string name = format_length(file.fields[c]->grid().wavelength);
         std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
-        if (is_phase_only(pattern_options.encoding))
+        if (encodings().find(options.encoding).phase_only)
             line += fmt::format(", of its light field {:.2f} %", 100 * pattern.light_field_efficiency);
         if (pattern.reference_angle != 0)
             line += fmt::format(", the hologram's order at {:.3f} degrees",
@@ -81,8 +83,7 @@ void add_slm(Command& command, Session& session) {
     command.positional("input", options->input, "F.h5", "Hologram");
     command.text("-o,--output", options->output, "FILE", "Pattern to write: .png, .bmp or .tif, 8 bits as they are")
         .required();
-    std::vector<std::string> names;
-    for (const auto& [name, encoding] : encodings()) names.push_back(name);
+    const std::vector<std::string> names = encodings().names();
     command.group("Pattern");
     command.choice("--encoding", options->encoding, names, "NAME",
                    "phase: the field's phase alone\n"
@@ -100,7 +101,7 @@ void add_slm(Command& command, Session& session) {
     command.count("--window", options->pattern.window, "Iterated phases: pixels of a hogel's side");
     command.count("--iterations", options->pattern.iterations, "Gerchberg-Saxton, gradient: how many steps");
     std::string devices = "Modulator:";
-    for (const Modulator& modulator : modulators())
+    for (const Modulator& modulator : modulators().rows())
         devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
                                format_length(modulator.pitch), modulator.levels);
     command.group("Modulator");

@@ -10,6 +10,7 @@
 
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
 namespace {
@@ -46,7 +47,7 @@ void add_hologram_options(Command& command, HologramChoices& options, const std:
     command.text("--basis", options.basis, "NAME",
                  fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
                              "direction), {} (default: the file's, or {})",
-                             fmt::join(transform::transform_names(), ", "), defaults.basis));
+                             fmt::join(transform_names(), ", "), defaults.basis));
     command
         .number("--tolerance", options.tolerance, "0..1",
                 "Share of a hogel's amplitude that left-out basis fringes may carry")
@@ -80,7 +81,7 @@ LightFieldGrid RenderOptions::grid() const {
 LightFieldRequest RenderOptions::request() const {
     LightFieldRequest request;
     request.renderer = algorithm;
-    request.shading.model = shading_model(shading);
+    request.shading.model = shading;
     request.shading.shadow_map = shadow_map;
     request.cache_spacing = cache_spacing;
     request.grid = grid();
@@ -138,12 +139,12 @@ HologramRequest HologramChoices::request(const Session& session, std::size_t loo
 void add_render_options(Command& command, RenderOptions& options) {
     command.group(light_field_group);
     std::string algorithms;
-    for (const RendererInfo& renderer : renderers())
-        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.description);
+    for (const RendererInfo& renderer : renderers().rows())
+        algorithms += fmt::format("\n{}: {}", renderer.name, renderer.text);
     command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms);
     std::string shadings;
-    for (const ShadingInfo& shading : shading_models())
-        shadings += fmt::format("\n{}: {}", shading.name, shading.description);
+    for (const ShadingInfo& shading : shading_models().rows())
+        shadings += fmt::format("\n{}: {}", shading.name, shading.text);
     command.text("--shading", options.shading, "NAME", "Where light is worked out:" + shadings);
     command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map");
     command
@@ -200,9 +201,9 @@ void add_hologram_options(Command& command, HologramChoices& options) {
 void add_scene_hologram_options(Command& command, HologramChoices& options) {
     std::vector<std::string> names = method_names;
     std::string help = "\nWithout a light field, from a scene:";
-    for (const SceneMethod& method : scene_methods()) {
+    for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
         names.emplace_back(method.name);
-        help += fmt::format("\n{}: {}", method.name, method.description);
+        help += fmt::format("\n{}: {}", method.name, method.text);
     }
     add_hologram_options(command, options, names, help);
     command.length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines");

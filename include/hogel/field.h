@@ -26,7 +26,7 @@ void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
 /// Throws Error(usage) when a region is empty or leaves the grid, or an array for it does not have its shape.
 void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array);
 
-/// Where fields come from: memory, a file, or a synthesis on demand. A source may offer several looks: statistically
+/// A source of fields: memory, a file, or a synthesis on demand. A source may offer several looks: statistically
 /// independent fields (other random phases) of the same object, whose photographs are averaged against speckle.
 /// read() may be called from several threads at once and gives the same value for a sample whatever the region.
 class FieldSource {
@@ -34,21 +34,21 @@ class FieldSource {
     virtual ~FieldSource() = default;
     virtual const FieldGrid& grid() const = 0;
     virtual std::size_t looks() const { return 1; }
-    /// Regions that start at multiples of this many samples and span multiples of it cost no work twice.
+    /// Regions that start at multiples of this many samples and span multiples of it are read without repeated work.
     virtual std::size_t alignment() const { return 1; }
     /// Fills out[y][x] (shape: region height × width) with look number `look` of the samples of the region.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
 };
 
-/// Where fields go. write() may be called from several threads at once, each sample once.
+/// A destination of fields. write() may be called from several threads at once, each sample once.
 class FieldSink {
   public:
     virtual ~FieldSink() = default;
     virtual void write(const Region& region, View<const std::complex<float>, 2> values) = 0;
-    /// All samples where they lie, [y][x], if the field is whole in memory: they may be put there instead of written.
-    /// Otherwise no elements.
+    /// The storage of all samples, [y][x], if the field is whole in memory: a writer may fill it instead of calling
+    /// write(). Otherwise no elements.
     virtual View<std::complex<float>, 2> in_memory() { return {}; }
-    /// Whether the sink goes on with earlier work in which this very region was written; then it counts as written now.
+    /// Whether the sink continues an interrupted run in which this very region was written; then it counts as written.
     virtual bool has_already(const Region&) { return false; }
     /// Called once after the last region; a file appears under its own name only now.
     virtual void finish() {}

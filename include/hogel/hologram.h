@@ -50,7 +50,7 @@ enum class LobeAverage {
     amplitude,  ///< √L: linear in amplitudes as basis fringes are, and darker where L varies within a lobe
 };
 
-/// One FFT a hogel, hogels side by side: [K] (4.2). Knows the sides of a hemicube.
+/// One FFT a hogel, hogels side by side: [K] (4.2). Takes the sides of a hemicube too.
 struct Fourier {
     Phases phases = Phases::random;
     LobeAverage average = LobeAverage::radiance;
@@ -72,7 +72,7 @@ struct Lines {
 
 /// A sum of basis fringes a hogel, weighted with the coefficients of a transform of its amplitudes √L: [K] (3.24).
 struct Basis {
-    /// A name that hogel::transform() knows, or "pieces", Lucente's piecewise constant basis.
+    /// The name of a transform, such as "haar" or "cdf97", or "pieces" for Lucente's piecewise constant basis.
     std::string transform = "cdf97";
     /// The smallest coefficients are left out, as many as carry about this share of a hogel's amplitude.
     double tolerance = 0;
@@ -139,7 +139,7 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
 /// that the method needs and the light field lacks, and for basis fringes that would take more than 4 GiB.
 std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, const HologramOptions& options);
 
-/// The hologram of a light field that is known by coefficients, with the method Basis. Only coefficients that are not
+/// The hologram of a light field given by coefficients, with the method Basis. Only coefficients that are not
 /// zero cost anything. The values of the source are not radiances: they are, for each hogel and channel, the
 /// coefficients of √L, an array [n_V][n_U] transformed by Basis::transform in Pyramid::separate with its two axes as
 /// one group. Throws Error(usage) as make_hologram() does, and for other methods.
