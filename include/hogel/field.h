@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "hogel/array.h"
+#include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
 
@@ -21,15 +22,15 @@ struct FieldGrid {
 
 /// Throws Error(code) naming `what` and the member that is wrong: no samples, a pitch or a wavelength that is not
 /// positive and finite, more samples than can be addressed.
-void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
+HOGEL_API void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Throws Error(usage) when a region is empty or leaves the grid, or an array for it does not have its shape.
-void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array);
+HOGEL_API void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array);
 
 /// A source of fields: memory, a file, or a synthesis on demand. A source may offer several looks: statistically
 /// independent fields (other random phases) of the same object, whose photographs are averaged against speckle.
 /// read() may be called from several threads at once and gives the same value for a sample whatever the region.
-class FieldSource {
+class HOGEL_API FieldSource {
   public:
     virtual ~FieldSource() = default;
     virtual const FieldGrid& grid() const = 0;
@@ -41,7 +42,7 @@ class FieldSource {
 };
 
 /// A destination of fields. write() may be called from several threads at once, each sample once.
-class FieldSink {
+class HOGEL_API FieldSink {
   public:
     virtual ~FieldSink() = default;
     virtual void write(const Region& region, View<const std::complex<float>, 2> values) = 0;
@@ -55,7 +56,7 @@ class FieldSink {
 };
 
 /// A field that is whole in memory: source and sink.
-class Field final : public FieldSource, public FieldSink {
+class HOGEL_API Field final : public FieldSource, public FieldSink {
   public:
     explicit Field(const FieldGrid& grid);
     const FieldGrid& grid() const override { return grid_; }
@@ -70,6 +71,6 @@ class Field final : public FieldSource, public FieldSink {
 };
 
 /// Streams one look of a field from a source to a sink region by region on all threads. Calls finish().
-void copy(const FieldSource& source, FieldSink& sink, std::size_t look = 0, const Progress& progress = {});
+HOGEL_API void copy(const FieldSource& source, FieldSink& sink, std::size_t look = 0, const Progress& progress = {});
 
 }  // namespace hogel
