@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole way from a scene to a photograph: what an eye sees in front of the hologram is what geometric optics says.
+// From a scene to a photograph: an eye in front of the hologram sees the picture of geometric optics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -140,7 +140,7 @@ double shift_between(const Image& from, const Image& to, std::size_t row) {
     return best + 0.5 * (before - after) / (before - 2 * at + after);
 }
 
-// Interpolation two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in
+// Between two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in
 // waves as in rays, to a fraction of a pixel.
 TEST_F(PumpkinPhotograph, has_the_parallax_that_geometric_optics_says) {
     for (std::size_t row = 60; row + 60 < pixels; row += strip) {

@@ -16,7 +16,6 @@
 namespace hogel::cli {
 
 using namespace literals;
-
 namespace {
 
 constexpr std::size_t max_count = std::size_t{1} << 24;  // more than this along one side is a typing error

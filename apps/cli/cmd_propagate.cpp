@@ -67,8 +67,7 @@ int propagate_fields(const Options& options, const Session& session) {
     for (const auto& field : file.fields) grids.push_back(field->grid());
     Stage stage(session, "propagation");
     const auto colour = [&](std::size_t c, FieldSink& sink) {
-        hogel::propagate(*file.fields[c], options.distance, sink, {.scratch = scratch},
-                         stage.progress(c, grids.size()));
+        hogel::propagate(*file.fields[c], options.distance, sink, {0, scratch}, stage.progress(c, grids.size()));
     };
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::hologram) {

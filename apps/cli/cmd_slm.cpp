@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
+#include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -82,8 +83,9 @@ void add_slm(Command& command, Session& session) {
     command.positional("input", options->input, "F.h5", "Hologram");
     command.text("-o,--output", options->output, "FILE", "Pattern to write: .png, .bmp or .tif, 8 bits as they are")
         .required();
+    const std::vector<std::string> names = encodings().names();
     command.group("Pattern");
-    command.choice("--encoding", options->encoding, encodings().names(), "NAME",
+    command.choice("--encoding", options->encoding, names, "NAME",
                    "phase: the field's phase alone\n"
                    "double-phase: the modulus as the difference of two phases\n"
                    "gerchberg-saxton: phases iterated to show the field's local spectra\n"

@@ -10,7 +10,6 @@
 
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
-#include "hogel/transform/transform.h"
 #include "hogel/units.h"
 
 namespace hogel::cli {
@@ -48,7 +47,7 @@ void add_hologram_options(Command& command, HologramChoices& options, const std:
     command.text("--basis", options.basis, "NAME",
                  fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
                              "direction), {} (default: the file's, or {})",
-                             fmt::join(transform::transform_names(), ", "), defaults.basis));
+                             fmt::join(transform_names(), ", "), defaults.basis));
     command
         .number("--tolerance", options.tolerance, "0..1",
                 "Share of a hogel's amplitude that left-out basis fringes may carry")

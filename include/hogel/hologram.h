@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/light_field.h"
 #include "hogel/table.h"
@@ -23,10 +24,10 @@ struct Channel {
 };
 
 /// One wavelength (metres), which shows channel 0.
-std::vector<Channel> mono(double wavelength);
+HOGEL_API std::vector<Channel> mono(double wavelength);
 
 /// Three wavelengths (metres), which show the channels 0, 1 and 2.
-std::vector<Channel> rgb(double red, double green, double blue);
+HOGEL_API std::vector<Channel> rgb(double red, double green, double blue);
 
 /// Phases of the waves that leave a hogel, where they are independent of the scene.
 enum class Phases {
@@ -50,7 +51,7 @@ enum class LobeAverage {
     amplitude,  ///< √L: linear in amplitudes as basis fringes are, and darker where L varies within a lobe
 };
 
-/// One FFT a hogel, hogels side by side: [K] (4.2). Knows the sides of a hemicube.
+/// One FFT a hogel, hogels side by side: [K] (4.2). Takes the sides of a hemicube too.
 struct Fourier {
     Phases phases = Phases::random;
     LobeAverage average = LobeAverage::radiance;
@@ -72,7 +73,7 @@ struct Lines {
 
 /// A sum of basis fringes a hogel, weighted with the coefficients of a transform of its amplitudes √L: [K] (3.24).
 struct Basis {
-    /// A name that hogel::transform() knows, or "pieces", Lucente's piecewise constant basis.
+    /// The name of a transform, such as "haar" or "cdf97", or "pieces" for Lucente's piecewise constant basis.
     std::string transform = "cdf97";
     /// The smallest coefficients are left out, as many as carry about this share of a hogel's amplitude.
     double tolerance = 0;
@@ -101,7 +102,7 @@ struct OverlapAdd {
 using HologramMethod = std::variant<Fourier, Lines, Basis, PhaseAdded, OverlapAdd>;
 
 /// Whether this method needs the depth of every ray.
-bool needs_depth(const HologramMethod& method);
+HOGEL_API bool needs_depth(const HologramMethod& method);
 
 /// A method by name, with its default options.
 struct HologramMethodInfo {
@@ -112,7 +113,7 @@ struct HologramMethodInfo {
 };
 
 /// fourier, lines, basis, phase-added, phase-added-exact, olas; and those that a program adds.
-Table<HologramMethodInfo>& hologram_methods();
+HOGEL_API Table<HologramMethodInfo>& hologram_methods();
 
 struct HologramOptions {
     Channel channel;
@@ -132,18 +133,19 @@ struct HologramOptions {
 /// - PhaseAdded: for fewer directions than a hogel shows, naming how many would do;
 /// - PhaseAdded and OverlapAdd: for directions that are not in perspective;
 /// - Lines: for more than one row of directions, and the faces top and bottom.
-FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOptions& options);
+HOGEL_API FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOptions& options);
 
 /// The hologram of a light field, a holographic stereogram. It is computed on demand, region by region, with the same
 /// samples whatever the region, and shares the light field. Throws Error(usage) where hologram_grid() does, for depth
 /// that the method needs and the light field lacks, and for basis fringes that would take more than 4 GiB.
-std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, const HologramOptions& options);
+HOGEL_API std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field,
+                                                           const HologramOptions& options);
 
-/// The hologram of a light field that is known by coefficients, with the method Basis. Only coefficients that are not
+/// The hologram of a light field given by coefficients, with the method Basis. Only coefficients that are not
 /// zero cost anything. The values of the source are not radiances: they are, for each hogel and channel, the
 /// coefficients of √L, an array [n_V][n_U] transformed by Basis::transform in Pyramid::separate with its two axes as
 /// one group. Throws Error(usage) as make_hologram() does, and for other methods.
-std::shared_ptr<const FieldSource> make_hologram_of_coefficients(const LightField& coefficients,
-                                                                 const HologramOptions& options);
+HOGEL_API std::shared_ptr<const FieldSource> make_hologram_of_coefficients(const LightField& coefficients,
+                                                                           const HologramOptions& options);
 
 }  // namespace hogel

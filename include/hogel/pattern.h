@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/progress.h"
 #include "hogel/table.h"
@@ -22,7 +23,7 @@ struct Modulator {
 };
 
 /// Common modulators by name, from their makers' data sheets, and those that a program adds.
-Table<Modulator>& modulators();
+HOGEL_API Table<Modulator>& modulators();
 
 /// How a complex field becomes the values that a modulator shows: phases 0..2π, or transmitted amplitudes 0..1.
 enum class Encoding {
@@ -37,7 +38,7 @@ enum class Encoding {
     binary,      ///< amplitude: one where Re(F R*) > 0, zero elsewhere
 };
 
-bool is_phase_only(Encoding encoding);
+HOGEL_API bool is_phase_only(Encoding encoding);
 
 struct EncodingInfo {
     std::string name;
@@ -47,7 +48,7 @@ struct EncodingInfo {
 };
 
 /// All encodings by name: phase, double-phase, gerchberg-saxton, gradient, intensity, bipolar, burckhardt, lee, binary.
-Table<EncodingInfo>& encodings();
+HOGEL_API Table<EncodingInfo>& encodings();
 
 struct PatternOptions {
     Encoding encoding = Encoding::phase;
@@ -76,10 +77,11 @@ struct Pattern {
 /// memory.
 /// Throws Error(usage) where pitches differ, and where a reference wave cannot keep its orders apart, naming the angle
 /// or the pitch that would do.
-Pattern encode_pattern(const FieldSource& field, const PatternOptions& options, const Progress& progress = {});
+HOGEL_API Pattern encode_pattern(const FieldSource& field, const PatternOptions& options,
+                                 const Progress& progress = {});
 
 /// The complex transmission of a pattern, e^{2πi v} or v of its rounded levels: the field of a uniform laser beam
 /// behind the modulator.
-Array<std::complex<float>, 2> transmission(const Pattern& pattern, Encoding encoding);
+HOGEL_API Array<std::complex<float>, 2> transmission(const Pattern& pattern, Encoding encoding);
 
 }  // namespace hogel

@@ -8,6 +8,7 @@
 
 #include "hogel/array.h"
 #include "hogel/camera.h"
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/image.h"
 #include "hogel/resources.h"
@@ -27,17 +28,17 @@ struct PhotographOptions {
 /// cameras are taken fewer at a time, and the hologram window by window: light that falls more than 256 resolution
 /// cells from its place, a thousandth of it, is then lost at the windows' seams. Throws Error(usage) for a pupil that
 /// takes in more than the field's pitch supports, or that cannot be done within the memory.
-std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
-                              const PhotographOptions& options = {}, const Progress& progress = {});
+HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
+                                        const PhotographOptions& options = {}, const Progress& progress = {});
 
 /// Throws the errors that photograph() throws before it begins, from the grid of a hologram that need not exist yet.
-void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
-                         const PhotographOptions& options = {});
+HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
+                                   const PhotographOptions& options = {});
 
 /// Throws Error(usage) for an invalid camera, and for one that looks at a hologram from directions to which its
 /// samples send no light. There photograph() shows what a modulator of such samples shows, copies of the picture that
 /// belongs elsewhere: right only for a field that is known to have just these directions.
-void require_light_towards(const FieldGrid& hologram, const Camera& camera);
+HOGEL_API void require_light_towards(const FieldGrid& hologram, const Camera& camera);
 
 /// How photograph_by_plane_waves() works.
 struct PlaneWaveCameraOptions {
@@ -54,25 +55,26 @@ struct PlaneWaveCameraOptions {
 /// images as photograph(). Cost: transforms of the hologram with room for the pupil around it; a tilted plane in focus
 /// takes as much room again. Memory: what `scratch` allows, the rest in a file. Throws Error(usage) for an eye in
 /// directions to which the hologram's samples send no light, and for a tilted plane in focus with a thin lens.
-std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::span<const Camera> cameras,
-                                             const PlaneWaveCameraOptions& options = {}, const Progress& progress = {});
+HOGEL_API std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::span<const Camera> cameras,
+                                                       const PlaneWaveCameraOptions& options = {},
+                                                       const Progress& progress = {});
 
 /// The waves whose intensities photograph_by_plane_waves() shows, of one look and through a perfect lens: [y][x] at the
 /// points in focus behind the pixels' centres, zero beside the hologram. Phases are relative to the spherical waves
 /// that go from those points to the middle of the pupil, so light through the middle of the pupil alone has one phase.
 /// Not scaled. Errors as there, and Error(usage) for a film distance.
-std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
-                                                          std::span<const Camera> cameras,
-                                                          const PlaneWaveCameraOptions& options = {},
-                                                          const Progress& progress = {});
+HOGEL_API std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
+                                                                    std::span<const Camera> cameras,
+                                                                    const PlaneWaveCameraOptions& options = {},
+                                                                    const Progress& progress = {});
 
 /// Photographs a hologram by direct summation: every sample of the hologram to every point of the pupil, and every
 /// point of the pupil to every pixel, with no approximation but scalar waves. Cost: hologram samples × pupil points;
 /// for tests and small holograms.
-Image photograph_directly(const FieldSource& hologram, const Camera& camera, std::size_t pupil_points_across,
-                          std::size_t subpixels = 1);
+HOGEL_API Image photograph_directly(const FieldSource& hologram, const Camera& camera, std::size_t pupil_points_across,
+                                    std::size_t subpixels = 1);
 
 /// Width λR/A of the smallest detail on the hologram that a camera resolves, metres.
-double resolution_cell(const Camera& camera, double wavelength);
+HOGEL_API double resolution_cell(const Camera& camera, double wavelength);
 
 }  // namespace hogel

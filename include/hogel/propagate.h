@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/progress.h"
 #include "hogel/resources.h"
@@ -19,11 +20,11 @@ struct PropagateOptions {
 /// spectrum, [K] 6.1.1, with room around the field: the result has all directions that bring light from one end of the
 /// grid to the other; steeper ones fade out and do not wrap around. Throws Error(usage) for a distance that is not
 /// finite.
-Field propagate(const FieldSource& field, double distance, const PropagateOptions& options = {},
-                const Progress& progress = {});
+HOGEL_API Field propagate(const FieldSource& field, double distance, const PropagateOptions& options = {},
+                          const Progress& progress = {});
 
 /// Writes the propagated field to a sink, which need not be in memory. Calls finish().
-void propagate(const FieldSource& field, double distance, FieldSink& sink, const PropagateOptions& options = {},
-               const Progress& progress = {});
+HOGEL_API void propagate(const FieldSource& field, double distance, FieldSink& sink,
+                         const PropagateOptions& options = {}, const Progress& progress = {});
 
 }  // namespace hogel

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/progress.h"
 #include "hogel/shading.h"
@@ -33,6 +34,6 @@ struct SceneHologramMethod {
 };
 
 /// All methods by name, and those that a program adds.
-Table<SceneHologramMethod>& scene_hologram_methods();
+HOGEL_API Table<SceneHologramMethod>& scene_hologram_methods();
 
 }  // namespace hogel

@@ -10,7 +10,8 @@ Table<SceneHologramMethod>& scene_hologram_methods() {
         "method from a scene to a hologram",
         {
             {"points", "spherical waves of points on all surfaces, exact, without occlusion", exact_points},
-            {"points-visible", "the same with a ray for each point and sample", exact_visible_points},
+            {"points-visible", "spherical waves of points, with occlusion by a ray for each point and sample",
+             exact_visible_points},
             {"points-tiled", "points with occlusion, by tiles and a table", tiled_points},
             {"points-hpo", "horizontal parallax only: lines of the hologram, each of its own height", horizontal_lines},
             {"edges", "points along edges, without occlusion", points_along_edges},
@@ -19,7 +20,7 @@ Table<SceneHologramMethod>& scene_hologram_methods() {
             {"fresnel", "depth planes, one transform each, without occlusion", fresnel_planes},
             {"planes", "depth planes from back to front, each hiding those behind it", occluding_planes},
             {"polygons", "tilted polygons, rotated in frequency space, without occlusion", tilted_polygons},
-            {"polygons-visible", "the same from back to front, each hiding those behind it", occluding_polygons},
+            {"polygons-visible", "tilted polygons from back to front, each hiding those behind it", occluding_polygons},
         });
     return methods;
 }

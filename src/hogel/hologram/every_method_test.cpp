@@ -59,7 +59,7 @@ Array<Complex, 2> whole(const FieldSource& source, std::size_t look = 0) {
 }
 
 // The intensity of a hologram's light along a line in x through a point, from −reach to +reach of it in steps of
-// reach/80: a direct sum over samples and the mean over looks. The hologram is a strip, whose rows say much the same.
+// reach/80: a direct sum over samples and the mean over looks. The hologram is a strip, whose rows are much the same.
 std::vector<double> focus_of(const FieldSource& source, const Vec3& point, double reach) {
     const Grid& plane = source.grid().plane;
     const double k = 2 * std::numbers::pi / source.grid().wavelength;
@@ -253,8 +253,8 @@ class DiffuseMethod : public EveryMethod {
     }
 };
 
-// No method makes light brighter or darker than the light field says, at any depth.
-TEST_P(DiffuseMethod, photographs_a_uniform_plane_as_bright_as_it_is) {
+// No method changes the brightness of the light field, at any depth.
+TEST_P(DiffuseMethod, photographs_a_uniform_plane_with_its_own_radiance) {
     for (double depth : {0.0, 0.4e-3, 1.5e-3, -3e-3}) {
         const Card card{depth};
         const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
@@ -299,7 +299,7 @@ TEST(OverlapAdd, neighbouring_parallax_is_the_largest_depth_times_the_step_of_di
 }
 
 // A fan of directions to one side, as of an off-axis camera: as bright as the same fan straight ahead.
-TEST(OverlapAdd, an_off_axis_plane_photographs_as_bright_as_it_is) {
+TEST(OverlapAdd, an_off_axis_plane_photographs_with_its_own_radiance) {
     for (const double center : {0.5, -0.5}) {
         LightFieldGrid grid{100, 60, 4.8_um, 9, 9, Perspective{0.09, 0.09}, 1};
         grid.range().center_u = center;

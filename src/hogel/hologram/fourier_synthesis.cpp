@@ -14,7 +14,7 @@ using Complex = std::complex<float>;
 
 class FourierSynthesis final : public HogelSynthesis {
   public:
-    /// @param lines  lines of each hogel, with horizontal parallax only; 0: a square with both
+    /// @param lines  of each hogel, for horizontal parallax only; 0: a square with both parallaxes
     FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options, Phases phases,
                      LobeAverage average)
         : options_(options),
@@ -47,7 +47,7 @@ class FourierSynthesis final : public HogelSynthesis {
             return fast_->synthesise(moduli, phase_series(options_, place.s, place.t, place.look), place.look, to,
                                      to_row);
         if (lines_ == 0) return transform(moduli, place, room, to, to_row);
-        // Lines do not know of each other.
+        // Lines are independent.
         for (std::size_t line = 0; line < lines_; ++line)
             transform(moduli, {place.s, place.t * lines_ + line, place.look},
                       {&room(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
@@ -75,7 +75,8 @@ class FourierSynthesis final : public HogelSynthesis {
         fft_.backward(values, to, to_row);
     }
 
-    // Where all hogels have the same phases, lines still differ: alike they would send light straight ahead alone.
+    // Where all hogels share phases, each line still has one of its own: equal lines would send light straight ahead
+    // alone.
     Complex phase_of_line(const HogelPlace& place) const {
         const float one = 1;
         Complex phase;
@@ -89,7 +90,7 @@ class FourierSynthesis final : public HogelSynthesis {
     std::size_t lines_;
     math::Fft2 fft_;
     DirectionPhases directions_;     // empty where every hogel has phases of its own
-    std::optional<FastTiles> fast_;  // where a hogel's side is one of its own
+    std::optional<FastTiles> fast_;  // for the sides of hogels that it supports
 };
 
 }  // namespace

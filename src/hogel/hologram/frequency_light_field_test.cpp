@@ -48,7 +48,7 @@ TEST(FrequencyGridLightField, is_not_resampled_and_agrees_with_one_in_perspectiv
         }
 }
 
-TEST(FrequencyGridLightField, photographs_alike_by_waves_and_by_rays) {
+TEST(FrequencyGridLightField, has_the_same_photograph_by_waves_and_by_rays) {
     const double wavelength = 633_nm, pitch = 50_um, step = wavelength / pitch;
     LightFieldGrid sines{24, 24, pitch, 17, 17, Perspective{8.5 * step, 8.5 * step}, 1};
     sines.view = Frequencies{sines.range()};

@@ -67,7 +67,7 @@ class Stereogram final : public FieldSource {
             return;
         }
         const View<const float, 5> whole = rays_in_memory(hogels);
-        // What one look alone needs stays in the cache, a few hogels at a time.
+        // A few hogels at a time, so that what one look needs stays in the processor's cache.
         const std::size_t values = synthesis_->prepared_size();
         if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
         for_each_band(hogels, [&](const HogelRange& band) {
@@ -87,32 +87,33 @@ class Stereogram final : public FieldSource {
 
   private:
     static constexpr std::size_t hogels_together = 16;
-    // A region has hundreds of hogels, whose rays may be gigabytes: so many are read at a time, or one row of hogels.
+    // A region has hundreds of hogels, whose rays may be gigabytes: at most this much is read at a time, or one row of
+    // hogels.
     static constexpr std::size_t max_ray_bytes = std::size_t{1} << 27;
 
     const LightFieldGrid& front() const { return light_field_.grid(); }
     std::span<const LightField::Source> faces() const { return light_field_.faces(); }
 
-    // What a region is made in.
+    // Buffers for one region.
     struct Room {
         std::vector<LightFieldTile> rays;  // of each face
         Array<float, 2> prepared;          // [hogels_together][...]
         Array<Complex, 2> square;          // a hogel
     };
 
-    // All rays where they lie, if they need not be read: in memory, and those of the hogels one after the other.
+    // All rays in place, where the source has them in memory and those of the hogels follow each other; else empty.
     View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
         if (faces().size() > 1 || with_depth_ || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
         return light_field_.front().in_memory();
     }
 
-    // Rows of hogels whose rays are read at once, from the first to the last.
+    // Calls use(range) for bands of rows of hogels whose rays are read at once, from the first to the last.
     template <class Use>
     void for_each_band(const HogelRange& hogels, const Use& use) const {
         const std::size_t values = front().channels + (with_depth_ ? 1 : 0);
         const std::size_t row_bytes = hogels.ns * rays_ * values * sizeof(float);
-        const std::size_t most = std::max<std::size_t>(1, max_ray_bytes / row_bytes);
-        const std::size_t bands = (hogels.nt + most - 1) / most, rows = (hogels.nt + bands - 1) / bands;
+        const std::size_t max_rows = std::max<std::size_t>(1, max_ray_bytes / row_bytes);
+        const std::size_t bands = (hogels.nt + max_rows - 1) / max_rows, rows = (hogels.nt + bands - 1) / bands;
         for (std::size_t t = 0; t < hogels.nt; t += rows)
             use(HogelRange{hogels.s0, hogels.t0 + t, hogels.ns, std::min(rows, hogels.nt - t)});
     }
@@ -128,7 +129,7 @@ class Stereogram final : public FieldSource {
         }
     }
 
-    // Hogels number first, first + 1, ... of the tiles, in each of which they lie one after the other, row by row.
+    // Prepares hogels number first, first + 1, ... of the tiles, each of which holds them row by row.
     void prepare(std::span<const LightFieldTile> tiles, std::size_t first, View<float, 2> prepared) const {
         const Shape<2> rays{prepared.extent(0), rays_};
         if (tiles.size() > 1) {
@@ -148,7 +149,7 @@ class Stereogram final : public FieldSource {
                             tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
     }
 
-    // The parts that the region asks for of hogels number first, first + 1, ... of a range.
+    // Writes the parts of hogels number first, first + 1, ... of a range that lie in the region.
     void write(View<const float, 2> prepared, const HogelRange& hogels, std::size_t first, std::size_t look,
                const Region& region, View<Complex, 2> square, View<Complex, 2> out) const {
         for (std::size_t i = 0; i < prepared.extent(0); ++i) {

@@ -73,7 +73,7 @@ void require_supported(std::span<const LightFieldGrid> faces, const HologramOpti
     const bool sides = std::holds_alternative<Fourier>(options.method) || std::holds_alternative<Lines>(options.method);
     if (faces.size() > 1 && !sides)
         throw Error(ErrorCode::usage,
-                    fmt::format("a hemicube of {} faces needs the method fourier or lines; others expect a light field "
+                    fmt::format("a hemicube of {} faces needs the method fourier or lines; others take a light field "
                                 "of one face",
                                 faces.size()));
     if (needs_depth(options.method))

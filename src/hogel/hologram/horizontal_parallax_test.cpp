@@ -15,7 +15,7 @@ namespace {
 
 using namespace literals;
 
-// A small square behind the hologram: seen from the side it lies where geometry says, from above still at its own
+// A small square behind the hologram: seen from the side it lies at its geometric place, from above still at its own
 // height. x is in focus at the square's depth, y on the hologram.
 TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_on_the_hologram) {
     const double depth = 8_mm, half = 64_um;
@@ -56,8 +56,8 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
     EXPECT_NEAR(seen(0, above, 0).y, 0, 6_um);
 }
 
-// A ball beyond the front's edge, on a side of a hemisquare: where geometry says across, at its own height up and down,
-// and as wide as what a hogel diffracts.
+// A ball beyond the front's edge, on a side of a hemisquare: at its geometric place across, at its own height up and
+// down, and as wide as what a hogel diffracts.
 TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
     const LightFieldGrid grid{16, 12, 36_um, 64, 1, Perspective{1, 0.1}, 1};
     for (const double side : {1.0, -1.0}) {
@@ -114,7 +114,7 @@ TEST(HorizontalParallax, is_as_bright_as_the_light_field_for_every_line_pitch) {
         options.looks = 6;
         Camera camera;
         camera.eye = {5_mm, 0, 100_mm};
-        camera.pupil = 2.5_mm;  // hogels that are alike send light in directions λ/d apart, 0.4 mm there
+        camera.pupil = 2.5_mm;  // equal hogels send light in directions λ/d apart, 0.4 mm there
         camera.picture = {8, 8, 100_um, 100_um, 0, 0};
         const auto hologram = make_hologram(light, options);
         EXPECT_NEAR(mean_of(photograph(*hologram, std::span(&camera, 1))[0]), 0.7, 0.04) << line_pitch;

@@ -130,7 +130,7 @@ TEST(HologramGrid, refuses_faces_that_are_not_those_of_a_light_field) {
     expect_usage([&] { hologram_grid(mixed, options); }, "other hogels");
 }
 
-TEST(MakeHologram, sides_of_a_hemicube_need_a_method_that_knows_them) {
+TEST(MakeHologram, sides_of_a_hemicube_need_a_method_that_supports_them) {
     const LightField cube = hemicube_of({2, 2, 36_um, 8, 8, Perspective{1, 1}, 1}, [](Vec3, Vec3) { return 1.0; });
     for (const HologramMethod& method :
          {HologramMethod(Basis{}), HologramMethod(PhaseAdded{}), HologramMethod(OverlapAdd{})})

@@ -5,8 +5,8 @@
 
 namespace hogel::hologram {
 
-/// More than about this many samples of parallax between neighbouring directions is more than overlapping windows bear:
-/// the windows that show one point no longer touch, and its focus gets side lobes.
+/// The parallax between neighbouring directions, in samples, that overlapping windows bear: beyond it the windows that
+/// show one point no longer touch, and its focus gets side lobes.
 inline constexpr double max_parallax = 4;
 
 /// How far, in samples of a hologram of this pitch, neighbouring directions see the same surface apart: |ζ|ΔU/Δ for the

@@ -82,14 +82,14 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
         double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));
         double cycles = 0;
         if (std::isfinite(depth)) {
-            // On the plane itself the rays of a hogel meet one point, but are no more in phase than nearby.
+            // On the plane itself all rays of a hogel meet one point; they stay as independent as close to it.
             if (std::abs(depth) < SurfaceCells::shallowest) depth = std::copysign(SurfaceCells::shallowest, depth);
             const SurfaceCell cell = cells_.find(s + U * depth, t + V * depth, depth, look);
             U = (cell.x - s) / cell.depth;
             V = (cell.y - t) / cell.depth;
             cycles = cell.cycles + cell.depth * std::sqrt(1 + U * U + V * V) / wavelength_;
         } else {
-            // Nothing is a surface far away: neighbouring hogels see different cells of it.
+            // A ray that meets nothing sees a surface far away, of which neighbouring hogels see different cells.
             cycles = cells_.find(s + U, t + V, 1.0, look).cycles;
         }
         const double to_frequency = pitch_ / (wavelength_ * std::sqrt(1 + U * U + V * V));

@@ -58,8 +58,8 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
     const Grid& plane = chain.hologram.grid().plane;
     const Vec3 lens = cameras[eye.members.front()].eye;
     const double pupil = edge_room * eye.pupil;
-    // What a focus behind the hologram spreads over, or a picture larger than it, must not come in again at the other
-    // side of the window. A plane that is tilted afterwards has as much room again.
+    // The window has room for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
+    // around to the other side. A plane that is tilted afterwards has as much room again.
     double spread = std::max(1.0, chain.options.film_distance / lens.z);
     for (std::size_t i : eye.members)
         for (const Vec3& corner : corners(plane))
@@ -106,13 +106,13 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
         half_x = std::max(half_x, std::abs(dot(p - origin, axes.x)));
         half_y = std::max(half_y, std::abs(dot(p - origin, axes.y)));
         for (const Vec3& edge : corners({1, 1, pupil, pupil, camera.eye.x, camera.eye.y})) {
-            const Vec3 way = normalize(Vec3{edge.x, edge.y, camera.eye.z} - p) / waves.wavelength;
-            const double fx = dot(way, axes.x), fy = dot(way, axes.y);
+            const Vec3 direction = normalize(Vec3{edge.x, edge.y, camera.eye.z} - p) / waves.wavelength;
+            const double fx = dot(direction, axes.x), fy = dot(direction, axes.y);
             band = {std::min(band.low_x, fx), std::max(band.high_x, fx), std::min(band.low_y, fy),
                     std::max(band.high_y, fy)};
         }
     }
-    // Of what is out of focus there the light spreads over more.
+    // Light that is out of focus there spreads over more.
     const double size_x = 4 * half_x + pupil, size_y = 4 * half_y + pupil;
     const auto samples = [&](double size, double low, double high) {
         return film_samples(static_cast<std::size_t>(std::ceil(size * (high - low))), size, camera.pupil, nearest,
@@ -124,9 +124,9 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
     return wave_of(tilt(waves, axes, window, band, scratch), width, height, scratch);
 }
 
-// What a perfect lens makes of the wave in its opening: the wave that would come from the plane in focus, were there
-// nothing else. So light goes back to that plane, through nothing; the film shows it as large as the film is. A thin
-// lens instead bends the light towards a film behind it, for good or ill.
+// The wave on the film. A perfect lens shows the wave of the plane in focus as if nothing lay before it: the wave in
+// the opening is propagated back to that plane through empty space. A thin lens bends the light towards a film behind
+// it, with its aberrations.
 Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
                       const PlaneWaveCameraOptions& options) {
     const double wavelength = at_lens.wavelength, R = camera.eye.z;
@@ -135,7 +135,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     const Grid& window = at_lens.window;
     const auto samples = [&](std::size_t columns, double size) {
         if (b == 0) return film_samples(columns, size, camera.pupil, R, wavelength);
-        // The lens bends by so much more than what comes to it.
+        // Columns for the frequencies that the lens adds to those of the wave.
         const auto bent = static_cast<std::size_t>(size * edge_room * camera.pupil / (wavelength * focal_length));
         return film_samples(columns + bent, size, camera.pupil, b, wavelength);
     };
@@ -188,7 +188,7 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                                                (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
-                    // Interpolation dark samples the cubic may fall below zero.
+                    // Between dark samples the cubic may fall below zero.
                     const double value = std::max(
                         0.0f, film::cubic_at(samples.extent(0), samples.extent(1),
                                              plane.row(plane.center_y + dot(aside, focused.axes.y)),
@@ -202,7 +202,7 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
 }
 
 // e^{2πi cycles}.
-std::complex<float> turned(double cycles) {
+std::complex<float> phasor(double cycles) {
     return std::polar(1.0f, static_cast<float>(2 * std::numbers::pi * (cycles - std::floor(cycles))));
 }
 
@@ -215,9 +215,9 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
     // Without its carrier the wave varies slowly enough to be interpolated.
     std::vector<std::complex<float>> across(plane.width), up(plane.height);
     for (std::size_t i = 0; i < plane.width; ++i)
-        across[i] = turned(-wave.carrier_x * (plane.x(static_cast<double>(i)) - plane.center_x));
+        across[i] = phasor(-wave.carrier_x * (plane.x(static_cast<double>(i)) - plane.center_x));
     for (std::size_t j = 0; j < plane.height; ++j)
-        up[j] = turned(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
+        up[j] = phasor(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
     Array<std::complex<float>, 2> result({picture.height, picture.width});
     core::parallel_for(picture.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < picture.width; ++column) {
@@ -231,7 +231,7 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
                                [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
             const double cycles =
                 wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
-            result(row, column) = slow * turned(cycles);
+            result(row, column) = slow * phasor(cycles);
         }
     });
     return result;

@@ -122,7 +122,7 @@ TEST(Photograph, a_diffuse_field_has_its_radiance_from_everywhere) {
         }
 }
 
-TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
+TEST(Photograph, averages_looks) {
     const FieldGrid grid{{300, 200, 5_um, 5_um, 0, 0}, 532_nm};
     const Field field = spherical_wave(grid, {0, 0, -5e-3});
     // Two looks that are the same field: their average is each of them.
@@ -146,7 +146,7 @@ TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
 }
 
 // The chain of plane waves against the narrow band: speckle for speckle the same picture, on axis and at 20°.
-TEST(Photograph, by_the_full_chain_is_the_same_picture) {
+TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera) {
     const FieldGrid grid{{1300, 1200, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
     const Field field = random_field(grid, 8);
     std::vector<Camera> cameras;
@@ -162,14 +162,14 @@ TEST(Photograph, by_the_full_chain_is_the_same_picture) {
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         // Aslant it is 0.9994 where the pupil's disc is not bent among the frequencies.
         EXPECT_GT(correlation(narrow[c], full[c]), 0.9997) << c;
-        // What light leaves the film at one side comes in again at the other in the narrow band alone.
+        // Only in the narrow band, light that leaves the film at one side wraps around to the other.
         EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 7e-3) << c;
     }
 }
 
 // The waves behind the full chain's picture: their squares are its speckle, and of the wave that comes from a point the
-// phase is that of the light's way, once around for each wavelength, wherever the point lies.
-TEST(Photograph, waves_in_focus_have_the_phases_of_their_ways) {
+// phase is that of the light's path, a cycle for each wavelength, wherever the point lies.
+TEST(WavesInFocus, have_the_phases_of_their_paths) {
     Camera camera;
     camera.eye = {6_mm, -3_mm, 60_mm};
     camera.pupil = 3_mm;
@@ -197,9 +197,9 @@ TEST(Photograph, waves_in_focus_have_the_phases_of_their_ways) {
     EXPECT_THROW(waves_in_focus(any, 0, std::span(&camera, 1), film), Error);
 }
 
-// A plane in focus that is tilted is one plane wave for another in the full chain, and a phase of the pupil that
+// A plane in focus that is tilted is one plane wave for another in the plane-wave camera, and a phase of the pupil that
 // depends on the direction in the narrow band.
-TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
+TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera_on_a_tilted_plane) {
     const FieldGrid grid{{700, 640, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
     const Field field = random_field(grid, 9);
     for (const Vec3 eye : {Vec3{0, 0, 50_mm}, Vec3{12_mm, -4_mm, 50_mm}}) {
@@ -221,7 +221,7 @@ TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
 
 // A thin lens and a film behind it make the picture that a perfect lens makes, where the pupil is so narrow that a
 // parabola is a sphere, whatever the film's distance; and another one through a wide pupil.
-TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
+TEST(PhotographByPlaneWaves, a_thin_lens_is_perfect_for_a_narrow_pupil) {
     const FieldGrid grid{{280, 250, 1.5_um, 1.5_um, 50_um, 0}, 633_nm};
     const Field field = random_field(grid, 10);
     const auto alike = [&](double pupil, double focus, double film_distance) {
@@ -244,7 +244,7 @@ TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
 
 // With little memory a hologram is photographed window by window and a camera at a time: the same picture, but for what
 // light falls far from its place.
-TEST(Photograph, in_windows_is_the_same_picture) {
+TEST(Photograph, window_by_window_is_the_same_picture) {
     const FieldGrid grid{{8000, 150, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
     const Field field = random_field(grid, 6);
     std::vector<Camera> cameras(2);
@@ -270,8 +270,8 @@ TEST(Photograph, no_camera_takes_no_photograph) {
     EXPECT_TRUE(photograph(Field({{100, 100, 2_um, 2_um, 0, 0}, 633_nm}), {}).empty());
 }
 
-// What a wide lens takes of a large hologram: the plan keeps within its bound whatever is asked of it.
-TEST(Photograph, plans_keep_within_the_memory_or_say_which_pupil_does) {
+// A wide lens and a large hologram: every plan keeps within its bound.
+TEST(PhotographPlan, keeps_within_the_memory_or_names_a_pupil_that_does) {
     const FieldGrid grid{{12800, 12800, 1.5625_um, 1.5625_um, 0, 0}, 460_nm};
     std::vector<Camera> cameras(6);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -295,7 +295,7 @@ TEST(Photograph, plans_keep_within_the_memory_or_say_which_pupil_does) {
     }
 }
 
-TEST(Photograph, an_eye_where_no_light_goes_is_refused_with_a_pitch_that_would_do) {
+TEST(RequireLightTowards, names_a_pitch_that_sends_light_to_the_eye) {
     const FieldGrid grid{{100, 100, 2_um, 2_um, 0, 0}, 633_nm};
     Camera camera;
     camera.eye = {0, 30_mm, 100_mm};
@@ -313,7 +313,7 @@ TEST(Photograph, an_eye_where_no_light_goes_is_refused_with_a_pitch_that_would_d
     require_light_towards(grid, camera);
 }
 
-TEST(Photograph, a_pupil_too_wide_for_the_pitch_is_refused_with_one_that_would_do) {
+TEST(Photograph, names_a_pupil_that_would_do_where_one_is_too_wide_for_the_pitch) {
     const FieldGrid grid{{64, 64, 20_um, 20_um, 0, 0}, 633_nm};
     const Field field(grid);
     Camera camera;

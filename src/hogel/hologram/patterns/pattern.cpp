@@ -77,25 +77,25 @@ void normalise(Array<Complex, 2>& field, double clip) {
     }
 }
 
-float turns_of(Complex value) {
-    const float turns = std::arg(value) * static_cast<float>(0.5 / std::numbers::pi);
-    return turns < 0 ? turns + 1 : turns;
+float cycles_of(Complex value) {
+    const float cycles = std::arg(value) * static_cast<float>(0.5 / std::numbers::pi);
+    return cycles < 0 ? cycles + 1 : cycles;
 }
 
 Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     if (options.encoding == Encoding::gerchberg_saxton) return iterate_phases(field, options, progress);
     if (options.encoding == Encoding::gradient) return descend_phases(field, options, progress);
-    Array<float, 2> turns(field.shape());
+    Array<float, 2> cycles(field.shape());
     for (std::size_t y = 0; y < field.extent(0); ++y)
         for (std::size_t x = 0; x < field.extent(1); ++x) {
-            turns(y, x) = turns_of(field(y, x));
+            cycles(y, x) = cycles_of(field(y, x));
             if (options.encoding != Encoding::double_phase) continue;
             const auto spread =
                 static_cast<float>(std::acos(std::min(1.0f, std::abs(field(y, x)))) * (0.5 / std::numbers::pi));
-            turns(y, x) += (x + y) % 2 == 0 ? spread : -spread;
-            turns(y, x) -= std::floor(turns(y, x));
+            cycles(y, x) += (x + y) % 2 == 0 ? spread : -spread;
+            cycles(y, x) -= std::floor(cycles(y, x));
         }
-    return turns;
+    return cycles;
 }
 
 Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases) {

@@ -57,7 +57,7 @@ TEST_P(OverlapAddHologram, batches_of_windows_equal_windows_one_by_one) {
                 error += std::norm(plain.data()[i] - fast.data()[i]);
             }
             EXPECT_GT(signal, 0);
-            EXPECT_LT(std::sqrt(error / signal), 1e-3) << hop;  // the plain way takes phases from a table of 67 dB
+            EXPECT_LT(std::sqrt(error / signal), 1e-3) << hop;  // the plain version takes phases from a table of 67 dB
         }
 }
 

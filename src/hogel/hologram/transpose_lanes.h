@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen rows of sixteen numbers turned into columns, for files that are compiled once for every instruction set;
+// The transpose of sixteen rows of sixteen numbers, for files that are compiled once for every instruction set;
 // included after hwy/highway.h.
-#if defined(HOGEL_HOLOGRAM_TURN_LANES) == defined(HWY_TARGET_TOGGLE)
-#ifdef HOGEL_HOLOGRAM_TURN_LANES
-#undef HOGEL_HOLOGRAM_TURN_LANES
+#if defined(HOGEL_HOLOGRAM_TRANSPOSE_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef HOGEL_HOLOGRAM_TRANSPOSE_LANES
+#undef HOGEL_HOLOGRAM_TRANSPOSE_LANES
 #else
-#define HOGEL_HOLOGRAM_TURN_LANES
+#define HOGEL_HOLOGRAM_TRANSPOSE_LANES
 #endif
 
 #include <hwy/highway.h>
@@ -18,14 +18,14 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 template <class From, class To>
-void turn_sixteen(const From& from, std::size_t columns, const To& to) {
+void transpose_sixteen(const From& from, std::size_t columns, const To& to) {
     for (std::size_t j = 0; j < columns; ++j)
         for (std::size_t i = 0; i < 16; ++i) to(j)[i] = from(i)[j];
 }
 #else
 // Four numbers each of four rows.
-HWY_INLINE void turn_four(const float* a, const float* b, const float* c, const float* e, float* out0, float* out1,
-                          float* out2, float* out3) {
+HWY_INLINE void transpose_four(const float* a, const float* b, const float* c, const float* e, float* out0, float* out1,
+                               float* out2, float* out3) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::FixedTag<float, 4> d;
     const auto va = hn::LoadU(d, a), vb = hn::LoadU(d, b), vc = hn::LoadU(d, c), ve = hn::LoadU(d, e);
@@ -39,7 +39,7 @@ HWY_INLINE void turn_four(const float* a, const float* b, const float* c, const 
 
 // from(i) is where row i begins, to(j) where column j goes, for j < columns alone.
 template <class From, class To>
-HWY_INLINE void turn_sixteen(const From& from, std::size_t columns, const To& to) {
+HWY_INLINE void transpose_sixteen(const From& from, std::size_t columns, const To& to) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::FixedTag<float, 16> d;
@@ -77,8 +77,8 @@ HWY_INLINE void turn_sixteen(const From& from, std::size_t columns, const To& to
     std::size_t j = 0;
     for (; j < columns / 4 * 4; j += 4)
         for (std::size_t i = 0; i < 16; i += 4)
-            turn_four(from(i) + j, from(i + 1) + j, from(i + 2) + j, from(i + 3) + j, to(j) + i, to(j + 1) + i,
-                      to(j + 2) + i, to(j + 3) + i);
+            transpose_four(from(i) + j, from(i + 1) + j, from(i + 2) + j, from(i + 3) + j, to(j) + i, to(j + 1) + i,
+                           to(j + 2) + i, to(j + 3) + i);
     for (; j < columns; ++j)
         for (std::size_t i = 0; i < 16; ++i) to(j)[i] = from(i)[j];
 #endif

@@ -29,9 +29,9 @@ LightFieldBuffer uniform(const LightFieldGrid& grid, float radiance) {
 
 const LightFieldGrid small{8, 6, 64_um, 24, 24, Perspective{0.15, 0.15}, 1};
 
-// One direction alone makes one plane wave, which runs the way the ray does: e^{2πi (f_x x + f_y y)} with
+// One direction alone makes one plane wave, in the direction of the ray: e^{2πi (f_x x + f_y y)} with
 // f = −(U,V)/(λ√(1+U²+V²)), over every hogel, with |F|² = L (λ/d)²/cos θ.
-TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) {
+TEST(FourierHologram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) {
     HologramOptions options;
     options.channel.wavelength = 633_nm;
     options.pitch = 2_um;
@@ -47,32 +47,32 @@ TEST(Stereogram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) 
                l = static_cast<std::size_t>(std::lround(75 - V / grid.step_v()));
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s) light_field.radiance(0, t, s, l, k) = 1;
-    const auto stereogram = make_hologram(borrow(light_field), options);
-    const Grid& plane = stereogram->grid().plane;
+    const auto hologram = make_hologram(borrow(light_field), options);
+    const Grid& plane = hologram->grid().plane;
     Array<Complex, 2> field({plane.height, plane.width});
-    stereogram->read({0, 0, plane.width, plane.height}, 0, field);
+    hologram->read({0, 0, plane.width, plane.height}, 0, field);
     // The mean over the lobe of a single sample's hat: its share of the lobe's area.
     const double lobe = step / (grid.step_u() * cosine) * (1 + U * U) * step / (grid.step_v() * cosine) * (1 + V * V);
     const double modulus = std::sqrt(step * step / cosine / lobe);
-    const std::size_t n = stereogram->alignment();
+    const std::size_t n = hologram->alignment();
     ASSERT_EQ(n, 32u);
     for (std::size_t y = 0; y < plane.height; ++y)
         for (std::size_t x = 0; x < plane.width; ++x) {
             const std::size_t x0 = x / n * n, y0 = y / n * n;  // the hogel's first sample has its random phase
-            const double turns = 3 / small.pitch * (plane.x(double(x)) - plane.x(double(x0))) -
-                                 2 / small.pitch * (plane.y(double(y)) - plane.y(double(y0)));
-            const auto expected = std::complex<double>(field(y0, x0)) * std::polar(1.0, 2 * std::numbers::pi * turns);
+            const double cycles = 3 / small.pitch * (plane.x(double(x)) - plane.x(double(x0))) -
+                                  2 / small.pitch * (plane.y(double(y)) - plane.y(double(y0)));
+            const auto expected = std::complex<double>(field(y0, x0)) * std::polar(1.0, 2 * std::numbers::pi * cycles);
             ASSERT_LT(std::abs(std::complex<double>(field(y, x)) - expected), 1e-4 * modulus) << x << " " << y;
             ASSERT_NEAR(std::abs(field(y, x)), modulus, 1e-3 * modulus);
         }
 }
 
 // Parseval: the mean of |F|² over a hogel is Σ_j L (λ/d)²/cos θ_j.
-TEST(Stereogram, carries_the_energy_of_its_light_field) {
+TEST(FourierHologram, carries_the_energy_of_its_light_field) {
     const LightFieldBuffer light_field = uniform(small, 0.7f);
     HologramOptions options;
     options.pitch = 1.6_um;  // 40 samples a hogel
-    const auto stereogram = make_hologram(borrow(light_field), options);
+    const auto hologram = make_hologram(borrow(light_field), options);
     const double step = options.channel.wavelength / small.pitch;
     double expected = 0;
     for (int j = -19; j <= 19; ++j)
@@ -86,26 +86,26 @@ TEST(Stereogram, carries_the_energy_of_its_light_field) {
             expected += 0.7 * lit(i * step) * lit(j * step) * step * step / cosine;
         }
     Array<Complex, 2> hogel({40, 40});
-    stereogram->read({80, 40, 40, 40}, 0, hogel);
+    hologram->read({80, 40, 40, 40}, 0, hogel);
     double energy = 0;
     for (const Complex& value : hogel.elements()) energy += std::norm(value) / 1600;
     EXPECT_NEAR(energy / expected, 1, 1e-4);
 }
 
-TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_look_or_seed) {
+TEST(FourierHologram, has_the_same_bytes_in_any_tiling_and_other_phases_for_another_look_or_seed) {
     LightFieldBuffer light_field(small);
     for (std::size_t i = 0; i < light_field.radiance.size(); ++i) light_field.radiance.data()[i] = float(i % 97) / 97;
     HologramOptions options;
     options.pitch = 1.6_um;
     options.looks = 2;
-    const auto stereogram = make_hologram(borrow(light_field), options);
-    const Grid& plane = stereogram->grid().plane;
+    const auto hologram = make_hologram(borrow(light_field), options);
+    const Grid& plane = hologram->grid().plane;
     Array<Complex, 2> whole({plane.height, plane.width});
-    stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
+    hologram->read({0, 0, plane.width, plane.height}, 0, whole);
     for (const Region& region :
          {Region{0, 0, 40, 40}, Region{13, 29, 101, 77}, Region{319, 239, 1, 1}, Region{40, 80, 80, 40}}) {
         Array<Complex, 2> part({region.height, region.width});
-        stereogram->read(region, 0, part);
+        hologram->read(region, 0, part);
         for (std::size_t y = 0; y < region.height; ++y)
             for (std::size_t x = 0; x < region.width; ++x)
                 ASSERT_EQ(part(y, x), whole(region.y0 + y, region.x0 + x)) << x << " " << y;
@@ -122,13 +122,13 @@ TEST(Stereogram, gives_the_same_bytes_in_any_tiling_and_other_phases_in_another_
         }
         return std::abs(ab) / std::sqrt(aa * bb);
     };
-    EXPECT_NEAR(correlation(*stereogram, 0), 1, 1e-6);
-    EXPECT_LT(correlation(*stereogram, 1), 0.03);
+    EXPECT_NEAR(correlation(*hologram, 0), 1, 1e-6);
+    EXPECT_LT(correlation(*hologram, 1), 0.03);
     options.seed = 2;
     EXPECT_LT(correlation(*make_hologram(borrow(light_field), options), 0), 0.03);
 }
 
-// Rays that are made where they are asked for, and notes of how many were asked for at once.
+// Rays computed on demand, which records how many were read at once.
 struct CountingSource final : LightFieldSource {
     LightFieldGrid sampled;
     mutable std::size_t max_bytes = 0, hogels = 0;
@@ -149,50 +149,50 @@ struct CountingSource final : LightFieldSource {
     }
 };
 
-// However many directions hogels have, a region of the hologram asks for the rays of few at once, and each once.
-TEST(Stereogram, reads_no_more_rays_at_once_than_fit) {
+// A region of the hologram reads the rays of few hogels at once, and each once, whatever the number of directions.
+TEST(FourierHologram, reads_rays_in_bounded_batches_and_each_once) {
     const CountingSource source({16, 10, 64_um, 512, 512, Perspective{0.1, 0.1}, 1});
     ASSERT_GT(source.grid().samples() * sizeof(float), 1.2 * (1 << 27));
     for (const std::size_t looks : {1, 2}) {
         HologramOptions options;
         options.pitch = 2_um;
         options.looks = looks;
-        const auto stereogram = make_hologram(borrow(source), options);
-        const Grid& plane = stereogram->grid().plane;
+        const auto hologram = make_hologram(borrow(source), options);
+        const Grid& plane = hologram->grid().plane;
         Array<Complex, 2> whole({plane.height, plane.width}), row({32, plane.width});
         source.max_bytes = source.hogels = 0;
-        stereogram->read({0, 0, plane.width, plane.height}, 0, whole);
+        hologram->read({0, 0, plane.width, plane.height}, 0, whole);
         EXPECT_LE(source.max_bytes, std::size_t{1} << 27) << looks;
         EXPECT_EQ(source.hogels, source.grid().hogels()) << looks;
         for (const std::size_t t : {0, 4, 5, 9}) {
-            stereogram->read({0, 32 * t, plane.width, 32}, 0, row);
+            hologram->read({0, 32 * t, plane.width, 32}, 0, row);
             const auto expected = std::span(whole.data(), whole.size()).subspan(32 * t * plane.width, row.size());
             EXPECT_TRUE(std::ranges::equal(row.elements(), expected)) << looks << " " << t;
         }
     }
 }
 
-// A surface of uniform radiance is as bright from everywhere, and as bright as the light field says: no free factor.
-TEST(Stereogram, a_uniform_light_field_photographs_as_its_radiance_from_every_side) {
+// A surface of uniform radiance photographs with that radiance from everywhere: no factor is fitted.
+TEST(FourierHologram, a_uniform_light_field_photographs_as_its_radiance_from_every_side) {
     const LightFieldGrid grid{24, 24, 64_um, 30, 30, Perspective{0.3, 0.3}, 1};
     const LightFieldBuffer light_field = uniform(grid, 0.5f);
     HologramOptions options;
     options.pitch = 1_um;
     options.looks = 4;
-    const auto stereogram = make_hologram(borrow(light_field), options);
+    const auto hologram = make_hologram(borrow(light_field), options);
     for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{0.025, 0, 0.1}, Vec3{-0.01, 0.02, 0.1}}) {
         Camera camera;
         camera.eye = eye;
         camera.pupil = 5_mm;
         camera.picture = {16, 16, 64_um, 64_um, 0, 0};
-        const Image image = photograph(*stereogram, std::span(&camera, 1))[0];
+        const Image image = photograph(*hologram, std::span(&camera, 1))[0];
         double mean = 0;
         for (float value : image.pixels.elements()) mean += value / 256;
         EXPECT_NEAR(mean, 0.5, 0.02) << eye.x << " " << eye.y;
     }
 }
 
-TEST(Stereogram, a_pitch_too_coarse_for_the_field_of_view_is_refused_with_one_that_would_do) {
+TEST(MakeHologram, names_a_pitch_that_would_do_where_one_is_too_coarse_for_the_field_of_view) {
     const LightFieldBuffer light_field = uniform(small, 1);
     HologramOptions options;
     options.pitch = 4_um;  // diffracts to asin(633/8000) = 4.5 degrees, the light field reaches 8.5
@@ -209,7 +209,7 @@ TEST(Stereogram, a_pitch_too_coarse_for_the_field_of_view_is_refused_with_one_th
 }
 
 // The resampling keeps constants and, away from borders, the means of linear functions.
-TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
+TEST(FrequencyGrid, averages_linear_functions_exactly) {
     const LightFieldGrid grid{1, 1, 64_um, 41, 37, Perspective{0.14, 0.14}, 1};
     const double wavelength = 532_nm, step = wavelength / grid.pitch;
     const FrequencyGrid frequencies(grid, 32, wavelength);
@@ -230,7 +230,7 @@ TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
 HOGEL_TEST_ON_EVERY_TARGET(LobeKernels);
 HOGEL_TEST_ON_EVERY_TARGET(Transpose);
 
-TEST_P(LobeKernels, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) {
+TEST_P(LobeKernels, equals_its_plain_version_for_one_hogel_and_many) {
     const LightFieldGrid grid{1, 1, 64_um, 19, 23, Perspective{0.14, 0.12}, 1};
     const FrequencyGrid frequencies(grid, 32, 532_nm);
     const std::size_t hogels = 21;
@@ -252,7 +252,7 @@ TEST_P(LobeKernels, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) 
     }
 }
 
-TEST_P(Transpose, twins_agree_whatever_the_size) {
+TEST_P(Transpose, equals_its_plain_version_for_every_size) {
     std::mt19937 random(1);
     for (const auto& [rows, columns] :
          {std::pair<std::size_t, std::size_t>{16, 64}, {16, 37}, {5, 16}, {3, 3}, {41, 16}, {1, 50}, {64, 7}}) {
