@@ -9,8 +9,8 @@
 #include <new>
 
 #include "commands.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/resources.h"
 #include "interrupts.h"
 #include "session.h"
 

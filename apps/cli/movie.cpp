@@ -13,7 +13,6 @@
 #include <sstream>
 #include <vector>
 
-#include "hogel/core/output_file.h"
 #include "hogel/error.h"
 
 namespace hogel::cli {
