@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/shading/lighting.h"
 
