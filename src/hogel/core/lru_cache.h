@@ -71,26 +71,31 @@ class LruCache {
             isolate([&] { result = make(); });
             promise.set_value(result);
             return result;
+        } catch (const Error& error) {
+            forget(number);
+            if (error.code() == ErrorCode::cancelled)
+                promise.set_value(nullptr);
+            else
+                promise.set_exception(std::current_exception());
+            throw;
         } catch (...) {
-            {
-                const std::lock_guard lock(mutex_);
-                std::erase_if(entries_, [&](const Entry& entry) { return entry.number == number; });
-            }
+            forget(number);
             promise.set_exception(std::current_exception());
             throw;
         }
     }
 
-    // Null where the thread that made it was stopped, and this one was not.
-    static std::shared_ptr<const Result> wait(const Future& result) {
-        while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) throw_if_stopped();
-        try {
-            return result.get();
-        } catch (const Error& error) {
-            if (error.code() != ErrorCode::cancelled) throw;
-            throw_if_stopped();
-            return nullptr;
-        }
+    void forget(std::uint64_t number) {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(entries_, [&](const Entry& entry) { return entry.number == number; });
+    }
+
+    // Null where the thread that was to make the result was stopped, and this one was not.
+    static std::shared_ptr<const Result> wait(const Future& future) {
+        while (future.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) throw_if_stopped();
+        std::shared_ptr<const Result> result = future.get();
+        if (!result) throw_if_stopped();
+        return result;
     }
 
     std::size_t kept_;

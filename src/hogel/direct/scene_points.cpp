@@ -53,7 +53,8 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
         const double longest = std::max({length(b - a), length(c - b), length(a - c)});
         const auto n = static_cast<std::uint32_t>(std::max(1.0, std::ceil(longest / options.spacing)));
         const double cut = n;
-        for (std::uint32_t row = 0; row < n; ++row)
+        for (std::uint32_t row = 0; row < n; ++row) {
+            core::throw_if_stopped();
             for (std::uint32_t column = 0; column < 2 * (n - row) - 1; ++column) {
                 // Triangles of even columns stand upright, those of odd columns upside down.
                 const double third = column % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
@@ -68,6 +69,7 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
                                   static_cast<float>(std::sqrt(radiance * area)) / float(n),
                                   random_cycles(options, static_cast<std::uint32_t>(i), row, column)});
             }
+        }
     }
     return points;
 }
