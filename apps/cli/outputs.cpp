@@ -14,7 +14,7 @@ namespace {
 bool is_output_of_a_run(const std::string& name) {
     for (const char* whole : {"report.json", "report.html", "lightfield.h5", "hologram.h5"})
         if (name == whole) return true;
-    for (const char* beginning : {"photo_", "hogel_", "strip_"})
+    for (const char* beginning : {"photo_", "hogel_", "row_"})
         if (name.starts_with(beginning) && (name.ends_with(".png") || name.ends_with(".exr"))) return true;
     return false;
 }

@@ -186,7 +186,7 @@ struct PrinterImageOptions {
     bool rows = false;       ///< one picture a row of hogels, side by side, rather than one a hogel
     bool serpentine = true;  ///< whether every second row runs from the right, as a head does that goes back and forth
     double exposure = 1;     ///< what linear values are multiplied by, the same in all pictures
-    Metadata provenance = {};  ///< kept in each picture
+    Metadata provenance = {};  ///< kept in the pictures of rows; those of hogels are small and many
 };
 
 /// Writes the directions of each hogel of the front as PNG files in a folder, numbered in the order of printing

@@ -92,8 +92,7 @@ void describe(const StreamInfo& info, FileSummary& summary) {
         summary.text.emplace_back("layers", fmt::format("{} of {}", info.layers_there, info.layer_ends.size()));
         summary.text.emplace_back("layers_end_at", fmt::format("{}", fmt::join(info.layer_ends, " ")));
     }
-    if (info.version > 4)
-        summary.text.emplace_back("depth", info.depth.bytes == 0 ? "no" : info.depth_there ? "yes" : "cut off");
+    summary.text.emplace_back("depth", info.depth.bytes == 0 ? "no" : info.depth_there ? "yes" : "cut off");
     if (info.depth.bytes > 0)
         summary.numbers.insert(summary.numbers.end(), {{"depth_bytes", static_cast<double>(info.depth.bytes)},
                                                        {"depth_error_m", info.depth.error}});

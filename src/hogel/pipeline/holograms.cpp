@@ -41,9 +41,10 @@ std::string warning_about(const LightField& light_field, const HologramRequest& 
     const auto enough = [&](std::size_t count) {
         return std::ceil(static_cast<double>(count) * parallax / hologram::max_parallax);
     };
-    return fmt::format("neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap well up "
-                       "to {:.0f}; {}x{} directions would do",
-                       parallax, hologram::max_parallax, enough(grid.directions_u), enough(grid.directions_v));
+    return fmt::format(
+        "neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap well up "
+        "to {:.0f}; {}x{} directions would do",
+        parallax, hologram::max_parallax, enough(grid.directions_u), enough(grid.directions_v));
 }
 
 std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField& light_field,
@@ -52,16 +53,15 @@ std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField&
     for (const Channel& channel : request.channels) {
         Channel shown = channel;
         if (light_field.grid().channels == 1) shown.index = 0;
-        holograms.push_back(request.of_coefficients
-                                ? make_hologram_of_coefficients(light_field, request.options(shown))
-                                : make_hologram(light_field, request.options(shown)));
+        holograms.push_back(request.of_coefficients ? make_hologram_of_coefficients(light_field, request.options(shown))
+                                                    : make_hologram(light_field, request.options(shown)));
     }
     return holograms;
 }
 
 std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
-                                      std::span<const Camera> cameras, const std::optional<PlaneWaveCameraOptions>& full,
-                                      const Progress& progress) {
+                                      std::span<const Camera> cameras,
+                                      const std::optional<PlaneWaveCameraOptions>& full, const Progress& progress) {
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
     for (std::size_t c = 0; c < colours; ++c) {
@@ -82,8 +82,7 @@ void write_holograms(const std::filesystem::path& path, std::span<const std::sha
     std::vector<FieldGrid> grids;
     for (const auto& hologram : holograms) grids.push_back(hologram->grid());
     const auto sinks = create_hologram(path, grids, options);
-    for (std::size_t i = 0; i < sinks.size(); ++i)
-        copy(*holograms[i], *sinks[i], 0, progress.part(i, sinks.size()));
+    for (std::size_t i = 0; i < sinks.size(); ++i) copy(*holograms[i], *sinks[i], 0, progress.part(i, sinks.size()));
 }
 
 Camera camera_for(double width, double height, std::size_t resolution) {

@@ -26,8 +26,7 @@ void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::si
 
 std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder,
                                                         const LightField& light_field,
-                                                        const PrinterImageOptions& options,
-                                                        const Progress& progress) {
+                                                        const PrinterImageOptions& options, const Progress& progress) {
     if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure: a positive number was expected");
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();
@@ -52,7 +51,7 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
         core::parallel_for(grid.hogels_s, [&](std::size_t i) {
             Image picture(grid.directions_u, grid.directions_v, grid.channels);
             paste(row, hogel_at(i, t), picture, 0);
-            write_image(names[t * grid.hogels_s + i], picture, options.exposure, options.provenance);
+            write_image(names[t * grid.hogels_s + i], picture, options.exposure);
         });
     }
     return names;

@@ -81,8 +81,7 @@ Plan plan_light_field(const LightField& rendered, const LightFieldRequest& reque
         const double rays = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
         const std::size_t sample = file.type == SampleType::half ? 2 : 4;
         plan.disk += rays * static_cast<double>(grid.channels * sample + (file.with_depth ? sizeof(float) : 0));
-        const double each =
-            seconds_a_ray + seconds_a_ray_and_million_triangles * 1e-6 * static_cast<double>(triangles);
+        const double each = seconds_a_ray + seconds_a_ray_and_million_triangles * 1e-6 * static_cast<double>(triangles);
         plan.seconds += on_all_threads(rays * static_cast<double>(request.samples.count()) * each *
                                        (request.renderer == defaults.renderer ? 1 : other_renderers));
     }
@@ -110,13 +109,13 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
     std::set<std::tuple<double, double, double>> eyes;
     for (const Camera& camera : cameras) eyes.insert({camera.eye.x, camera.eye.y, camera.eye.z});
     const double samples = hologram_samples(faces, request) * static_cast<double>(request.looks);
-    plan.seconds = on_all_threads(
-        samples * (seconds_a_sample + static_cast<double>(eyes.size()) * seconds_a_sample_and_eye));
+    plan.seconds =
+        on_all_threads(samples * (seconds_a_sample + static_cast<double>(eyes.size()) * seconds_a_sample_and_eye));
     double camera_bytes = 0;
     for (const Channel& channel : request.channels) {
         const FieldGrid grid = hologram_grid(faces, request.options(channel));
-        camera_bytes = std::max(
-            camera_bytes, optics::plan_photographs(grid, cameras, static_cast<double>(options.memory)).bytes);
+        camera_bytes =
+            std::max(camera_bytes, optics::plan_photographs(grid, cameras, static_cast<double>(options.memory)).bytes);
     }
     plan.memory += camera_bytes;
     return plan;
