@@ -103,32 +103,32 @@ std::vector<Verb> verbs() {
         {"photograph_of_a_field",
          [](const Progress& progress) {
              const Camera camera = camera_of(grid.plane);
-             photograph(waves, {&camera, 1}, progress);
+             photograph(waves, {&camera, 1}, {}, progress);
          }},
-        {"photograph_fully",
+        {"photograph_by_plane_waves",
          [](const Progress& progress) {
              const Camera camera = camera_of(grid.plane);
-             photograph_fully(waves, {&camera, 1}, progress);
+             photograph_by_plane_waves(waves, {&camera, 1}, {}, progress);
          }},
         {"reading_a_hologram",
          [](const Progress& progress) {
              HologramOptions options;
-             options.wavelength = 532_nm;
+             options.channel = {532_nm};
              options.pitch = 2_um;
-             const auto stereogram = make_hologram(rays, options);
+             const auto stereogram = make_hologram(borrow(rays), options);
              Field field(stereogram->grid());
              copy(*stereogram, field, 0, progress);
          }},
         {"compress",
          [](const Progress& progress) {
              CompressionOptions options;
-             options.target.sqnr = 30;
-             compress(rays, std::filesystem::path(testing::TempDir()) / "stopped.hgl", options, progress);
+             options.target = Sqnr{30};
+             compress(borrow(rays), std::filesystem::path(testing::TempDir()) / "stopped.hgl", options, progress);
          }},
         {"propagate",
          [](const Progress& progress) {
              Field field(grid);
-             propagate(waves, 1_mm, field, 0, {}, progress);
+             propagate(waves, 1_mm, field, {}, progress);
          }},
         {"encode_pattern",
          [](const Progress& progress) {
@@ -137,11 +137,11 @@ std::vector<Verb> verbs() {
              options.modulator.width = options.modulator.height = 256;
              encode_pattern(waves, options, progress);
          }},
-        {"shade_scene", [](const Progress& progress) { shade_scene(lit, {.model = ShadingModel::vertex}, progress); }},
+        {"shade_scene", [](const Progress& progress) { shade_scene(lit, {.model = "vertex"}, progress); }},
         {"bake_scene", [](const Progress& progress) { bake_scene(lit, {.rays = 100000}, progress); }},
         {"a_scene_straight_to_a_field",
          [](const Progress& progress) {
-             find_scene_method("points-visible")->make(ball, grid, {.spacing = 0.5_um}, progress);
+             scene_hologram_methods().find("points-visible").make(ball, grid, {.spacing = 0.5_um}, progress);
          }},
     };
 }

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
 template <std::size_t Rank>
@@ -22,8 +24,8 @@ constexpr std::size_t count(const Shape<Rank>& shape) {
 
 /// Memory aligned to a cache line; large blocks in huge pages where the system grants them, because each page that is
 /// touched costs a look-up in the processor's page table. Throws std::bad_alloc.
-void* allocate_lines(std::size_t bytes);
-void free_lines(void* memory);
+HOGEL_API void* allocate_lines(std::size_t bytes);
+HOGEL_API void free_lines(void* memory);
 
 /// Allocates at multiples of a cache line, on which vector code and FFT plans rely.
 template <class T>

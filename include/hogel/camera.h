@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hogel/export.h"
 #include "hogel/geometry.h"
 
 namespace hogel {
@@ -19,10 +20,10 @@ struct Camera {
 /// Along the line of sight through the hologram's point (x, y): the distance from the eye to the plane in focus, ζ =
 /// focus_depth + focus_slope_x x + focus_slope_y y, divided by the distance to that point. 1 + focus_depth/eye.z where
 /// the plane is parallel to the hologram; not positive where the plane is not in front of the eye.
-double focus_ratio(const Camera& camera, double x, double y);
+HOGEL_API double focus_ratio(const Camera& camera, double x, double y);
 
 /// Throws Error(usage) naming what is wrong: an eye on or behind the hologram, a focus behind the eye somewhere in the
 /// picture, no pixels, no pupil.
-void validate(const Camera& camera);
+HOGEL_API void validate(const Camera& camera);
 
 }  // namespace hogel

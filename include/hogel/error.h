@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
 /// What kind of failure an Error is, for programs to act on. The value is the exit status of the command line.
@@ -17,7 +19,7 @@ enum class ErrorCode {
 };
 
 /// The one exception type of the library. `what()` is a single line: what, where, what was expected.
-class Error : public std::runtime_error {
+class HOGEL_API Error : public std::runtime_error {
   public:
     Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
     ErrorCode code() const noexcept { return code_; }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/image.h"
 #include "hogel/light_field.h"
@@ -27,7 +28,7 @@ enum class SampleType { half, single };
 /// header alone. Datasets in one contiguous piece, as hogel writes them, are read by all threads at once, chunked or
 /// compressed ones by one at a time. Throws Error(bad_input) for a file that is missing, damaged, truncated,
 /// inconsistent or of another kind.
-LightField open_light_field(const std::filesystem::path& path);
+HOGEL_API LightField open_light_field(const std::filesystem::path& path);
 
 struct LightFieldFileOptions {
     SampleType type = SampleType::half;
@@ -45,20 +46,20 @@ struct LightFieldFileOptions {
 /// resumed. Room on the disk is reserved at once, so that a disk that is too small fails before the work. In half
 /// floats, values beyond 65504 are infinite. Throws Error(usage) where the grids are not those of one light field,
 /// Error(cannot_write).
-std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
-                                                                std::span<const LightFieldGrid> grids,
-                                                                const LightFieldFileOptions& options = {});
+HOGEL_API std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
+                                                                          std::span<const LightFieldGrid> grids,
+                                                                          const LightFieldFileOptions& options = {});
 
 /// A hologram in an HDF5 file: one field for each wavelength, for instance red, green and blue. Field number i is the
 /// dataset "field<i>/samples", [y][x] of compounds {r, i} (single floats), which h5py reads as complex64, or [y][x][2]
 /// of half floats, with its sampling and wavelength in attributes (docs/files.md).
 struct HologramFile {
-    std::vector<std::unique_ptr<FieldSource>> fields;
+    std::vector<std::shared_ptr<const FieldSource>> fields;
     Metadata metadata;
 };
 
 /// Opens a hologram. Throws Error(bad_input) as open_light_field() does.
-HologramFile open_hologram(const std::filesystem::path& path);
+HOGEL_API HologramFile open_hologram(const std::filesystem::path& path);
 
 struct HologramFileOptions {
     /// Halves keep 11 bits of numbers from 6·10⁻⁵ to 65504 and take half the space.
@@ -69,15 +70,15 @@ struct HologramFileOptions {
 
 /// Creates a hologram in an HDF5 file: one sink for each field. The file appears under its name when the last of them
 /// is finished. A sink of halves throws Error(usage) for samples beyond 65504. Throws Error(cannot_write).
-std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
-                                                        std::span<const FieldGrid> grids,
-                                                        const HologramFileOptions& options = {});
+HOGEL_API std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
+                                                                  std::span<const FieldGrid> grids,
+                                                                  const HologramFileOptions& options = {});
 
 enum class FileKind { light_field, hologram, picture, mesh, unknown };
 
 /// What a file is: by its contents where it is HDF5 or a compressed light field, by its extension (file_formats())
 /// otherwise. Throws Error(bad_input) for a file that is missing or cannot be read.
-FileKind file_kind(const std::filesystem::path& path);
+HOGEL_API FileKind file_kind(const std::filesystem::path& path);
 
 /// A file format, for help texts and for recognising pictures and meshes by their extensions.
 struct FileFormat {
@@ -88,7 +89,7 @@ struct FileFormat {
 };
 
 /// The file formats of light fields, fields, pictures and meshes.
-Table<FileFormat>& file_formats();
+HOGEL_API Table<FileFormat>& file_formats();
 
 /// What a light field or hologram file says about itself: names and values, in SI units.
 struct FileSummary {
@@ -99,7 +100,7 @@ struct FileSummary {
 
 /// Reads the header of a file. Of other kinds than light fields and holograms, only kind and size are given. Throws
 /// Error(bad_input).
-FileSummary summarize(const std::filesystem::path& path);
+HOGEL_API FileSummary summarize(const std::filesystem::path& path);
 
 /// What a file of another program does not tell about the field that it holds.
 struct ExternalField {
@@ -122,14 +123,15 @@ struct ExternalField {
 /// the left, and the middle of the array lies at x = y = 0. NPY files are read where they are asked for, others are
 /// read whole at once. Throws Error(bad_input) for a file that is damaged or of another kind, and Error(usage) where
 /// `what.values` does not suit its numbers.
-std::unique_ptr<FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what);
+HOGEL_API std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path,
+                                                                 const ExternalField& what);
 
 /// Whether a file begins as an array that open_external_field() reads does. Throws Error(bad_input) for a file that is
 /// missing.
-bool is_external_array(const std::filesystem::path& path);
+HOGEL_API bool is_external_array(const std::filesystem::path& path);
 
 /// Writes samples[y][x] as an array of complex64 in NumPy's format. The file appears under its name when it is
 /// complete. Throws Error(cannot_write).
-void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples);
+HOGEL_API void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples);
 
 }  // namespace hogel

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hogel/array.h"
+#include "hogel/export.h"
 
 namespace hogel {
 
@@ -28,29 +29,29 @@ struct Image {
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 /// The sRGB transfer curve (IEC 61966-2-1) from linear light to display value and back; both clamp to 0..1.
-float srgb_encode(float linear);
-float srgb_decode(float display);
+HOGEL_API float srgb_encode(float linear);
+HOGEL_API float srgb_decode(float display);
 
 /// Writes a picture in the format of the name's extension: .exr as linear half floats, .png and .tif as 8-bit sRGB of
 /// linear values times `exposure`. The file appears under its name when it is complete. Throws Error(cannot_write), or
 /// Error(usage) for an unknown extension or an exposure that is not positive and finite.
-void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
-                 const Metadata& metadata = {});
+HOGEL_API void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
+                           const Metadata& metadata = {});
 
 /// Throws Error(usage) for a name whose extension write_image() would refuse.
-void require_picture_name(const std::filesystem::path& path);
+HOGEL_API void require_picture_name(const std::filesystem::path& path);
 
 /// The bytes of an 8-bit sRGB PNG file, for pages that carry their pictures inside.
-std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
+HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
 /// Reads any picture that OpenImageIO reads into linear light, with one or three channels: integers of 8 and 16 bits
 /// are taken as sRGB, alpha is dropped, of two channels the first is kept. Throws Error(bad_input), naming the file,
 /// for one that is missing, damaged or has more than `max_pixels`.
-Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
+HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// As read_image(), from the bytes of a picture file in memory, such as a texture inside a glTF file.
-Image decode_image(std::span<const unsigned char> bytes, const std::string& name,
-                   std::size_t max_pixels = std::size_t{1} << 28);
+HOGEL_API Image decode_image(std::span<const unsigned char> bytes, const std::string& name,
+                             std::size_t max_pixels = std::size_t{1} << 28);
 
 /// The pixels of a picture as plain numbers rather than light: values[y][x] as they stand in the file.
 struct RawPixels {
@@ -58,15 +59,15 @@ struct RawPixels {
     std::size_t levels = 0;  ///< 256 or 65536 for whole numbers below it, 0 for floating point numbers
 };
 /// Throws Error(bad_input) as read_image() does, and for a picture whose colour channels differ.
-RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
+HOGEL_API RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// The texts that a picture file carries, from write_image() or other programs; write_image() puts them into a TIFF
 /// file as lines of its "ImageDescription". Throws Error(bad_input) as read_image() does.
-Metadata read_metadata(const std::filesystem::path& path);
+HOGEL_API Metadata read_metadata(const std::filesystem::path& path);
 
 /// The exposure that brings the brightest parts, the 99.5th percentile of each pixel's largest channel, to display
 /// white.
-double automatic_exposure(const Image& image);
+HOGEL_API double automatic_exposure(const Image& image);
 
 /// The difference of two pictures. PSNR, SSIM and the largest error are those of display values, sRGB of linear values
 /// times the exposure, clamped to 0..1, because an eye compares what a display shows.
@@ -79,15 +80,15 @@ struct ImageComparison {
 
 /// Throws Error(bad_input) for pictures of different size or of no pixels, and Error(usage) for an exposure that is not
 /// positive and finite.
-ImageComparison compare(const Image& a, const Image& b, double exposure = 1);
+HOGEL_API ImageComparison compare(const Image& a, const Image& b, double exposure = 1);
 
 /// Writes the drive levels of a display or modulator, levels[y][x][c], as they are, with no transfer curve: one channel
 /// or three of 8 bits, as .png, .bmp or .tif by the name. The file appears under its name when it is complete. Throws
 /// Error(cannot_write), or Error(usage) for another extension.
-void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels,
-                      const Metadata& metadata = {});
+HOGEL_API void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels,
+                                const Metadata& metadata = {});
 
 /// Throws Error(usage) for a name whose extension write_raw_pixels() would refuse.
-void require_raw_pixels_name(const std::filesystem::path& path);
+HOGEL_API void require_raw_pixels_name(const std::filesystem::path& path);
 
 }  // namespace hogel

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
 /// Limits the parallel loops of the whole process to a number of threads while it lives; 0: no limit.
-class ThreadLimit {
+class HOGEL_API ThreadLimit {
   public:
     explicit ThreadLimit(std::size_t threads);
     ~ThreadLimit();
@@ -21,7 +23,7 @@ class ThreadLimit {
 };
 
 /// How many threads parallel loops use at present: those of the machine, or fewer by a ThreadLimit.
-std::size_t thread_count();
+HOGEL_API std::size_t thread_count();
 
 /// Where to keep large arrays that may not fit into memory.
 struct ScratchOptions {

@@ -9,19 +9,22 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
 /// The word that a mistyped one was probably meant to be: the nearest by insertions, deletions, replacements and swaps
 /// of letters, of which there may be one for every three letters (and one at least); otherwise the first that begins
 /// with its three or more letters; otherwise an empty text. The first of several that are equally near.
-std::string nearest_word(std::string_view word, std::span<const std::string> words);
+HOGEL_API std::string nearest_word(std::string_view word, std::span<const std::string> words);
 
 /// Throws Error(usage): there is no `kind` ("renderer") of that name. The message says which one may have been meant,
 /// and which ones exist.
-[[noreturn]] void throw_unknown(std::string_view kind, std::string_view name, std::span<const std::string> known);
+[[noreturn]] HOGEL_API void throw_unknown(std::string_view kind, std::string_view name,
+                                          std::span<const std::string> known);
 
 /// Throws Error(usage): there is a `kind` of that name already.
-[[noreturn]] void throw_known(std::string_view kind, std::string_view name);
+[[noreturn]] HOGEL_API void throw_known(std::string_view kind, std::string_view name);
 
 /// Everything of one kind that exists, by name: renderers, coders, scenes. The library fills each table; a program may
 /// add rows while it runs, from any thread. A row has a member `name`. References to rows stay valid.

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
 /// Lengths are metres and angles radians everywhere; literals convert to them: 633_nm, 5_cm, 40_deg.
@@ -26,15 +28,15 @@ constexpr double operator""_deg(unsigned long long v) { return static_cast<doubl
 /// Reads "16mm", "-0.5 um", "633nm", "1.2m", "5cm"; µm may be written um or µm. Returns metres.
 /// Throws Error(usage) for text that is no number with a known unit; the message begins with `what`, the name of the
 /// quantity, and shows how lengths are written.
-double parse_length(std::string_view text, std::string_view what);
+HOGEL_API double parse_length(std::string_view text, std::string_view what);
 
 /// Reads "40deg" or "0.7rad". Returns radians. Throws Error(usage) as parse_length() does.
-double parse_angle(std::string_view text, std::string_view what);
+HOGEL_API double parse_angle(std::string_view text, std::string_view what);
 
 /// A length with the unit that reads best: "16 mm", "1.5625 um", "633 nm".
-std::string format_length(double metres);
+HOGEL_API std::string format_length(double metres);
 
 /// A number of bytes with the decimal unit that reads best, two or three digits: "983 MB", "1.4 GB".
-std::string format_bytes(double bytes);
+HOGEL_API std::string format_bytes(double bytes);
 
 }  // namespace hogel

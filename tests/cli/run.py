@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a command-line script and compares what it prints, and its exit status, with what the script says.
 
-usage: run.py HOGEL SCRIPT      HOGEL: the program under test
+usage: run.py PROGRAM SCRIPT      PROGRAM: the one under test, hogel or hogel-bench; exit status 77 says that the script was skipped
 
 A script is read line by line:
   # words            a comment
-  $ command          is run by bash in an empty folder that the whole script shares; `hogel` is the program
+  needs command      skips the script unless bash runs this with exit status 0; before the first $
+  $ command          is run by bash in an empty folder that the whole script shares; the program is in its PATH
   text               expected on its standard output
   ! text             expected on its standard error
   ? 3                expected exit status, 0 where none is given
-  @ program          a program that the script needs; where it is not installed the script is skipped: exit status 77
 In expected lines * stands for any text within the line; a line ... stands for any number of lines; empty lines count
 on neither side.
 After every command no temporary file may be left in the folder.
@@ -19,7 +19,6 @@ import fnmatch
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -31,19 +30,15 @@ class Step:
         self.out, self.err, self.status = [], [], 0
 
 
-SKIPPED = 77  # tests/CMakeLists.txt says so to ctest
-
-
 def read_script(path):
-    """The steps of a script and the programs that it needs."""
-    steps, needed = [], []
+    needs, steps = [], []
     for number, line in enumerate(path.read_text().splitlines(), 1):
         if line.startswith("$ "):
             steps.append(Step(number, line[2:]))
         elif line.startswith("#") or not line:
             continue
-        elif line.startswith("@ "):
-            needed.append(line[2:])
+        elif line.startswith("needs ") and not steps:
+            needs.append(line[6:])
         elif not steps:
             sys.exit(f"{path}:{number}: expectation before any command")
         elif line.startswith("! "):
@@ -54,7 +49,7 @@ def read_script(path):
             steps[-1].out.append(line)
     if not steps:
         sys.exit(f"{path}: no command")
-    return steps, needed
+    return needs, steps
 
 
 def matches(expected, text):
@@ -67,9 +62,13 @@ def matches(expected, text):
     return re.fullmatch("".join(parts), re.sub(r"\n\n+", "\n", text)) is not None
 
 
-def check(step, folder, environment):
-    done = subprocess.run(["bash", "-c", step.command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+def run(command, folder, environment):
+    return subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                           capture_output=True, text=True, timeout=300)
+
+
+def check(step, folder, environment):
+    done = run(step.command, folder, environment)
     complaints = []
     for name, expected, text in (("stdout", step.out, done.stdout), ("stderr", step.err, done.stderr)):
         if not matches(expected, text):
@@ -85,17 +84,17 @@ def check(step, folder, environment):
 
 def main():
     program, script = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-    steps, needed = read_script(script)
-    missing = [name for name in needed if not shutil.which(name)]
-    if missing:
-        print(f"{script}: skipped, not installed: {' '.join(missing)}")
-        return SKIPPED
     failed = False
     with tempfile.TemporaryDirectory(prefix="hogel-cli-") as name:
         folder = pathlib.Path(name) / "work"
         folder.mkdir()
         environment = {"PATH": f"{program.parent}:{os.environ['PATH']}", "HOME": name, "LC_ALL": "C.UTF-8",
                        "TOOLS": str(pathlib.Path(__file__).parent.resolve())}
+        needs, steps = read_script(script)
+        for command in needs:
+            if run(command, folder, environment).returncode != 0:
+                print(f"{script}: skipped, this machine lacks what it needs: {command}")
+                return 77
         for step in steps:
             for complaint in check(step, folder, environment):
                 failed = True

@@ -31,16 +31,16 @@ void add_wave_plain(const ScenePoint& point, const FieldGrid& grid, const Sample
     for (std::size_t i = 0; i < tile_side; ++i) {
         const auto ray = passage(point.position, {row.x + static_cast<double>(i) * row.pitch, row.y, 0}, grid);
         if (!ray || (hidden && hidden[i])) continue;
-        const double turns = ray->path / grid.wavelength + point.turns;
+        const double cycles = ray->path / grid.wavelength + point.cycles;
         const std::complex<double> wave =
-            std::polar(modulus(point, *ray), 2 * std::numbers::pi * (turns - std::round(turns)));
+            std::polar(modulus(point, *ray), 2 * std::numbers::pi * (cycles - std::round(cycles)));
         real[i] += wave.real();
         imaginary[i] += wave.imag();
     }
 }
 
 void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibility) {
-    std::array<Vec3, tile_side> ways;
+    std::array<Vec3, tile_side> directions;
     std::array<bool, tile_side> hidden;
     for (std::size_t row = 0; row < region_.height; ++row) {
         const SampleRow places = row_of(row);
@@ -48,11 +48,11 @@ void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibilit
         for (std::size_t i = 0; i < tile_side; ++i) {
             const Passage ray =
                 unlimited_passage(point.position, {places.x + static_cast<double>(i) * places.pitch, places.y, 0});
-            ways[i] = ray.way;
+            directions[i] = ray.direction;
             lit = lit || !too_steep(ray, grid_);
         }
         if (!lit) continue;
-        visibility.hide(point.surface, ways, hidden);
+        visibility.hide(point.surface, directions, hidden);
         add_wave(point, grid_, places, hidden.data(), real_[row].data(), imaginary_[row].data());
     }
 }

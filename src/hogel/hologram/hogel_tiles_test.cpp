@@ -25,7 +25,7 @@ Array<float, 1> noise(std::size_t count, unsigned seed) {
     return values;
 }
 
-TEST_P(RandomWaves, twins_agree_and_take_the_bytes_of_their_rows) {
+TEST_P(RandomWaves, equal_their_plain_version_and_take_the_bytes_of_their_rows) {
     const PhaseSeries series{{0xdeadbeefu, 7}, {5, 0xffffffffu, 13}};
     for (const std::size_t columns : {16, 64}) {
         const Array<float, 1> moduli = noise(columns * rows_at_once, 1);
@@ -44,15 +44,15 @@ TEST_P(RandomWaves, twins_agree_and_take_the_bytes_of_their_rows) {
     }
 }
 
-TEST_P(Turns, put_every_number_in_its_place) {
+TEST_P(Turns, puts_every_number_in_its_place) {
     constexpr std::size_t columns = 32;
     const Array<float, 1> rows = noise(columns * square_column, 2);
-    Array<float, 1> turned({2 * 600});
-    turn_rows(rows.data(), columns, turned.data(), 600);
+    Array<float, 1> transposed({2 * 600});
+    transpose_rows(rows.data(), columns, transposed.data(), 600);
     for (std::size_t x = 0; x < columns; ++x)
         for (std::size_t part = 0; part < 2; ++part)
             for (std::size_t row = 0; row < 16; ++row)
-                ASSERT_EQ(turned.data()[x / 16 * 600 + row * 32 + part * 16 + x % 16],
+                ASSERT_EQ(transposed.data()[x / 16 * 600 + row * 32 + part * 16 + x % 16],
                           rows.data()[x * 32 + part * 16 + row]);
     for (const std::size_t hogels : {1, 7, 16}) {
         const Array<float, 1> sixteen = noise(16 * columns * 16, 3);
@@ -66,8 +66,8 @@ TEST_P(Turns, put_every_number_in_its_place) {
     }
 }
 
-// The plain way: all amplitudes, a phase each, one FFT.
-TEST_P(FastTileKernels, make_what_amplitudes_phases_and_one_fft_make) {
+// The plain version: all amplitudes, a phase each, one FFT.
+TEST_P(FastTileKernels, equal_one_fft_of_amplitudes_with_phases) {
     for (const std::size_t side : {16, 32, 128}) {
         if (!FastTiles::can(side)) return;  // a target without vectors makes holograms the plain way
         // Fields of view that leave rows dark, some of them sixteen side by side.

@@ -91,10 +91,7 @@ FileSummary summarize(const std::filesystem::path& path) {
 }
 
 LightField open_light_field(const std::filesystem::path& path) {
-    if (!is_stream(path)) return LightField(io::hdf5::open_faces(path));
-    std::vector<LightField::Source> faces;
-    for (auto& face : open_stream_faces(path)) faces.push_back(std::move(face));
-    return LightField(std::move(faces));
+    return is_stream(path) ? open_stream(path) : LightField(io::hdf5::open_faces(path));
 }
 
 }  // namespace hogel

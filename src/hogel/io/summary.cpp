@@ -11,8 +11,6 @@
 
 namespace hogel::io {
 
-using namespace codec::format;
-
 namespace {
 
 // The angle from edge to edge of the directions' cells.
@@ -82,21 +80,19 @@ void describe(const StreamInfo& info, FileSummary& summary) {
         describe_faces(info.faces(), summary);
         summary.text.emplace_back("hemicube", info.layout == StreamLayout::unfolded ? "unfolded" : "faces");
     }
-    if (info.layout == StreamLayout::gathered) summary.text.emplace_back("layout", "gathered");
+    if (info.layout == StreamLayout::stacked) summary.text.emplace_back("layout", "stacked");
     summary.text.insert(summary.text.end(), {{"format", "hogel compressed light field"}, {"coder", info.method.coder}});
     if (!info.method.transform.empty()) summary.text.emplace_back("transform", info.method.transform);
-    if (info.mapping.tone)
-        summary.text.emplace_back("tone_curve",
-                                  fmt::format("{:.2f} decades of luminance in {:.2f}", info.mapping.tone->decades(),
-                                              info.mapping.tone->mapped_decades()));
-    if (info.mapping.chrominance != 1)
-        summary.text.emplace_back("chrominance", fmt::format("{:.9g} times as coarse", info.mapping.chrominance));
+    if (info.tone)
+        summary.text.emplace_back("tone_curve", fmt::format("{:.2f} decades of luminance in {:.2f}", info.tone->decades,
+                                                            info.tone->mapped_decades));
+    if (info.chrominance != 1)
+        summary.text.emplace_back("chrominance", fmt::format("{:.9g} times as coarse", info.chrominance));
     if (info.layer_ends.size() > 1) {
         summary.text.emplace_back("layers", fmt::format("{} of {}", info.layers_there, info.layer_ends.size()));
         summary.text.emplace_back("layers_end_at", fmt::format("{}", fmt::join(info.layer_ends, " ")));
     }
-    if (info.version > 4)
-        summary.text.emplace_back("depth", info.depth.bytes == 0 ? "no" : info.depth_there ? "yes" : "cut off");
+    summary.text.emplace_back("depth", info.depth.bytes == 0 ? "no" : info.depth_there ? "yes" : "cut off");
     if (info.depth.bytes > 0)
         summary.numbers.insert(summary.numbers.end(), {{"depth_bytes", static_cast<double>(info.depth.bytes)},
                                                        {"depth_error_m", info.depth.error}});

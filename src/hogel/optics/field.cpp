@@ -70,7 +70,8 @@ Field::Field(const FieldGrid& grid) : grid_(grid) {
 
 void Field::read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const {
     validate(region, grid_, out.shape());
-    if (look >= looks()) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a field that has one", look));
+    if (look >= looks())
+        throw Error(ErrorCode::usage, fmt::format("a field in memory has one look, but look {} was read", look));
     for (std::size_t y = 0; y < region.height; ++y)
         std::copy_n(&samples(region.y0 + y, region.x0), region.width, &out(y, 0));
 }

@@ -105,8 +105,8 @@ void require_light_towards(const FieldGrid& hologram, const Camera& camera) {
     check(std::max(-band.low_y, band.high_y), hologram.plane.pitch_y, "y");
 }
 
-std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress,
-                              const PhotographOptions& options) {
+std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
+                              const PhotographOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     const auto memory = static_cast<double>(options.memory);
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);

@@ -48,8 +48,8 @@ TEST_P(ShadowMapKernels, vectors_of_lamps_give_the_same_bits_as_one_after_the_ot
         std::vector<std::uint32_t> lamps(random() % 24);
         for (std::uint32_t& number : lamps) number = static_cast<std::uint32_t>(random() % scene.lights.size());
         std::vector<float> shares(lamps.size(), -1), plain(lamps.size(), -2);
-        maps.lit(lamps, point, normal, shares.data());
-        maps.lit_plain(lamps, point, normal, plain.data());
+        maps.visibility(lamps, point, normal, shares.data());
+        maps.visibility_plain(lamps, point, normal, plain.data());
         ASSERT_EQ(shares, plain) << round;
         for (const float share : plain) ++(share == 0 ? dark : share == 1 ? bright : between);
     }

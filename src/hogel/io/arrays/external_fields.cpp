@@ -154,7 +154,7 @@ bool is_external_array(const std::filesystem::path& path) {
     return is_npy(start) || is_mat(start);
 }
 
-std::unique_ptr<FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what) {
+std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what) {
     const std::vector<unsigned char> start = first_bytes(path);
     if (!is_npy(start) && !is_mat(start)) return open_picture_field(path, what);
     if (!what.imaginary.empty())
