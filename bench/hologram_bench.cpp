@@ -191,7 +191,7 @@ int main(int argc, char** argv) {
                     const bool windows = way.stereogram.method == Method::overlap_add;
                     const double tangent = 0.98 * std::tan(std::asin(wavelength / (2 * pitch)));
                     const std::size_t n = windows ? samples / 2 : samples / hogel_side, d = windows ? 9 : hogel_side;
-                    const LightFieldGrid grid{n, n, size / double(n), d, d, tangent, tangent, 3};
+                    const LightFieldGrid grid{n, n, size / double(n), d, d, Perspective{tangent, tangent}, 3};
                     light_field = std::make_unique<LightFieldBuffer>(grid, true);
                     copy(*make_renderer("raytrace", scene, grid), *light_field);
                 }

@@ -29,7 +29,7 @@ constexpr std::size_t hogel_side = 16, looks = 4;
 LightFieldBuffer wavy_picture(std::size_t samples) {
     const double half_sine = 0.15 * wavelength / (2 * pitch), size = static_cast<double>(samples) * pitch;
     const LightFieldGrid grid{
-        samples / hogel_side, samples / hogel_side, pitch * hogel_side, 16, 16, half_sine, half_sine, 1};
+        samples / hogel_side, samples / hogel_side, pitch * hogel_side, 16, 16, Perspective{half_sine, half_sine}, 1};
     LightFieldBuffer light_field(grid);
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     camera.focus_depth = depth;
     camera.picture = {24, 24, 0.8 * size / 24, 0.8 * size / 24, 0, 0};
     const auto take = [&](const FieldSource& field) { return photograph(field, std::span(&camera, 1))[0]; };
-    const Image truth = normalised(photograph(light_field, std::span(&camera, 1), 128)[0]);
+    const Image truth = normalised(photograph(borrow(light_field), std::span(&camera, 1), {128})[0]);
     const auto stereogram = [&](std::uint64_t seed) {
         HologramOptions options;
         options.wavelength = wavelength;

@@ -106,7 +106,8 @@ int main(int argc, char** argv) {
     const ThreadLimit limit(threads);
     const auto scene =
         std::make_shared<const ShadedScene>(kind == "sheets" ? sheets(triangles) : displaced_sphere(triangles));
-    const LightFieldGrid grid{hogels, hogels, 8e-3 / double(hogels), directions, directions, 0.364, 0.364, 3};
+    const LightFieldGrid grid{hogels, hogels, 8e-3 / double(hogels), directions, directions, Perspective{0.364, 0.364},
+                              3};
     // Rows spread over the hologram, as many hogels for each renderer.
     std::vector<LightFieldTile> tiles;
     for (std::size_t row = 0; row < 2; ++row)

@@ -32,7 +32,8 @@ void measure(std::size_t side, std::size_t directions, std::size_t across, int r
     HologramOptions options;
     options.pitch = 2e-6;
     const double tangent = 0.98 * std::tan(std::asin(options.wavelength / (2 * options.pitch)));
-    LightFieldBuffer rays({hogels, hogels, double(side) * options.pitch, directions, directions, tangent, tangent, 1});
+    LightFieldBuffer rays(
+        {hogels, hogels, double(side) * options.pitch, directions, directions, Perspective{tangent, tangent}, 1});
     std::minstd_rand random(1);
     for (float& ray : rays.radiance.elements()) ray = float(random() % 1024) / 1024;
     const auto stereogram = make_hologram(rays, options);

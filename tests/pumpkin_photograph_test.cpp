@@ -28,7 +28,7 @@ struct Photographs {
     std::vector<Image> waves, rays;
 
     Photographs() {
-        const LightFieldGrid grid{pixels, pixels, size / pixels, 32, 32, 0.15, 0.15, 3};
+        const LightFieldGrid grid{pixels, pixels, size / pixels, 32, 32, Perspective{0.15, 0.15}, 3};
         LightFieldBuffer light_field(grid);
         const auto scene = std::make_shared<const ShadedScene>(shade_scene_vertices(make_scene("pumpkin", size)));
         copy(*make_renderer("raytrace", scene, grid), light_field);
@@ -47,7 +47,7 @@ struct Photographs {
         options.channel = 1;
         options.looks = 16;
         waves = photograph(*make_hologram(light_field, options), cameras);
-        for (const Image& colour : photograph(light_field, cameras)) {
+        for (const Image& colour : photograph(borrow(light_field), cameras)) {
             Image green(pixels, pixels, 1);
             for (std::size_t i = 0; i < green.pixels.size(); ++i)
                 green.pixels.data()[i] = colour.pixels.data()[3 * i + 1];

@@ -62,7 +62,7 @@ RateCurve measure_method(const LightFieldBuffer& field, const CodingMethod& meth
     for (int k = 0; k < max_points; ++k, step /= 1.6) {
         options.target = Step{step};
         double began = processor_seconds();
-        const CompressionResult result = compress(field, path, options, go_on);
+        const CompressionResult result = compress(borrow(field), path, options, go_on);
         const double encoding = processor_seconds() - began;
         if (result.sqnr < range.low - 6) {
             // Far off: most of the way at once.
@@ -70,7 +70,7 @@ RateCurve measure_method(const LightFieldBuffer& field, const CodingMethod& meth
             continue;
         }
         began = processor_seconds();
-        copy(*open_stream(path), decoded, go_on);
+        copy(open_stream(path).front(), decoded, go_on);
         const double decoding = processor_seconds() - began;
         curve.points.push_back({result.pixels_per_bit, result.sqnr, samples / encoding, samples / decoding});
         if (result.sqnr > range.high) break;

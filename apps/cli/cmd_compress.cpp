@@ -61,7 +61,7 @@ int compress_file(Options options, const Session& session) {
     if (compression.depth_error > 0 && !compression.with_depth)
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
     Stage stage(session, "compressing");
-    const CompressionResult result = compress(faces, options.output, compression, stage.progress());
+    const CompressionResult result = compress(borrow(faces), options.output, compression, stage.progress());
     say_what_was_compressed(session, options.output, result);
     return 0;
 }

@@ -16,8 +16,8 @@ struct Options {
 };
 
 // All faces tile by tile, for they may come from the same bytes, which are then decoded once.
-void copy_together(const std::vector<std::unique_ptr<LightFieldSource>>& faces,
-                   const std::vector<std::unique_ptr<LightFieldSink>>& sinks, const Progress& progress) {
+void copy_together(std::span<const LightField::Source> faces, const std::vector<std::unique_ptr<LightFieldSink>>& sinks,
+                   const Progress& progress) {
     const LightFieldGrid& grid = faces.front()->grid();
     const HogelRange size = faces.front()->preferred_tile();
     for (std::size_t t = 0; t < grid.hogels_t; t += size.nt)
@@ -38,7 +38,8 @@ int decompress_file(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field || !is_stream(options.input))
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
     require_writable(options.output);
-    const auto faces = open_stream_faces(options.input, {.layers = options.layers});
+    const LightField light_field = open_stream(options.input, {.layers = options.layers});
+    const std::span<const LightField::Source> faces = light_field.faces();
     LightFieldFileOptions file;
     // Who asked for exact samples shall not lose them here.
     const std::string coder = read_stream_info(options.input).method.coder;

@@ -43,7 +43,7 @@ std::array<Focus, 2> focuses(const Scene& scene, double eye_distance) {
 // Left, high and right, as far from the middle as every hogel still sends rays to the whole lens.
 std::array<std::pair<std::string, Vec3>, 3> eyes(const Options& options, const LightFieldGrid& grid) {
     const double half_width = 0.5 * grid.pitch * static_cast<double>(std::max(grid.hogels_s, grid.hogels_t));
-    const double margin = half_width + 0.5 * options.pupil, tangent = std::min(grid.tan_half_u, grid.tan_half_v);
+    const double margin = half_width + 0.5 * options.pupil, tangent = std::min(grid.half_u(), grid.half_v());
     const double reach = options.eye_distance * tangent - margin;
     if (!(reach > 0))
         throw Error(ErrorCode::usage,

@@ -95,7 +95,7 @@ int write_compressed(const Options& options, Faces rendered, const Session& sess
     compression.with_depth = options.file.with_depth;
     compression.metadata = describe_run(session);
     Stage stage(session, "compressing");
-    const CompressionResult result = compress(faces, options.output, compression, stage.progress());
+    const CompressionResult result = compress(borrow(faces), options.output, compression, stage.progress());
     say_what_was_compressed(session, options.output, result);
     return 0;
 }

@@ -30,21 +30,6 @@ constexpr double kept_tile_bytes = 1e9;
 
 bool is_builtin(const std::string& name) { return scenes().look_up(name) != nullptr; }
 
-// The middle and half of the range of U that a field of view spans around an angle.
-struct Tangents {
-    double center, half;
-};
-
-Tangents tangents(double field_of_view, double toward) {
-    if (!(field_of_view > 0 && field_of_view < std::numbers::pi))
-        throw Error(ErrorCode::usage, "--fov: the full angle must lie between 0 and 180 degrees");
-    if (toward == 0) return {0, std::tan(field_of_view / 2)};
-    if (!(std::abs(toward) + field_of_view / 2 < std::numbers::pi / 2))
-        throw Error(ErrorCode::usage, "--toward: the field of view must end before 90 degrees on either side");
-    const double low = std::tan(toward - field_of_view / 2), high = std::tan(toward + field_of_view / 2);
-    return {(low + high) / 2, (high - low) / 2};
-}
-
 // What the user calls a method or its phases, and the library's word for it.
 const std::map<std::string, Method> methods{
     {"fourier", Method::fourier}, {"basis", Method::basis}, {"olas", Method::overlap_add}};
@@ -80,28 +65,21 @@ HologramOptions stereogram_options(const LightFieldGrid& light_field, const Holo
 
 LightFieldGrid RenderOptions::grid() const {
     if (!(size > 0)) throw Error(ErrorCode::usage, "--size: the hologram's side must be positive");
-    const Tangents u = tangents(field_of_view.across, toward.across), v = tangents(field_of_view.down, toward.down);
     LightFieldGrid grid;
     grid.hogels_s = hogels.columns;
     grid.hogels_t = hogels.rows;
     grid.pitch = size / static_cast<double>(hogels.columns);
     grid.directions_u = directions.columns;
     grid.directions_v = directions.rows;
-    grid.tan_half_u = u.half;
-    grid.tan_half_v = v.half;
-    grid.center_u = u.center;
-    grid.center_v = v.center;
-    grid.channels = 3;
+    grid.view = hogel::field_of_view(field_of_view.across, field_of_view.down, toward.across, toward.down);
     if (frequencies > 0) {
         // As many frequencies j/d as the field of view holds.
         const double step = frequencies / grid.pitch;
         const auto reach = [&](double angle) { return std::floor(std::sin(angle / 2) / step + 1e-9); };
         const double across = 2 * reach(field_of_view.across) + 1, down = 2 * reach(field_of_view.down) + 1;
-        grid.spacing = Spacing::sines;
         grid.directions_u = static_cast<std::size_t>(across);
         grid.directions_v = static_cast<std::size_t>(down);
-        grid.tan_half_u = 0.5 * across * step;
-        grid.tan_half_v = 0.5 * down * step;
+        grid.view = Frequencies{{0.5 * across * step, 0.5 * down * step}};
     }
     validate(grid, ErrorCode::usage, "light field");
     return grid;

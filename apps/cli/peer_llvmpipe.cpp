@@ -211,9 +211,9 @@ class Context {
         }
         gl_.UseProgram(program);
         hogels_ = gl_.GetUniformLocation(program, "hogels");
-        gl_.Uniform4f(gl_.GetUniformLocation(program, "directions"), static_cast<float>(grid_.tan_half_u),
-                      static_cast<float>(grid_.tan_half_v), static_cast<float>(grid_.center_u),
-                      static_cast<float>(grid_.center_v));
+        gl_.Uniform4f(gl_.GetUniformLocation(program, "directions"), static_cast<float>(grid_.half_u()),
+                      static_cast<float>(grid_.half_v()), static_cast<float>(grid_.center_u()),
+                      static_cast<float>(grid_.center_v()));
         // From −1 at the nearest depth to 1 at the farthest, after the division.
         const double near = 0.99 * geometry_.nearest, far = 1.01 * geometry_.farthest;
         gl_.Uniform4f(gl_.GetUniformLocation(program, "depths"), static_cast<float>((far + near) / (far - near)),

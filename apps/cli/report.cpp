@@ -153,8 +153,8 @@ std::string tables_html(const Report& report) {
                 {"Renderer", report.algorithm},
                 {"Hogels", fmt::format("{} × {}, {} apart", grid.hogels_s, grid.hogels_t, format_length(grid.pitch))},
                 {"Directions", fmt::format("{} × {} in each hogel", grid.directions_u, grid.directions_v)},
-                {"Field of view", fmt::format("{:.4g}° × {:.4g}°", 2 * std::atan(grid.tan_half_u) / degree,
-                                              2 * std::atan(grid.tan_half_v) / degree)},
+                {"Field of view", fmt::format("{:.4g}° × {:.4g}°", 2 * std::atan(grid.half_u()) / degree,
+                                              2 * std::atan(grid.half_v()) / degree)},
                 {"Rays", fmt::format("{:.4g} million", 1e-6 * grid.samples() / static_cast<double>(grid.channels))},
                 {"Light field file", format_bytes(report.light_field_bytes)}};
     Rows hologram{{"Samples", samples_text(report)},
@@ -210,7 +210,7 @@ std::string report_json(const Report& report) {
                            {"hogels", {grid.hogels_s, grid.hogels_t}},
                            {"directions", {grid.directions_u, grid.directions_v}},
                            {"pitch", grid.pitch},
-                           {"tan_half", {grid.tan_half_u, grid.tan_half_v}},
+                           {"tan_half", {grid.half_u(), grid.half_v()}},
                            {"file", "lightfield.h5"},
                            {"bytes", report.light_field_bytes}};
     for (const FieldGrid& hologram : report.holograms)

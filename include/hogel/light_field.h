@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "hogel/array.h"
@@ -21,7 +25,7 @@ enum class Face { front, left, right, top, bottom };
 inline constexpr std::array all_faces{Face::front, Face::left, Face::right, Face::top, Face::bottom};
 
 /// The word for a face, as in files.
-constexpr std::string_view name(Face face) {
+constexpr std::string_view face_name(Face face) {
     constexpr std::array<std::string_view, 5> names{"front", "left", "right", "top", "bottom"};
     return names[static_cast<std::size_t>(face)];
 }
@@ -61,42 +65,74 @@ constexpr Vec3 from_face(Face face, Vec3 q) {
     return q;
 }
 
-/// In what a light field's directions are uniform.
-enum class Spacing {
-    tangents,  ///< U and V, as in a picture in perspective
-    sines,     ///< U and V over √(1 + U² + V²), as the frequencies of one wavelength's plane waves are: [K] 4.1
+/// A range of directions: |U − center_u| <= half_u and |V − center_v| <= half_v.
+struct DirectionRange {
+    double half_u = 0, half_v = 0;
+    double center_u = 0, center_v = 0;
+
+    friend bool operator==(const DirectionRange&, const DirectionRange&) = default;
 };
 
-/// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, section 1). A ray crosses the hologram
-/// plane at the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Perspective directions: uniform in U
-/// and V. On a side of a hemicube U and V are those of the face's own picture: right/forward and up/forward. Where
-/// directions are spaced by sines, all that is said of U and V below is said of their sines.
+/// Directions of a picture in perspective: uniform in the tangents U and V. On a side of a hemicube these are those of
+/// the face's own picture, right/forward and up/forward.
+struct Perspective : DirectionRange {
+    Face face = Face::front;
+
+    friend bool operator==(const Perspective&, const Perspective&) = default;
+};
+
+/// Directions uniform in their sines, U and V over √(1 + U² + V²), as the frequencies of one wavelength's plane waves
+/// are: [K] 4.1. All that is said of U and V elsewhere is said of these sines. Of the front alone.
+struct Frequencies : DirectionRange {
+    friend bool operator==(const Frequencies&, const Frequencies&) = default;
+};
+
+/// A perspective that spans a full angle (radians), around the axis that is `toward` from the perpendicular. Throws
+/// Error(usage) for an angle outside 0 … π, and for one that reaches π/2 from the perpendicular while `toward` is not
+/// 0.
+Perspective field_of_view(double across, double down, double toward_right = 0, double toward_up = 0);
+inline Perspective field_of_view(double angle) { return field_of_view(angle, angle); }
+
+/// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, section 1). A ray crosses the hologram plane at the
+/// centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Which rays a hogel has, `view` says.
 struct LightFieldGrid {
     std::size_t hogels_s = 0, hogels_t = 0;          ///< S columns, T rows of hogels
     double pitch = 0;                                ///< d, metres between hogels
     std::size_t directions_u = 0, directions_v = 0;  ///< n_U, n_V samples of direction
-    double tan_half_u = 0, tan_half_v = 0;           ///< |U - center_u| <= tan_half_u, |V - center_v| <= tan_half_v
+    std::variant<Perspective, Frequencies> view;     ///< where they lie; a fixed focal plane will be a third kind
     std::size_t channels = 3;                        ///< 1, or 3 for R, G, B
-    double center_u = 0, center_v = 0;               ///< middle of the directions
-    Face face = Face::front;                         ///< in whose picture directions are uniform
-    Spacing spacing = Spacing::tangents;             ///< sines: the front alone
 
+    double width() const { return static_cast<double>(hogels_s) * pitch; }   ///< of the hologram, metres
+    double height() const { return static_cast<double>(hogels_t) * pitch; }  ///< likewise
     double s(double i) const { return (i + 0.5 - 0.5 * static_cast<double>(hogels_s)) * pitch; }
     double t(double j) const { return (0.5 * static_cast<double>(hogels_t) - j - 0.5) * pitch; }
-    double step_u() const { return 2 * tan_half_u / static_cast<double>(directions_u); }  ///< ΔU
-    double step_v() const { return 2 * tan_half_v / static_cast<double>(directions_v); }  ///< ΔV
-    double u(double k) const { return center_u + (k + 0.5 - 0.5 * static_cast<double>(directions_u)) * step_u(); }
-    double v(double l) const { return center_v + (0.5 * static_cast<double>(directions_v) - l - 0.5) * step_v(); }
-    /// The way back: the column of directions at U, the row at V, whole numbers at samples.
-    double column(double U) const {
-        return (U - center_u) / step_u() + (0.5 * static_cast<double>(directions_u) - 0.5);
+
+    bool is_perspective() const { return view.index() == 0; }
+    /// In whose picture directions are uniform.
+    Face face() const { return is_perspective() ? std::get_if<Perspective>(&view)->face : Face::front; }
+    const DirectionRange& range() const {
+        if (const auto* perspective = std::get_if<Perspective>(&view)) return *perspective;
+        return *std::get_if<Frequencies>(&view);
     }
-    double row(double V) const { return (0.5 * static_cast<double>(directions_v) - 0.5) - (V - center_v) / step_v(); }
-    /// The way along the ray (U, V) as (x, y, ζ), one step forward as the face looks: (U, V, 1) for the front;
-    /// nought where sines are those of no ray.
+    DirectionRange& range() { return const_cast<DirectionRange&>(std::as_const(*this).range()); }
+    double half_u() const { return range().half_u; }
+    double half_v() const { return range().half_v; }
+    double center_u() const { return range().center_u; }
+    double center_v() const { return range().center_v; }
+    double step_u() const { return 2 * half_u() / static_cast<double>(directions_u); }  ///< ΔU
+    double step_v() const { return 2 * half_v() / static_cast<double>(directions_v); }  ///< ΔV
+    double u(double k) const { return center_u() + (k + 0.5 - 0.5 * static_cast<double>(directions_u)) * step_u(); }
+    double v(double l) const { return center_v() + (0.5 * static_cast<double>(directions_v) - l - 0.5) * step_v(); }
+    /// The inverse of u and v: the column of directions at U, the row at V, whole numbers at samples.
+    double column(double U) const {
+        return (U - center_u()) / step_u() + (0.5 * static_cast<double>(directions_u) - 0.5);
+    }
+    double row(double V) const { return (0.5 * static_cast<double>(directions_v) - 0.5) - (V - center_v()) / step_v(); }
+    /// The direction (x, y, ζ) of the ray (U, V), one step forward as the face looks: (U, V, 1) for the front; zero
+    /// where sines are those of no ray.
     Vec3 direction_of(double U, double V) const;
-    /// Whether the way (x, y, ζ) from a hogel is one of the directions, or in the cell around one.
-    bool covers(Vec3 way) const;
+    /// Whether a direction (x, y, ζ) from a hogel is one of the directions, or in the cell around one.
+    bool covers(Vec3 direction) const;
     std::size_t directions() const { return directions_u * directions_v; }
     std::size_t hogels() const { return hogels_s * hogels_t; }
     double samples() const { return static_cast<double>(channels * directions()) * static_cast<double>(hogels()); }
@@ -107,8 +143,8 @@ struct LightFieldGrid {
 /// samples than can be addressed.
 void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
-/// Throws Error(code) where directions are spaced by sines, which `what` cannot do.
-void require_tangents(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
+/// Throws Error(code) where directions are uniform in sines, which `what` cannot do.
+void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Whether two light fields have the same hogels in the same places, and as many channels.
 bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
@@ -195,15 +231,59 @@ class LightFieldBuffer final : public LightFieldSource, public LightFieldSink {
     LightFieldGrid grid_;
 };
 
-/// Streams a light field from a source to a sink in the source's preferred tiles on all threads; memory: a tile a
-/// thread. Calls finish().
+/// A light field: a front, or all three or five faces of a hemicube with the front first. A value: copies share the
+/// sources, which live as long as anybody holds the light field or something made of it.
+class LightField {
+  public:
+    using Source = std::shared_ptr<const LightFieldSource>;
+
+    /// A front alone.
+    template <std::derived_from<LightFieldSource> S>
+    LightField(std::shared_ptr<S> front) : LightField(std::vector<Source>{std::move(front)}) {}
+    template <std::derived_from<LightFieldSource> S>
+    LightField(std::unique_ptr<S> front) : LightField(std::vector<Source>{Source(std::move(front))}) {}
+    /// All faces. Throws Error(usage) unless the first is a front, no face stands twice, and all have the same hogels
+    /// and channels.
+    explicit LightField(std::vector<Source> faces);
+
+    const LightFieldSource& front() const { return *faces_.front(); }
+    std::span<const Source> faces() const { return faces_; }
+    /// How the front is sampled.
+    const LightFieldGrid& grid() const { return front().grid(); }
+    /// How each face is.
+    std::vector<LightFieldGrid> grids() const;
+    bool has_sides() const { return faces_.size() > 1; }
+    /// Whether every face has depth.
+    bool has_depth() const;
+    /// Of all faces.
+    double samples() const;
+    /// The light field whose faces are make(face), a LightFieldSource each: the same light field wrapped.
+    template <std::invocable<const Source&> Make>
+    LightField wrapped(const Make& make) const {
+        std::vector<Source> wrapped;
+        for (const Source& face : faces_) wrapped.push_back(make(face));
+        return LightField(std::move(wrapped));
+    }
+
+  private:
+    std::vector<Source> faces_;
+};
+
+/// A light field of a source that somebody else owns, and that must outlive all that is made of it.
+LightField borrow(const LightFieldSource& front);
+LightField borrow(std::span<const LightFieldSource* const> faces);
+
+/// Throws Error(usage) where grids are not those of one light field: see LightField.
+void require_faces(std::span<const LightFieldGrid> faces);
+
+/// Streams a face of a light field from a source to a sink in the source's preferred tiles on all threads; memory: a
+/// tile a thread. Calls finish().
 void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
 
-/// The same light field, for readers whose tiles suit the source badly, such as narrow ones of a renderer that is fast
+/// The same light field, for readers whose tiles suit the sources badly, such as narrow ones of a renderer that is fast
 /// in long rows: it is read in tiles that suit, and those used last are kept, `bytes` of them at most. Where the tiles
 /// that a reader asks for would not fit, it reads from the source itself. Depths are kept if `with_depth`, else read
 /// from the source.
-std::unique_ptr<LightFieldSource> cached_tiles(std::unique_ptr<LightFieldSource> source, double bytes,
-                                               bool with_depth = false);
+LightField cached_tiles(const LightField& light_field, double bytes, bool with_depth = false);
 
 }  // namespace hogel

@@ -22,9 +22,9 @@ namespace hogel::codec {
 // Two textured planes at different depths, the nearer one covering the middle, with a little noise.
 inline LightFieldBuffer textured_planes(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u,
                                         std::size_t directions_v, std::size_t channels) {
-    LightFieldGrid grid{hogels_s, hogels_t, 1e-3, directions_u, directions_v, 0.3, 0.3, channels};
+    LightFieldGrid grid{hogels_s, hogels_t, 1e-3, directions_u, directions_v, Perspective{0.3, 0.3}, channels};
     LightFieldBuffer field(grid);
-    const double per_hogel = grid.pitch / grid.step_u();  // depth at which a hogel is a direction
+    const double per_hogel = grid.pitch / grid.step_u();  // depth with a disparity of one direction
     for (std::size_t j = 0; j < hogels_t; ++j)
         for (std::size_t i = 0; i < hogels_s; ++i)
             for (std::size_t l = 0; l < directions_v; ++l)
@@ -57,7 +57,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::vector<std
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-// A folder that goes with its content.
+// A temporary folder, removed with its content.
 class TestFolder {
   public:
     TestFolder() {
@@ -81,14 +81,19 @@ inline double sqnr_of(const LightFieldBuffer& truth, const LightFieldBuffer& oth
     return 10 * std::log10(signal / error);
 }
 
+inline CompressionResult compress(const LightFieldBuffer& field, const std::filesystem::path& path,
+                                  const CompressionOptions& options) {
+    return hogel::compress(borrow(field), path, options);
+}
+
 inline LightFieldBuffer decoded(const std::filesystem::path& path) {
-    const auto source = open_stream(path);
-    LightFieldBuffer field(source->grid());
-    copy(*source, field);
+    const LightField opened = open_stream(path);
+    LightFieldBuffer field(opened.grid());
+    copy(opened.front(), field);
     return field;
 }
 
-// What a call throws, in one line; 0 if nothing.
+// The code of the error that a call throws, whose message must be one line; 0 if it throws none.
 inline ErrorCode code_of(const std::function<void()>& call) {
     try {
         call();

@@ -19,7 +19,7 @@ using namespace literals;
 using Complex = std::complex<float>;
 
 LightFieldBuffer smooth_light_field() {
-    LightFieldBuffer light_field({3, 2, 48_um, 20, 18, 0.14, 0.13, 1});
+    LightFieldBuffer light_field({3, 2, 48_um, 20, 18, Perspective{0.14, 0.13}, 1});
     for (std::size_t t = 0; t < 2; ++t)
         for (std::size_t s = 0; s < 3; ++s)
             for (std::size_t l = 0; l < 18; ++l)
@@ -100,7 +100,7 @@ TEST(Basis, takes_coefficients_as_they_are) {
 // Lucente's basis: a direction's fringe is the transform of the part of each lobe that its cell covers. The cells cover
 // all lobes within the field of view, so the fringes of a uniform hogel add up to that of linear interpolation.
 TEST(Basis, of_pieces_is_one_cell_of_directions_each) {
-    const LightFieldGrid grid{1, 1, 48_um, 20, 18, 0.14, 0.13, 1};
+    const LightFieldGrid grid{1, 1, 48_um, 20, 18, Perspective{0.14, 0.13}, 1};
     LightFieldBuffer uniform(grid), one(grid);
     std::ranges::fill(uniform.radiance.elements(), 2.0f);
     const auto of = [&](const LightFieldBuffer& light_field, Method method) {
@@ -128,7 +128,7 @@ TEST(Basis, refuses_what_cannot_be) {
     options.phases = Phases::random;
     EXPECT_THROW(make_hologram(light_field, options), Error);
     EXPECT_THROW(make_hologram(light_field, options_for(Method::basis, "wavy")), Error);
-    const LightFieldBuffer fine({1, 1, 512_um, 256, 256, 0.14, 0.13, 1});
+    const LightFieldBuffer fine({1, 1, 512_um, 256, 256, Perspective{0.14, 0.13}, 1});
     EXPECT_THROW(make_hologram(fine, options_for(Method::basis, "cdf97")), Error);
 }
 

@@ -14,7 +14,7 @@ constexpr double max_points = 12;
 // How many of a face's directions a cell of direction sines is wide around a way of unit length, by differences.
 double width_in_rays(const LightFieldGrid& face, Vec3 way, double step, bool line) {
     const auto place = [&](double sx, double sy) {
-        const Vec3 q = to_face(face.face, {sx, sy, std::sqrt(std::max(1e-6, 1 - sx * sx - sy * sy))});
+        const Vec3 q = to_face(face.face(), {sx, sy, std::sqrt(std::max(1e-6, 1 - sx * sx - sy * sy))});
         return Vec3{face.column(q.x / q.z), line ? 0 : face.row(q.y / q.z), 0};
     };
     constexpr double little = 0.05;
@@ -27,7 +27,7 @@ double width_in_rays(const LightFieldGrid& face, Vec3 way, double step, bool lin
 // Adds the four rays around a place of a face with their bilinear weights; those of the border hold to its end.
 void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 way, double weight,
               std::map<std::uint32_t, double>& sum) {
-    const Vec3 q = to_face(face.face, way);
+    const Vec3 q = to_face(face.face(), way);
     const auto inside = [](double at, std::size_t count) {
         return std::clamp(at, 0.0, static_cast<double>(count) - 1);
     };

@@ -67,7 +67,7 @@ TEST(FastTiles, make_what_amplitudes_phases_and_one_fft_make) {
         if (!FastTiles::can(side)) GTEST_SKIP() << "without vectors there is nothing to test";
         // Fields of view that leave rows dark, some of them sixteen side by side.
         const double tangent = side == 128 ? 0.02 : 0.06;
-        const LightFieldGrid grid{1, 1, static_cast<double>(side) * 2e-6, 21, 19, tangent, tangent, 1};
+        const LightFieldGrid grid{1, 1, static_cast<double>(side) * 2e-6, 21, 19, Perspective{tangent, tangent}, 1};
         const FrequencyGrid frequencies(grid, side, 532e-9);
         constexpr std::size_t hogels = 19;
         Array<float, 2> rays({hogels, grid.directions()}), moduli({hogels, side * side}), blocks({hogels, side * side});

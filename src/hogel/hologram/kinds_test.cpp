@@ -73,7 +73,7 @@ double mean_of(const Image& image) {
 
 // A small ball that shines, seen 55 degrees off the axis: beyond the front face. To the right, so on the left.
 TEST(HemicubeStereogram, shows_a_point_at_55_degrees_where_geometry_says) {
-    const LightFieldGrid grid{16, 12, 36_um, 64, 64, 1, 1, 1};
+    const LightFieldGrid grid{16, 12, 36_um, 64, 64, Perspective{1, 1}, 1};
     for (const double side : {1.0, -1.0}) {
         const double angle = side * 55_deg;
         const Vec3 ball{2_mm * std::sin(angle), 0.2_mm, 2_mm * std::cos(angle)};
@@ -92,7 +92,7 @@ TEST(HemicubeStereogram, shows_a_point_at_55_degrees_where_geometry_says) {
         camera.focus_depth = ball.z;
         camera.picture = {48, 36, 12_um, 12_um, 0, 0};
         const Spot waves = spot_of(photograph(*hologram, std::span(&camera, 1))[0], camera.picture);
-        const Spot rays = spot_of(photograph(light.sources, std::span(&camera, 1), 64)[0], camera.picture);
+        const Spot rays = spot_of(photograph(borrow(light.sources), std::span(&camera, 1))[0], camera.picture);
         EXPECT_NEAR(waves.x, rays.x, 15_um);
         EXPECT_NEAR(waves.y, rays.y, 15_um);
         // Wider by what a hogel diffracts, λζ/d, seen from the side.
@@ -105,7 +105,7 @@ TEST(HemicubeStereogram, shows_a_point_at_55_degrees_where_geometry_says) {
 }
 
 TEST(HemicubeStereogram, of_uniform_light_is_as_bright_from_all_sides_and_where_faces_meet) {
-    const LightFieldGrid grid{14, 14, 36_um, 32, 32, 1, 1, 1};
+    const LightFieldGrid grid{14, 14, 36_um, 32, 32, Perspective{1, 1}, 1};
     const Hemicube light(grid, [](Vec3, Vec3) { return 0.5; });
     HologramOptions options;
     options.pitch = 0.36_um;
@@ -121,7 +121,7 @@ TEST(HemicubeStereogram, of_uniform_light_is_as_bright_from_all_sides_and_where_
 }
 
 TEST(HemicubeStereogram, of_the_front_alone_is_that_of_its_front_face) {
-    const LightFieldGrid grid{1, 1, 36_um, 48, 48, 1, 1, 1};
+    const LightFieldGrid grid{1, 1, 36_um, 48, 48, Perspective{1, 1}, 1};
     const std::vector<LightFieldGrid> faces = hemicube(grid);
     const FrequencyGrid front(faces.front(), 64, 633_nm), all(faces, 64, 633_nm);
     std::vector<float> radiance(all.rays()), a(std::size_t{64} * 64), b(a.size());
@@ -141,8 +141,8 @@ TEST(HemicubeStereogram, of_the_front_alone_is_that_of_its_front_face) {
 // A field of the directions of a hogel's own transform, and one in perspective, of the same smooth light.
 TEST(FrequencyGridLightField, is_taken_as_it_is_and_agrees_with_one_in_perspective) {
     const double wavelength = 532_nm, pitch = 64_um, step = wavelength / pitch;
-    LightFieldGrid sines{2, 2, pitch, 31, 27, 15.5 * step, 13.5 * step, 1};
-    sines.spacing = Spacing::sines;
+    LightFieldGrid sines{2, 2, pitch, 31, 27, Perspective{15.5 * step, 13.5 * step}, 1};
+    sines.view = Frequencies{sines.range()};
     ASSERT_TRUE(is_frequency_grid(sines, wavelength));
     EXPECT_FALSE(is_frequency_grid(sines, 633_nm));
     const auto light = [](Vec3 hogel, Vec3 way) {
@@ -152,7 +152,7 @@ TEST(FrequencyGridLightField, is_taken_as_it_is_and_agrees_with_one_in_perspecti
     const FrequencyGrid frequencies(sines, 64, wavelength);
     std::vector<float> moduli(std::size_t{64} * 64);
     frequencies.amplitudes({&exact.radiance(0, 1, 1, 0, 0), sines.directions()}, moduli);
-    const LightFieldGrid tangents{2, 2, pitch, 301, 301, 0.15, 0.15, 1};
+    const LightFieldGrid tangents{2, 2, pitch, 301, 301, Perspective{0.15, 0.15}, 1};
     const LightFieldBuffer seen = light_field_of(tangents, light);
     std::vector<float> interpolated(std::size_t{64} * 64);
     FrequencyGrid(tangents, 64, wavelength)
@@ -171,8 +171,8 @@ TEST(FrequencyGridLightField, is_taken_as_it_is_and_agrees_with_one_in_perspecti
 
 TEST(FrequencyGridLightField, is_photographed_as_what_it_is) {
     const double wavelength = 633_nm, pitch = 50_um, step = wavelength / pitch;
-    LightFieldGrid sines{24, 24, pitch, 17, 17, 8.5 * step, 8.5 * step, 1};
-    sines.spacing = Spacing::sines;
+    LightFieldGrid sines{24, 24, pitch, 17, 17, Perspective{8.5 * step, 8.5 * step}, 1};
+    sines.view = Frequencies{sines.range()};
     const LightFieldBuffer light = light_field_of(sines, [](Vec3 hogel, Vec3 way) {
         return hogel.x + 2_mm * way.x / way.z > 0.1_mm ? 1.0 : 0.2;  // an edge behind the hologram
     });
@@ -186,7 +186,7 @@ TEST(FrequencyGridLightField, is_photographed_as_what_it_is) {
     camera.focus_depth = 2_mm;
     camera.picture = {8, 1, 120_um, 900_um, 0, 0};
     const Image waves = photograph(*hologram, std::span(&camera, 1))[0];
-    const Image rays = photograph(light, std::span(&camera, 1), 64)[0];
+    const Image rays = photograph(borrow(light), std::span(&camera, 1))[0];
     for (std::size_t x = 0; x < 8; ++x) EXPECT_NEAR(waves.pixels.data()[x], rays.pixels.data()[x], 0.1) << x;
 }
 
@@ -194,7 +194,7 @@ TEST(FrequencyGridLightField, is_photographed_as_what_it_is) {
 // geometry says, from above still at its own height, and where its x is in focus y is not: that lies on the hologram.
 TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_on_the_hologram) {
     const double depth = 8_mm, half = 64_um;
-    const LightFieldGrid grid{24, 24, 64_um, 64, 1, 0.15, 0.01, 1};
+    const LightFieldGrid grid{24, 24, 64_um, 64, 1, Perspective{0.15, 0.01}, 1};
     const LightFieldBuffer light = light_field_of(grid, [&](Vec3 hogel, Vec3 way) {
         const double x = hogel.x + depth * way.x / way.z;
         return std::abs(x) < half && std::abs(hogel.y) < half ? 1.0 : 0.0;
@@ -234,7 +234,7 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
 // A ball beyond the front's edge, on a side of a hemisquare: where geometry says across, at its own height up and down,
 // and as wide as what a hogel diffracts.
 TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
-    const LightFieldGrid grid{16, 12, 36_um, 64, 1, 1, 0.1, 1};
+    const LightFieldGrid grid{16, 12, 36_um, 64, 1, Perspective{1, 0.1}, 1};
     for (const double side : {1.0, -1.0}) {
         const double angle = side * 50_deg;
         const Vec3 ball{2_mm * std::sin(angle), 72_um, 2_mm * std::cos(angle)};
@@ -277,7 +277,7 @@ TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
 }
 
 TEST(HorizontalParallax, is_as_bright_as_the_light_field_says_whatever_the_distance_of_lines) {
-    const LightFieldGrid grid{8, 8, 160_um, 30, 1, 0.12, 0.01, 1};
+    const LightFieldGrid grid{8, 8, 160_um, 30, 1, Perspective{0.12, 0.01}, 1};
     const LightFieldBuffer light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
     for (const auto& [lines, phases] : {std::pair{4_um, Phases::random},
                                         {10_um, Phases::random},
@@ -299,7 +299,7 @@ TEST(HorizontalParallax, is_as_bright_as_the_light_field_says_whatever_the_dista
 
 // What lines share makes their fringe flat; what is their own, a phase, sends light up and down alike.
 TEST(HorizontalParallax, designed_phases_flatten_the_fringe_of_every_line) {
-    const LightFieldGrid grid{8, 8, 160_um, 30, 1, 0.12, 0.01, 1};
+    const LightFieldGrid grid{8, 8, 160_um, 30, 1, Perspective{0.12, 0.01}, 1};
     const LightFieldBuffer light = light_field_of(grid, [](Vec3, Vec3) { return 0.7; });
     HologramOptions options;
     options.pitch = 2_um;
@@ -330,9 +330,9 @@ TEST(HorizontalParallax, designed_phases_flatten_the_fringe_of_every_line) {
 // Of every kind the same bytes in any tiling: hogels are keyed by their place, lines by their number.
 TEST(StereogramOfAnyKind, gives_the_same_bytes_in_any_tiling) {
     const auto light = [](Vec3 hogel, Vec3 way) { return 1 + 3000 * hogel.x + way.x / length(way); };
-    const LightFieldGrid grid{6, 5, 36_um, 16, 16, 1, 1, 1};
+    const LightFieldGrid grid{6, 5, 36_um, 16, 16, Perspective{1, 1}, 1};
     const Hemicube cube(grid, light);
-    const LightFieldBuffer row = light_field_of({6, 5, 36_um, 16, 1, 0.1, 0.1, 1}, light);
+    const LightFieldBuffer row = light_field_of({6, 5, 36_um, 16, 1, Perspective{0.1, 0.1}, 1}, light);
     HologramOptions fine, lines;
     fine.pitch = 0.36_um;
     lines.pitch = 3_um;
@@ -365,7 +365,7 @@ void expect_usage(std::span<const LightFieldSource* const> faces, const Hologram
 
 TEST(StereogramOfAnyKind, refuses_what_cannot_be_with_what_would_do) {
     const auto light = [](Vec3, Vec3) { return 1.0; };
-    const Hemicube cube({2, 2, 36_um, 8, 8, 1, 1, 1}, light);
+    const Hemicube cube({2, 2, 36_um, 8, 8, Perspective{1, 1}, 1}, light);
     HologramOptions options;
     options.pitch = 0.36_um;
     options.method = Method::basis;
@@ -373,23 +373,23 @@ TEST(StereogramOfAnyKind, refuses_what_cannot_be_with_what_would_do) {
     expect_usage(cube.sources, options, "only the method fourier");
     const LightFieldSource* const left[] = {cube.sources[1]};
     expect_usage(left, {}, "begins with the front face");
-    const LightFieldBuffer other = light_field_of({3, 2, 36_um, 8, 8, 1, 1, 1}, light);
+    const LightFieldBuffer other = light_field_of({3, 2, 36_um, 8, 8, Perspective{1, 1}, 1}, light);
     const LightFieldSource* const mixed[] = {&other, cube.sources[1]};
     expect_usage(mixed, {}, "other hogels");
 
-    const LightFieldBuffer full = light_field_of({2, 2, 36_um, 8, 6, 0.1, 0.1, 1}, light);
+    const LightFieldBuffer full = light_field_of({2, 2, 36_um, 8, 6, Perspective{0.1, 0.1}, 1}, light);
     const LightFieldSource* const only[] = {&full};
     options = {};
     options.pitch = 3_um;
     options.line_pitch = 9_um;
     expect_usage(only, options, "8x1 directions would do");
-    const Hemicube whole({2, 2, 36_um, 8, 8, 1, 1, 1}, light);
+    const Hemicube whole({2, 2, 36_um, 8, 8, Perspective{1, 1}, 1}, light);
     expect_usage(whole.sources, options, "8x1 directions would do");
     options.phases = Phases::phase_added;
     expect_usage(only, options, "random, fixed or designed phases");
 
-    LightFieldGrid sines{2, 2, 36_um, 31, 31, 15.5 * 633e-9 / 36e-6, 15.5 * 633e-9 / 36e-6, 1};
-    sines.spacing = Spacing::sines;
+    LightFieldGrid sines{2, 2, 36_um, 31, 31, Perspective{15.5 * 633e-9 / 36e-6, 15.5 * 633e-9 / 36e-6}, 1};
+    sines.view = Frequencies{sines.range()};
     const LightFieldBuffer exact(sines, true);
     const LightFieldSource* const grid[] = {&exact};
     options = {};

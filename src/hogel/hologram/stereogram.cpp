@@ -225,17 +225,17 @@ void require_enough_directions(const LightFieldGrid& light_field, const Hologram
         fmt::format("a hogel of {} shows directions {:.4f} apart at {}, but the light field's are {:.4f} apart; "
                     "added phases need {}x{} directions or more",
                     format_length(light_field.pitch), step, format_length(options.wavelength),
-                    std::max(light_field.step_u(), light_field.step_v()), enough(light_field.tan_half_u),
-                    enough(light_field.tan_half_v)));
+                    std::max(light_field.step_u(), light_field.step_v()), enough(light_field.half_u()),
+                    enough(light_field.half_v())));
 }
 
 void require_diffraction(const LightFieldGrid& light_field, const HologramOptions& options, double pitch) {
     // The steepest frequencies on the axes; the corners of the field of view are cut by the light field's own square.
-    const double edge = std::max(std::abs(light_field.center_u) + light_field.tan_half_u,
-                                 std::abs(light_field.center_v) + light_field.tan_half_v);
+    const double edge = std::max(std::abs(light_field.center_u()) + light_field.half_u(),
+                                 std::abs(light_field.center_v()) + light_field.half_v());
     // The outermost cells of a frequency grid are those of its outermost frequencies.
-    const double needed = light_field.spacing == Spacing::sines ? std::min(1.0, edge - 0.5 * light_field.step_u())
-                                                                : edge / std::sqrt(1 + edge * edge);
+    const double needed = !light_field.is_perspective() ? std::min(1.0, edge - 0.5 * light_field.step_u())
+                                                        : edge / std::sqrt(1 + edge * edge);
     const double possible = options.wavelength / (2 * pitch);
     if (needed > possible)
         throw Error(
@@ -260,10 +260,10 @@ std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const Hologra
                         fmt::format("a hologram with horizontal parallax only is made of one row of directions, but "
                                     "the light field has {}; {}x1 directions would do",
                                     face.directions_v, face.directions_u));
-        if (face.face == Face::top || face.face == Face::bottom)
+        if (face.face() == Face::top || face.face() == Face::bottom)
             throw Error(ErrorCode::usage, fmt::format("a hologram with horizontal parallax only has no use for the {} "
                                                       "face; front, left and right would do",
-                                                      name(face.face)));
+                                                      face_name(face.face())));
     }
     return static_cast<std::size_t>(std::max(1.0, std::round(faces.front().pitch / options.line_pitch)));
 }
@@ -280,12 +280,12 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
         validate(face, ErrorCode::usage, "light field");
         if (!same_hogels(face, front))
             throw Error(ErrorCode::usage, fmt::format("the {} face has other hogels or channels than the {} face",
-                                                      name(face.face), name(front.face)));
+                                                      face_name(face.face()), face_name(front.face())));
     }
-    if (front.face != Face::front)
+    if (front.face() != Face::front)
         throw Error(ErrorCode::usage, fmt::format("a stereogram begins with the front face of a light field, not with "
                                                   "the {} face",
-                                                  name(front.face)));
+                                                  face_name(front.face())));
     if (!(options.pitch > 0) || !(options.wavelength > 0) || !(options.line_pitch >= 0))
         throw Error(ErrorCode::usage, "a stereogram needs a positive pitch and wavelength");
     if (options.channel >= front.channels)
@@ -302,7 +302,7 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
         throw Error(ErrorCode::usage,
                     "of a hemicube's sides only the method fourier knows, with random, fixed or designed phases; "
                     "others expect a light field of one face");
-    if (needs_depth(options)) require_tangents(front, ErrorCode::usage, "a hologram with phases by depth");
+    if (needs_depth(options)) require_perspective(front, ErrorCode::usage, "a hologram with phases by depth");
     const std::size_t n = samples_per_hogel(front, options);
     const double pitch = front.pitch / static_cast<double>(n);
     if (faces.size() == 1) require_diffraction(front, options, pitch);

@@ -26,7 +26,7 @@ LightFieldBuffer uniform(const LightFieldGrid& grid, float radiance) {
     return light_field;
 }
 
-const LightFieldGrid small{8, 6, 64_um, 24, 24, 0.15, 0.15, 1};
+const LightFieldGrid small{8, 6, 64_um, 24, 24, Perspective{0.15, 0.15}, 1};
 
 // One direction alone makes one plane wave, which runs the way the ray does: e^{2πi (f_x x + f_y y)} with
 // f = −(U,V)/(λ√(1+U²+V²)), over every hogel, with |F|² = L (λ/d)²/cos θ.
@@ -150,7 +150,7 @@ struct CountingSource final : LightFieldSource {
 
 // However many directions hogels have, a region of the hologram asks for the rays of few at once, and each once.
 TEST(Stereogram, reads_no_more_rays_at_once_than_fit) {
-    const CountingSource source({16, 10, 64_um, 512, 512, 0.1, 0.1, 1});
+    const CountingSource source({16, 10, 64_um, 512, 512, Perspective{0.1, 0.1}, 1});
     ASSERT_GT(source.grid().samples() * sizeof(float), 1.2 * (1 << 27));
     for (const std::size_t looks : {1, 2}) {
         HologramOptions options;
@@ -173,7 +173,7 @@ TEST(Stereogram, reads_no_more_rays_at_once_than_fit) {
 
 // A surface of uniform radiance is as bright from everywhere, and as bright as the light field says: no free factor.
 TEST(Stereogram, a_uniform_light_field_photographs_as_its_radiance_from_every_side) {
-    const LightFieldGrid grid{24, 24, 64_um, 30, 30, 0.3, 0.3, 1};
+    const LightFieldGrid grid{24, 24, 64_um, 30, 30, Perspective{0.3, 0.3}, 1};
     const LightFieldBuffer light_field = uniform(grid, 0.5f);
     HologramOptions options;
     options.pitch = 1_um;
@@ -209,7 +209,7 @@ TEST(Stereogram, a_pitch_too_coarse_for_the_field_of_view_is_refused_with_one_th
 
 // The resampling keeps constants and, away from borders, the means of linear functions.
 TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
-    const LightFieldGrid grid{1, 1, 64_um, 41, 37, 0.14, 0.14, 1};
+    const LightFieldGrid grid{1, 1, 64_um, 41, 37, Perspective{0.14, 0.14}, 1};
     const double wavelength = 532_nm, step = wavelength / grid.pitch;
     const FrequencyGrid frequencies(grid, 32, wavelength);
     std::vector<float> radiance(grid.directions()), moduli(std::size_t{32} * 32);
@@ -227,7 +227,7 @@ TEST(FrequencyGrid, averages_exactly_what_it_can_average_exactly) {
 }
 
 TEST(FrequencyGrid, averages_alike_plainly_and_fast_and_for_one_hogel_and_many) {
-    const LightFieldGrid grid{1, 1, 64_um, 19, 23, 0.14, 0.12, 1};
+    const LightFieldGrid grid{1, 1, 64_um, 19, 23, Perspective{0.14, 0.12}, 1};
     const FrequencyGrid frequencies(grid, 32, 532_nm);
     const std::size_t hogels = 21;
     Array<float, 2> radiances({hogels, grid.directions()}), moduli({hogels, 1024}), one({1, 1024});

@@ -44,8 +44,8 @@ LightFieldGrid grid_of(std::size_t s, std::size_t t, std::size_t u, std::size_t 
     grid.pitch = 0.1 / 3;
     grid.directions_u = u;
     grid.directions_v = v;
-    grid.tan_half_u = 0.4;
-    grid.tan_half_v = 1.0 / 3;
+    grid.range().half_u = 0.4;
+    grid.range().half_v = 1.0 / 3;
     grid.channels = channels;
     return grid;
 }
@@ -167,9 +167,9 @@ TEST_F(Files, every_range_of_a_light_field_file_is_the_slice) {
 
 TEST_F(Files, directions_spaced_by_sines_come_back_as_such) {
     LightFieldGrid grid = grid_of(2, 2, 3, 5, 1);
-    grid.spacing = Spacing::sines;
+    grid.view = Frequencies{grid.range()};
     LightFieldGrid tangents = grid;
-    tangents.spacing = Spacing::tangents;
+    tangents.view = Perspective{tangents.range()};
     for (const LightFieldGrid& one : {grid, tangents}) {
         const LightFieldBuffer field = random_light_field(one, false);
         copy(field, *create_light_field(path_, one, {SampleType::single, false, {}}));
@@ -218,7 +218,7 @@ TEST_F(Files, the_faces_of_a_hemicube_come_back_from_one_file) {
     other.hogels_s = 7;
     EXPECT_TRUE(refused({grids[0], other}));
     LightFieldGrid aside = grids[0];
-    aside.center_u = 0.3;
+    aside.range().center_u = 0.3;
     copy(random_light_field(aside, false), *create_light_field(path_, aside));
     EXPECT_EQ(open_light_field(path_)->grid(), aside);
 }

@@ -57,8 +57,8 @@ LightFieldGrid small_grid() {
     grid.pitch = 0.001;
     grid.directions_u = 3;
     grid.directions_v = 2;
-    grid.tan_half_u = 0.3;
-    grid.tan_half_v = 0.2;
+    grid.range().half_u = 0.3;
+    grid.range().half_v = 0.2;
     return grid;
 }
 

@@ -36,7 +36,7 @@ class CountedLightField final : public LightFieldSource {
     mutable std::atomic<std::size_t> reads{0};
 
   private:
-    LightFieldGrid grid_{9, 7, 1e-3, 2, 2, 0.3, 0.3};
+    LightFieldGrid grid_{9, 7, 1e-3, 2, 2, Perspective{0.3, 0.3}};
 };
 
 class CountedField final : public FieldSource {

@@ -10,7 +10,7 @@ namespace {
 
 class CachedTiles final : public LightFieldSource {
   public:
-    CachedTiles(std::unique_ptr<LightFieldSource> source, double bytes, bool with_depth)
+    CachedTiles(LightField::Source source, double bytes, bool with_depth)
         : source_(std::move(source)),
           with_depth_(with_depth && source_->has_depth()),
           size_(source_->preferred_tile()),
@@ -51,7 +51,7 @@ class CachedTiles final : public LightFieldSource {
         });
     }
 
-    std::unique_ptr<LightFieldSource> source_;
+    LightField::Source source_;
     bool with_depth_;
     HogelRange size_;
     mutable core::LruCache<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
@@ -59,9 +59,10 @@ class CachedTiles final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> cached_tiles(std::unique_ptr<LightFieldSource> source, double bytes,
-                                               bool with_depth) {
-    return std::make_unique<CachedTiles>(std::move(source), bytes, with_depth);
+LightField cached_tiles(const LightField& light_field, double bytes, bool with_depth) {
+    const double share = bytes / static_cast<double>(light_field.faces().size());
+    return light_field.wrapped(
+        [&](const LightField::Source& face) { return std::make_shared<const CachedTiles>(face, share, with_depth); });
 }
 
 }  // namespace hogel

@@ -12,7 +12,7 @@
 namespace hogel::lightfield {
 namespace {
 
-const LightFieldGrid grid{20, 9, 1e-3, 3, 2, 0.2, 0.2, 3};
+const LightFieldGrid grid{20, 9, 1e-3, 3, 2, Perspective{0.2, 0.2}, 3};
 
 // Every value is a number of its own; counts the hogels that it is asked for.
 class Numbered final : public LightFieldSource {
@@ -68,17 +68,17 @@ TEST(KeepTiles, gives_the_same_values_and_reads_each_hogel_once) {
         for (const auto& [ns, nt] : {std::pair<std::size_t, std::size_t>{3, 4}, {7, 1}, {1, 9}, {20, 3}, {4, 2}}) {
             std::atomic<std::size_t> asked = 0;
             const auto kept = cached_tiles(std::make_unique<Numbered>(asked), 20 * tile_bytes, with_depth);
-            expect_all_in_tiles(*kept, ns, nt, with_depth);
+            expect_all_in_tiles(kept.front(), ns, nt, with_depth);
             EXPECT_EQ(asked, 180u) << ns << "x" << nt;
         }
 }
 
 TEST(KeepTiles, reads_from_the_source_where_nothing_fits_or_no_depth_is_kept) {
     std::atomic<std::size_t> asked = 0;
-    expect_all_in_tiles(*cached_tiles(std::make_unique<Numbered>(asked), 2.5 * tile_bytes, true), 3, 4, true);
+    expect_all_in_tiles(cached_tiles(std::make_unique<Numbered>(asked), 2.5 * tile_bytes, true).front(), 3, 4, true);
     EXPECT_EQ(asked, 180u);
     asked = 0;
-    expect_all_in_tiles(*cached_tiles(std::make_unique<Numbered>(asked), 20 * tile_bytes, false), 3, 4, true);
+    expect_all_in_tiles(cached_tiles(std::make_unique<Numbered>(asked), 20 * tile_bytes, false).front(), 3, 4, true);
     EXPECT_EQ(asked, 180u);
 }
 
@@ -89,9 +89,9 @@ TEST(KeepTiles, forgets_what_failed) {
     const auto kept = cached_tiles(std::move(source), 20 * tile_bytes);
     LightFieldTile tile(grid, {1, 1, 2, 2}, false);
     numbered.fails = true;
-    EXPECT_THROW(kept->read(tile), Error);
+    EXPECT_THROW(kept.front().read(tile), Error);
     numbered.fails = false;
-    expect_all_in_tiles(*kept, 3, 4, false);
+    expect_all_in_tiles(kept.front(), 3, 4, false);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numbers>
+#include <set>
 
 #include "hogel/core/parallel.h"
 
@@ -27,15 +29,15 @@ void require_finite(double value, ErrorCode code, const std::string& what, const
 
 // The cells of a side face have to lie where ζ > 0.
 void require_in_front_half(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
-    const double u_low = grid.center_u - grid.tan_half_u, u_high = grid.center_u + grid.tan_half_u;
-    const double v_low = grid.center_v - grid.tan_half_v, v_high = grid.center_v + grid.tan_half_v;
-    const bool good = grid.face == Face::front || (grid.face == Face::left && u_low >= 0) ||
-                      (grid.face == Face::right && u_high <= 0) || (grid.face == Face::top && v_high <= 0) ||
-                      (grid.face == Face::bottom && v_low >= 0);
+    const double u_low = grid.center_u() - grid.half_u(), u_high = grid.center_u() + grid.half_u();
+    const double v_low = grid.center_v() - grid.half_v(), v_high = grid.center_v() + grid.half_v();
+    const bool good = grid.face() == Face::front || (grid.face() == Face::left && u_low >= 0) ||
+                      (grid.face() == Face::right && u_high <= 0) || (grid.face() == Face::top && v_high <= 0) ||
+                      (grid.face() == Face::bottom && v_low >= 0);
     if (!good)
         throw Error(code, fmt::format("{}: the {} face reaches beyond the hologram plane; its directions are {} in U "
                                       "and {} in V, but must lie where ζ > 0",
-                                      what, name(grid.face), fmt::format("{:g} to {:g}", u_low, u_high),
+                                      what, face_name(grid.face()), fmt::format("{:g} to {:g}", u_low, u_high),
                                       fmt::format("{:g} to {:g}", v_low, v_high)));
 }
 
@@ -66,15 +68,11 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
     if (grid.channels != 1 && grid.channels != 3)
         throw Error(code, fmt::format("{}: {} channels, but 1 or 3 were expected", what, grid.channels));
     require_positive(grid.pitch, code, what, "hogel pitch");
-    require_positive(grid.tan_half_u, code, what, "tan_half_u");
-    require_positive(grid.tan_half_v, code, what, "tan_half_v");
-    require_finite(grid.center_u, code, what, "center_u");
-    require_finite(grid.center_v, code, what, "center_v");
+    require_positive(grid.half_u(), code, what, "tan_half_u");
+    require_positive(grid.half_v(), code, what, "tan_half_v");
+    require_finite(grid.center_u(), code, what, "center_u");
+    require_finite(grid.center_v(), code, what, "center_v");
     require_in_front_half(grid, code, what);
-    if (grid.spacing == Spacing::sines && grid.face != Face::front)
-        throw Error(code, fmt::format("{}: the directions of the {} face are spaced by sines, but only those of the "
-                                      "front can be",
-                                      what, name(grid.face)));
     require_positive(grid.step_u(), code, what, "the step between directions in u");
     require_positive(grid.step_v(), code, what, "the step between directions in v");
     require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
@@ -88,24 +86,42 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
                               what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
 }
 
-void require_tangents(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
-    if (grid.spacing == Spacing::sines)
+void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
+    if (!grid.is_perspective())
         throw Error(code, fmt::format("{} needs directions in perspective, uniform in tangents; these are uniform in "
                                       "sines, on the frequency grid of a hologram",
                                       what));
 }
 
+Perspective field_of_view(double across, double down, double toward_right, double toward_up) {
+    constexpr double quarter = std::numbers::pi / 2;
+    const auto span = [](double angle, double toward) -> std::pair<double, double> {
+        if (!(angle > 0 && angle < 2 * quarter))
+            throw Error(ErrorCode::usage, fmt::format("field of view: the full angle is {:.6g} degrees; expected one "
+                                                      "between 0 and 180",
+                                                      angle * 90 / quarter));
+        if (toward == 0) return {0, std::tan(angle / 2)};
+        if (!(std::abs(toward) + angle / 2 < quarter))
+            throw Error(ErrorCode::usage, "field of view: it must end before 90 degrees on either side");
+        const double low = std::tan(toward - angle / 2), high = std::tan(toward + angle / 2);
+        return {(low + high) / 2, (high - low) / 2};
+    };
+    const auto [center_u, half_u] = span(across, toward_right);
+    const auto [center_v, half_v] = span(down, toward_up);
+    return Perspective{{half_u, half_v, center_u, center_v}, Face::front};
+}
+
 Vec3 LightFieldGrid::direction_of(double U, double V) const {
-    if (spacing == Spacing::tangents) return from_face(face, {U, V, 1});
+    if (is_perspective()) return from_face(face(), {U, V, 1});
     const double cos2 = 1 - U * U - V * V;
     const double cosine = std::sqrt(std::max(cos2, 0.0));
     return cos2 > 0 ? Vec3{U / cosine, V / cosine, 1} : Vec3{0, 0, 0};
 }
 
-bool LightFieldGrid::covers(Vec3 way) const {
-    const Vec3 q = to_face(face, way);
+bool LightFieldGrid::covers(Vec3 direction) const {
+    const Vec3 q = to_face(face(), direction);
     if (!(q.z > 0)) return false;
-    const double forward = spacing == Spacing::sines ? length(q) : q.z;
+    const double forward = is_perspective() ? q.z : length(q);
     const double k = column(q.x / forward), l = row(q.y / forward);
     return k >= -0.5 && k <= static_cast<double>(directions_u) - 0.5 && l >= -0.5 &&
            l <= static_cast<double>(directions_v) - 0.5;
@@ -124,21 +140,18 @@ std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid) {
     for (const Face face : all_faces) {
         if (square && (face == Face::top || face == Face::bottom)) continue;
         LightFieldGrid& g = faces.emplace_back(grid);
-        g.face = face;
-        g.center_u = g.center_v = 0;
-        g.tan_half_u = 1;
-        if (!square) g.tan_half_v = 1;
+        DirectionRange range{1, square ? grid.half_v() : 1};
         if (face == Face::left || face == Face::right) {
             g.directions_u /= 2;
-            g.tan_half_u = 0.5;
-            g.center_u = face == Face::left ? 0.5 : -0.5;
+            range.half_u = 0.5;
+            range.center_u = face == Face::left ? 0.5 : -0.5;
         }
         if (face == Face::top || face == Face::bottom) {
             g.directions_v /= 2;
-            g.tan_half_v = 0.5;
-            g.center_v = face == Face::bottom ? 0.5 : -0.5;
+            range.half_v = 0.5;
+            range.center_v = face == Face::bottom ? 0.5 : -0.5;
         }
-        validate(g, ErrorCode::usage, "hemicube");
+        g.view = Perspective{range, face};
     }
     return faces;
 }
@@ -245,6 +258,49 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
         progress.report(static_cast<double>(++done) / static_cast<double>(across * down));
     });
     sink.finish();
+}
+
+void require_faces(std::span<const LightFieldGrid> faces) {
+    if (faces.empty() || faces.front().face() != Face::front)
+        throw Error(ErrorCode::usage, "a light field begins with its front; there is none");
+    std::set<Face> seen;
+    for (const LightFieldGrid& face : faces) {
+        if (!seen.insert(face.face()).second)
+            throw Error(ErrorCode::usage, fmt::format("a light field has the face '{}' twice", face_name(face.face())));
+        if (!same_hogels(faces.front(), face))
+            throw Error(ErrorCode::usage, fmt::format("the {} face of a light field has other hogels or channels than "
+                                                      "its front",
+                                                      face_name(face.face())));
+    }
+}
+
+LightField::LightField(std::vector<Source> faces) : faces_(std::move(faces)) { require_faces(grids()); }
+
+std::vector<LightFieldGrid> LightField::grids() const {
+    std::vector<LightFieldGrid> grids;
+    for (const Source& face : faces_) grids.push_back(face->grid());
+    return grids;
+}
+
+bool LightField::has_depth() const {
+    return std::ranges::all_of(faces_, [](const Source& face) { return face->has_depth(); });
+}
+
+double LightField::samples() const {
+    double samples = 0;
+    for (const Source& face : faces_) samples += face->grid().samples();
+    return samples;
+}
+
+LightField borrow(const LightFieldSource& front) {
+    const LightFieldSource* const only = &front;
+    return borrow({&only, 1});
+}
+
+LightField borrow(std::span<const LightFieldSource* const> faces) {
+    std::vector<LightField::Source> sources;
+    for (const LightFieldSource* face : faces) sources.emplace_back(std::shared_ptr<void>(), face);
+    return LightField(std::move(sources));
 }
 
 }  // namespace hogel

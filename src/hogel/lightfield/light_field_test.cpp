@@ -22,8 +22,8 @@ LightFieldGrid small_grid() {
     grid.pitch = 0.5_mm;
     grid.directions_u = 4;
     grid.directions_v = 3;
-    grid.tan_half_u = 0.4;
-    grid.tan_half_v = 0.3;
+    grid.range().half_u = 0.4;
+    grid.range().half_v = 0.3;
     return grid;
 }
 
@@ -196,8 +196,8 @@ TEST(LightFieldGrid, validate_names_what_is_wrong) {
     EXPECT_NE(message([](G& g) { g.channels = 2; }).find("2 channels"), std::string::npos);
     for (double bad : {nan, infinite, -infinite, 0.0, -1.0}) {
         EXPECT_NE(message([=](G& g) { g.pitch = bad; }).find("pitch"), std::string::npos);
-        EXPECT_NE(message([=](G& g) { g.tan_half_u = bad; }).find("tan_half_u"), std::string::npos);
-        EXPECT_NE(message([=](G& g) { g.tan_half_v = bad; }).find("tan_half_v"), std::string::npos);
+        EXPECT_NE(message([=](G& g) { g.range().half_u = bad; }).find("tan_half_u"), std::string::npos);
+        EXPECT_NE(message([=](G& g) { g.range().half_v = bad; }).find("tan_half_v"), std::string::npos);
     }
     EXPECT_NE(message([](G& g) { g.pitch = 1e308; }).find("width"), std::string::npos);
     const std::size_t big = std::size_t{1} << 31;
@@ -229,8 +229,8 @@ TEST(LightFieldGrid, default_tiles_fit_in_their_budget) {
 
 TEST(LightFieldGrid, off_centre_directions_are_around_their_middle_and_column_and_row_lead_back) {
     LightFieldGrid g = small_grid();
-    g.center_u = 0.5;
-    g.center_v = -0.25;
+    g.range().center_u = 0.5;
+    g.range().center_v = -0.25;
     EXPECT_DOUBLE_EQ(g.u(0), 0.5 - 0.3);
     EXPECT_DOUBLE_EQ(g.u(3), 0.5 + 0.3);
     EXPECT_DOUBLE_EQ(g.v(0), -0.25 + 0.2);
@@ -254,7 +254,7 @@ TEST(Face, turns_there_and_back_and_looks_where_its_name_says) {
             const Vec3 w = from_face(face, q);
             return Vec3{w.x, w.y, -w.z};
         };
-        EXPECT_EQ(cross(world({1, 0, 0}), world({0, 1, 0})), -world({0, 0, 1})) << name(face);
+        EXPECT_EQ(cross(world({1, 0, 0}), world({0, 1, 0})), -world({0, 0, 1})) << face_name(face);
     }
 }
 
@@ -307,11 +307,11 @@ TEST(Hemicube, pictures_continue_each_other) {
 TEST(Hemicube, refuses_what_cannot_be_halved_or_reaches_beyond_the_plane) {
     LightFieldGrid grid = small_grid();
     EXPECT_THROW(hemicube(grid), Error);  // three rows of directions
-    grid.face = Face::left;
+    std::get<Perspective>(grid.view).face = Face::left;
     EXPECT_THROW(validate(grid, ErrorCode::usage, "light field"), Error);
-    grid.center_u = grid.tan_half_u;
+    grid.range().center_u = grid.half_u();
     validate(grid, ErrorCode::usage, "light field");
-    grid.face = Face::right;
+    std::get<Perspective>(grid.view).face = Face::right;
     EXPECT_THROW(validate(grid, ErrorCode::usage, "light field"), Error);
 }
 

@@ -103,9 +103,9 @@ class Exposure {
             const double V = (grid.t(static_cast<double>(tile.range.t0 + t)) - lens_y) / distance;
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
                 const double U = (grid.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
-                const Vec3 way = to_face(grid.face, {U, V, 1});
+                const Vec3 way = to_face(grid.face(), {U, V, 1});
                 if (!(way.z > 0) || shown_before(face, {U, V, 1})) continue;
-                const double forward = grid.spacing == Spacing::sines ? length(way) : way.z;
+                const double forward = !grid.is_perspective() ? length(way) : way.z;
                 const Interpolation u(grid.column(way.x / forward), grid.directions_u);
                 const Interpolation v(grid.row(way.y / forward), grid.directions_v);
                 if (u.outside || v.outside) continue;
@@ -200,35 +200,19 @@ std::vector<Block> blocks(const LightFieldGrid& grid) {
     return list;
 }
 
-std::vector<LightFieldGrid> grids_of(std::span<const LightFieldSource* const> faces) {
-    if (faces.empty()) throw Error(ErrorCode::usage, "a photograph of no light field");
-    std::vector<LightFieldGrid> grids;
-    for (const LightFieldSource* face : faces) {
-        grids.push_back(face->grid());
-        if (!same_hogels(grids.front(), grids.back()))
-            throw Error(ErrorCode::usage, "the light fields of one photograph differ in their hogels or channels");
-    }
-    return grids;
-}
-
 }  // namespace
 
-std::vector<Image> photograph(const LightFieldSource& light_field, std::span<const Camera> cameras,
-                              std::size_t pupil_samples, const Progress& progress) {
-    const LightFieldSource* const only = &light_field;
-    return photograph({&only, 1}, cameras, pupil_samples, progress);
-}
-
-std::vector<Image> photograph(std::span<const LightFieldSource* const> faces, std::span<const Camera> cameras,
-                              std::size_t pupil_samples, const Progress& progress) {
-    const std::vector<LightFieldGrid> grids = grids_of(faces);
+std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
+                              const RayPhotographOptions& options, const Progress& progress) {
+    const std::vector<LightFieldGrid> grids = light_field.grids();
+    const std::span<const LightField::Source> faces = light_field.faces();
     std::vector<Exposure> exposures;
     for (const Camera& camera : cameras) {
         validate(camera);
         if (camera.focus_slope_x != 0 || camera.focus_slope_y != 0)
             throw Error(ErrorCode::usage,
                         "rays are photographed on a film parallel to the hologram; it cannot be tilted");
-        exposures.emplace_back(grids, camera, std::max<std::size_t>(pupil_samples, 1));
+        exposures.emplace_back(grids, camera, std::max<std::size_t>(options.pupil_samples, 1));
     }
     std::vector<FaceBlock> list;
     for (std::size_t face = 0; face < faces.size(); ++face)

@@ -15,7 +15,7 @@ namespace {
 
 using namespace literals;
 
-const LightFieldGrid coarse{80, 60, 100_um, 48, 40, 0.25, 0.22, 1};
+const LightFieldGrid coarse{80, 60, 100_um, 48, 40, Perspective{0.25, 0.22}, 1};
 
 // The light field of a luminous plane at a depth ζ with radiance f(x, y).
 LightFieldBuffer plane_at(double depth, const std::function<double(double, double)>& f,
@@ -48,7 +48,7 @@ TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_
         for (double focus : {-4_mm, 0_mm, 6_mm})
             for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{10e-3, 0, 0.1}, Vec3{-6e-3, 8e-3, 0.12}}) {
                 const Camera camera = camera_at(eye, focus);
-                const Image image = photograph(light_field, std::span(&camera, 1), 256)[0];
+                const Image image = photograph(borrow(light_field), std::span(&camera, 1), {256})[0];
                 for (std::size_t row = 2; row < 28; ++row)
                     for (std::size_t column = 2; column < 38; ++column) {
                         const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
@@ -68,13 +68,13 @@ TEST(GeometricPhotograph, blurs_by_the_circle_of_confusion) {
     const double depth = 6_mm, width = 0.4_mm;
     const auto stripe = [&](double x) { return std::exp(-x * x / (0.5 * width * width)); };
     // Sampled so finely that interpolation blurs little beside the stripe's own width.
-    const LightFieldGrid fine{160, 12, 50_um, 96, 8, 0.25, 0.22, 1};
+    const LightFieldGrid fine{160, 12, 50_um, 96, 8, Perspective{0.25, 0.22}, 1};
     const LightFieldBuffer light_field = plane_at(
         depth, [&](double x, double) { return stripe(x); }, fine);
     for (double focus : {6_mm, 3_mm, 0_mm, -6_mm}) {
         Camera camera = camera_at({0, 0, 0.1}, focus);
         camera.picture = {40, 1, 60_um, 60_um, 0, 0};
-        const Image image = photograph(light_field, std::span(&camera, 1), 256)[0];
+        const Image image = photograph(borrow(light_field), std::span(&camera, 1), {256})[0];
         const double R = camera.eye.z, in_focus = camera.picture.x(20) * (R + focus) / R;
         double sum = 0, count = 0;
         for (double y = -1; y <= 1; y += 0.01)
@@ -92,13 +92,13 @@ TEST(GeometricPhotograph, is_black_outside_the_hologram_and_outside_the_field_of
     const LightFieldBuffer light_field = plane_at(0, [](double, double) { return 1; });
     Camera camera = camera_at({0, 0, 0.1}, 0);
     camera.picture = {40, 30, 250_um, 250_um, 0, 0};  // 10 mm × 7.5 mm; the hologram is 8 mm × 6 mm
-    const Image image = photograph(light_field, std::span(&camera, 1))[0];
+    const Image image = photograph(borrow(light_field), std::span(&camera, 1))[0];
     EXPECT_EQ(image.pixels(15, 0, 0), 0);
     EXPECT_EQ(image.pixels(0, 20, 0), 0);
     EXPECT_NEAR(image.pixels(15, 20, 0), 1, 1e-5);
     EXPECT_NEAR(image.pixels(4, 5, 0), 1, 1e-5);
     camera.eye = {40_mm, 0, 100_mm};  // an angle of 0.4, where the light field ends at 0.25
-    const Image from_the_side = photograph(light_field, std::span(&camera, 1))[0];
+    const Image from_the_side = photograph(borrow(light_field), std::span(&camera, 1))[0];
     for (float value : from_the_side.pixels.elements()) EXPECT_EQ(value, 0);
 }
 
@@ -106,15 +106,15 @@ TEST(GeometricPhotograph, is_the_same_for_any_number_of_threads) {
     const LightFieldBuffer light_field =
         plane_at(3e-3, [](double x, double y) { return std::sin(4e3 * x) + std::cos(3e3 * y); });
     const Camera camera = camera_at({2e-3, 1e-3, 0.1}, 1e-3);
-    const Image all = photograph(light_field, std::span(&camera, 1))[0];
+    const Image all = photograph(borrow(light_field), std::span(&camera, 1))[0];
     const ThreadLimit one(1);
-    const Image alone = photograph(light_field, std::span(&camera, 1))[0];
+    const Image alone = photograph(borrow(light_field), std::span(&camera, 1))[0];
     for (std::size_t i = 0; i < all.pixels.size(); ++i) ASSERT_EQ(all.pixels.data()[i], alone.pixels.data()[i]);
 }
 
 // The hemicube of a patterned plane close behind the hologram, from everywhere: what the line of sight meets.
 TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes) {
-    LightFieldGrid grid{40, 30, 200_um, 64, 64, 1, 1, 1};
+    LightFieldGrid grid{40, 30, 200_um, 64, 64, Perspective{1, 1}, 1};
     const double depth = 0.4_mm;
     const auto f = [](double x, double y) { return 2 + std::sin(700 * x) + std::cos(500 * y); };
     std::vector<LightFieldBuffer> faces;
@@ -137,8 +137,8 @@ TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes
           Vec3{0.02, -far, distance}, Vec3{distance, 0.01, distance}, Vec3{-far, far, distance}}) {
         Camera camera = camera_at(eye, 0);
         camera.pupil = 1_mm;
-        const Image image = photograph(sources, std::span(&camera, 1), 64)[0];
-        const Image front = photograph(faces[0], std::span(&camera, 1), 64)[0];
+        const Image image = photograph(borrow(sources), std::span(&camera, 1))[0];
+        const Image front = photograph(borrow(faces[0]), std::span(&camera, 1))[0];
         for (std::size_t row = 2; row < 28; ++row)
             for (std::size_t column = 2; column < 38; ++column) {
                 const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
@@ -153,15 +153,18 @@ TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes
     }
 }
 
-TEST(GeometricPhotograph, refuses_faces_that_do_not_belong_together) {
+TEST(LightField, is_made_of_faces_that_belong_together) {
+    const LightFieldBuffer a(coarse);
     LightFieldGrid grid = coarse;
-    const LightFieldBuffer a(grid);
     grid.hogels_s /= 2;
-    const LightFieldBuffer b(grid);
-    const Camera camera = camera_at({0, 0, 0.1}, 0);
-    const std::array<const LightFieldSource*, 2> both{&a, &b};
-    EXPECT_THROW(photograph(both, std::span(&camera, 1)), Error);
-    EXPECT_THROW(photograph(std::span<const LightFieldSource* const>(), std::span(&camera, 1)), Error);
+    grid.view = Perspective{{0.5, 1, 0.5, 0}, Face::left};
+    const LightFieldBuffer smaller(grid), top(hemicube({4, 4, 1e-3, 4, 4, {}, 1})[3]);
+    const auto make = [](std::vector<const LightFieldSource*> faces) { return borrow(faces); };
+    EXPECT_EQ(make({&a}).faces().size(), 1u);
+    EXPECT_THROW(make({}), Error);              // no front
+    EXPECT_THROW(make({&top}), Error);          // none either
+    EXPECT_THROW(make({&a, &a}), Error);        // a face twice
+    EXPECT_THROW(make({&a, &smaller}), Error);  // other hogels
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 using namespace literals;
 
 constexpr double depth = 6e-3;
-const LightFieldGrid grid{6, 3, 1_mm, 12, 10, 0.4, 0.3, 3};
+const LightFieldGrid grid{6, 3, 1_mm, 12, 10, Perspective{0.4, 0.3}, 3};
 
 void add_triangle(ShadedScene& scene, Vec3 a, Vec3 b, Vec3 c, const std::function<Rgb(Vec3)>& radiance) {
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
@@ -178,7 +178,7 @@ TEST(SamplesPerRay, give_the_same_bytes_in_any_tiling_and_with_any_number_of_thr
 }
 
 TEST(SamplesPerRay, divide_the_cells_of_every_face) {
-    for (const LightFieldGrid& face : hemicube({4, 3, 1_mm, 8, 6, 1, 1, 3})) {
+    for (const LightFieldGrid& face : hemicube({4, 3, 1_mm, 8, 6, Perspective{1, 1}, 3})) {
         const LightFieldGrid fine = finer(face, {3, 2});
         EXPECT_NEAR(fine.s(3 * 2 + 1), face.s(2), 1e-15);
         EXPECT_NEAR(fine.t(3 * 1 + 1), face.t(1), 1e-15);

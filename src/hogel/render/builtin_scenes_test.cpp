@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(RenderersAndScenes, ClosedForm, ::testing::ValuesIn(ana
 
 TEST_P(ClosedForm, is_what_the_renderer_sees) {
     const auto& [algorithm, scene] = GetParam();
-    const LightFieldGrid grid{16, 16, size / 16, 40, 40, 0.4, 0.4, 3};
+    const LightFieldGrid grid{16, 16, size / 16, 40, 40, Perspective{0.4, 0.4}, 3};
     const LightFieldBuffer seen = render(algorithm, scene, grid);
     std::size_t compared = 0, hits = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
@@ -128,10 +128,10 @@ INSTANTIATE_TEST_SUITE_P(Showpieces, TwoWitnesses, ::testing::ValuesIn(showpiece
 TEST_P(TwoWitnesses, agree_away_from_silhouettes) {
     const auto& [algorithm, scene] = GetParam();
     // Some take their time over few rays.
-    LightFieldGrid grid{5, 5, size / 5, 64, 64, 0.1, 0.1, 3};
-    if (algorithm == "oblique") grid = {5, 5, size / 5, 24, 24, 0.0375, 0.0375, 3};
-    if (algorithm == "simplex3d") grid = {3, 3, size / 30, 24, 24, 0.09, 0.09, 3};
-    if (algorithm == "simplex") grid = {2, 2, size / 20, 8, 8, 0.03, 0.03, 3};
+    LightFieldGrid grid{5, 5, size / 5, 64, 64, Perspective{0.1, 0.1}, 3};
+    if (algorithm == "oblique") grid = {5, 5, size / 5, 24, 24, Perspective{0.0375, 0.0375}, 3};
+    if (algorithm == "simplex3d") grid = {3, 3, size / 30, 24, 24, Perspective{0.09, 0.09}, 3};
+    if (algorithm == "simplex") grid = {2, 2, size / 20, 8, 8, Perspective{0.03, 0.03}, 3};
     const bool behind = !crosses_plane(algorithm);
     const LightFieldBuffer rays = render("raytrace", scene, grid, behind),
                            other = render(algorithm, scene, grid, behind);

@@ -42,7 +42,7 @@ class Counted final : public SampleLighting {
 };
 
 constexpr std::array background{0.01f, 0.02f, 0.03f};
-const LightFieldGrid grid{30, 24, 0.2_mm, 28, 28, 0.35, 0.35, 3};
+const LightFieldGrid grid{30, 24, 0.2_mm, 28, 28, Perspective{0.35, 0.35}, 3};
 
 Mesh quad(Vec3 middle, Vec3 right, Vec3 up) {
     Mesh mesh;
@@ -95,7 +95,7 @@ TEST(LightSpacing, is_the_finest_width_of_a_sample_on_the_triangle) {
     ASSERT_EQ(spacing.size(), 4u);
     EXPECT_FLOAT_EQ(spacing[0], 0.5f * 0.2e-3f);  // reaches through the hologram
     EXPECT_FLOAT_EQ(spacing[2], 0.5f * 0.2e-3f);  // 1.5 mm · 0.025 are less than a hogel
-    const LightFieldGrid fine{24, 20, 0.02_mm, 24, 24, 0.3, 0.3, 3};
+    const LightFieldGrid fine{24, 20, 0.02_mm, 24, 24, Perspective{0.3, 0.3}, 3};
     EXPECT_FLOAT_EQ(cache_spacing(scene, fine, 2)[2], 2 * 1.5e-3f * 0.025f);
 }
 

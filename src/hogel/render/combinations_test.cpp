@@ -95,17 +95,18 @@ std::vector<Case> cases() {
     std::vector<Case> list;
     for (std::size_t i = 0; i < 55; ++i) {
         const Size& n = sizes[i % std::size(sizes)];
-        Case one{{n.hogels_s, n.hogels_t, 0.9_mm, n.directions_u, n.directions_v, 0.6, 0.5, i % 4 == 1 ? 1u : 3u},
+        Case one{{n.hogels_s, n.hogels_t, 0.9_mm, n.directions_u, n.directions_v, Perspective{0.6, 0.5},
+                  i % 4 == 1 ? 1u : 3u},
                  i % 3 == 1 && n.directions_u % 2 == 0 && (n.directions_v % 2 == 0 || n.directions_v == 1),
                  samples[i % std::size(samples)],
                  i % 2 == 1,
                  light[i % std::size(light)].model,
                  light[i % std::size(light)].spacing};
         if (one.hemicube) {
-            one.front.tan_half_u = one.front.tan_half_v = 1;
+            one.front.range().half_u = one.front.range().half_v = 1;
         } else if (i % 3 == 2) {
-            one.front.center_u = 0.31;
-            one.front.center_v = -0.23;
+            one.front.range().center_u = 0.31;
+            one.front.range().center_v = -0.23;
         }
         list.push_back(one);
     }

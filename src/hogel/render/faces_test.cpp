@@ -17,7 +17,7 @@ namespace {
 
 using namespace literals;
 
-const LightFieldGrid front{5, 4, 1_mm, 22, 18, 1, 1, 3};
+const LightFieldGrid front{5, 4, 1_mm, 22, 18, Perspective{1, 1}, 3};
 
 // Flat triangles of random colours, some far aside, from 0.2 to 8 mm behind the hologram or on both sides of it.
 ShadedScene random_scene(std::mt19937& random, bool behind) {
@@ -67,12 +67,12 @@ void compare_with_turned_scene(const std::string& name, const ShadedScene& scene
         for (std::size_t s = 0; s < grid.hogels_s; ++s) {
             ShadedScene turned = scene;
             for (Vec3& p : turned.positions) {
-                const Vec3 q = to_face(grid.face, {p.x - grid.s(double(s)), p.y - grid.t(double(t)), -p.z});
+                const Vec3 q = to_face(grid.face(), {p.x - grid.s(double(s)), p.y - grid.t(double(t)), -p.z});
                 p = {q.x, q.y, -q.z};
             }
             LightFieldGrid one = grid;
             one.hogels_s = one.hogels_t = 1;
-            one.face = Face::front;
+            one.view = Perspective{one.range()};
             const LightFieldBuffer expected = render("raytrace", turned, one);
             for (std::size_t v = 0; v < grid.directions_v; ++v)
                 for (std::size_t u = 0; u < grid.directions_u; ++u) {
@@ -85,8 +85,8 @@ void compare_with_turned_scene(const std::string& name, const ShadedScene& scene
                     different += same ? 0 : 1;
                 }
         }
-    EXPECT_GT(hits, grid.hogels() * grid.directions() / 20) << hogel::name(grid.face);
-    EXPECT_LE(different, grid.hogels() * grid.directions() / 2000) << hogel::name(grid.face);
+    EXPECT_GT(hits, grid.hogels() * grid.directions() / 20) << hogel::face_name(grid.face());
+    EXPECT_LE(different, grid.hogels() * grid.directions() / 2000) << hogel::face_name(grid.face());
 }
 
 TEST_P(Faces, are_the_front_of_the_scene_turned) {
@@ -104,14 +104,14 @@ TEST_P(Faces, off_centre_directions_are_the_front_of_the_scene_too) {
     std::mt19937 random(4);
     const ShadedScene scene = random_scene(random, true);
     LightFieldGrid aside = front;
-    aside.center_u = 0.7;
-    aside.center_v = -0.4;
+    aside.range().center_u = 0.7;
+    aside.range().center_v = -0.4;
     compare_with_turned_scene(GetParam(), scene, aside);
     // Off-centre samples that coincide with centred ones see the same.
     LightFieldGrid part = front;
     part.directions_u = 6;
-    part.tan_half_u = front.tan_half_u * 6 / 22;
-    part.center_u = front.u(18.5);
+    part.range().half_u = front.half_u() * 6 / 22;
+    part.range().center_u = front.u(18.5);
     const LightFieldBuffer whole = render(GetParam(), scene, front), right = render(GetParam(), scene, part);
     for (std::size_t t = 0; t < front.hogels_t; ++t)
         for (std::size_t s = 0; s < front.hogels_s; ++s)

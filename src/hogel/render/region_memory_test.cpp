@@ -9,8 +9,8 @@ namespace hogel::render {
 namespace {
 
 LightFieldGrid grid_of(Face face) {
-    LightFieldGrid grid{100, 50, 1e-3, 16, 6, 0.5, 0.4, 3};
-    grid.face = face;
+    LightFieldGrid grid{100, 50, 1e-3, 16, 6, Perspective{0.5, 0.4}, 3};
+    std::get<Perspective>(grid.view).face = face;
     return grid;
 }
 

@@ -41,7 +41,7 @@ std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shar
                                                 const LightFieldGrid& grid) {
     validate(grid, ErrorCode::usage, "light field to render");
     if (name == "raytrace") return baselines::make_raytrace_renderer(std::move(scene), grid);
-    require_tangents(grid, ErrorCode::usage, fmt::format("the renderer '{}' (but not raytrace)", name));
+    require_perspective(grid, ErrorCode::usage, fmt::format("the renderer '{}' (but not raytrace)", name));
     if (name == "zbuffer") return baselines::make_zbuffer_renderer(std::move(scene), grid);
     if (name == "simplex") return simplex::make_simplex_renderer(std::move(scene), grid);
     if (name == "simploid") return simplex::make_simploid_renderer(std::move(scene), grid);

@@ -40,7 +40,7 @@ LightFieldBuffer render(const std::string& name, const ShadedScene& scene, const
     return light_field;
 }
 
-const LightFieldGrid grid{5, 4, 1_mm, 33, 31, 0.5, 0.4, 3};
+const LightFieldGrid grid{5, 4, 1_mm, 33, 31, Perspective{0.5, 0.4}, 3};
 
 std::vector<std::string> names() {
     std::vector<std::string> list;
@@ -181,7 +181,7 @@ TEST(Renderers, that_scan_convert_give_no_sample_to_two_triangles_that_share_an_
 TEST_P(EveryRenderer, prefers_tiles_that_exist) {
     for (std::size_t hogels : {1, 7, 300})
         for (std::size_t directions : {1, 50, 1000}) {
-            const LightFieldGrid g{hogels, 5, 1_mm, directions, 40, 0.5, 0.4, 3};
+            const LightFieldGrid g{hogels, 5, 1_mm, directions, 40, Perspective{0.5, 0.4}, 3};
             const HogelRange tile = make_renderer(GetParam(), std::make_shared<ShadedScene>(), g)->preferred_tile();
             EXPECT_TRUE(tile.ns >= 1 && tile.ns <= g.hogels_s && tile.nt >= 1 && tile.nt <= g.hogels_t);
         }
@@ -282,9 +282,9 @@ TEST_P(EveryRenderer, agrees_with_ray_casting_on_2000_random_scenes) {
         scene.fronts_only = round % 8 >= 4;
         // One kind of triangle after the other by itself, then all together.
         if (round % 32 < 16) scene.triangles = {scene.triangles[static_cast<std::size_t>(round / 2 % 8)]};
-        LightFieldGrid window{2, 2, 1.7_mm, 5, 4, 0.0758, 0.0516, 3};
-        window.center_u = aside(random);
-        window.center_v = aside(random);
+        LightFieldGrid window{2, 2, 1.7_mm, 5, 4, Perspective{0.0758, 0.0516}, 3};
+        window.range().center_u = aside(random);
+        window.range().center_v = aside(random);
         expect_agreement(render("raytrace", scene, window), render(GetParam(), scene, window), 1, compared);
         ASSERT_FALSE(HasFatalFailure()) << round;
     }
@@ -365,7 +365,7 @@ INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer,
                          [](const auto& parameter) { return test_name(parameter.param); });
 
 TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangles_finds) {
-    const LightFieldGrid odd{3, 5, 1_mm, 21, 19, 0.5, 0.4, 3};
+    const LightFieldGrid odd{3, 5, 1_mm, 21, 19, Perspective{0.5, 0.4}, 3};
     std::mt19937 random(5);
     std::uniform_int_distribution<int> step(-4, 4), deeper(1, 6);
     const int rounds = GetParam() == "simplex" ? 10 : 40;

@@ -14,7 +14,7 @@ namespace hogel::render {
 class RowAxes {
   public:
     explicit RowAxes(const LightFieldGrid& grid)
-        : grid_(grid), turned_(grid.face == Face::left || grid.face == Face::right) {}
+        : grid_(grid), turned_(grid.face() == Face::left || grid.face() == Face::right) {}
 
     bool turned() const { return turned_; }
 
@@ -58,7 +58,7 @@ class RowAxes {
     Seen seen(Vec3 position, double slow_hogel) const {
         const Vec3 way{turned_ ? position.x - slow_hogel : position.x, turned_ ? position.y : position.y - slow_hogel,
                        -position.z};
-        const Vec3 q = to_face(grid_.face, way);
+        const Vec3 q = to_face(grid_.face(), way);
         return turned_ ? Seen{q.y, q.x, q.z} : Seen{q.x, q.y, q.z};
     }
 

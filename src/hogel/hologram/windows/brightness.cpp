@@ -76,13 +76,13 @@ WindowBrightness::WindowBrightness(const LightFieldGrid& rays, const FieldGrid& 
     const double pitch = grid.plane.pitch_x, extent = static_cast<double>(window.size()) * pitch;
     const double depth_step = 1.25 * extent * extent / grid.wavelength / (steps - 1);
     steps_a_metre_ = 1 / depth_step;
-    const double widest = std::max(rays.tan_half_u, rays.tan_half_v);
+    const double widest = std::max(rays.half_u(), rays.half_v());
     const double farthest = widest * depth_step * (steps - 1) / pitch;
     const math::Fft2 spectrum(1, math::good_fft_size(4 * window.size() + 4 * static_cast<std::size_t>(farthest)));
     const Line line{window, hop, pitch, grid.wavelength};
     const auto slant = [](double other) { return std::sqrt(1 + other * other); };
-    const Fan across{rays.center_u, rays.tan_half_u, slant(rays.center_v)},
-        down{rays.center_v, rays.tan_half_v, slant(rays.center_u)};
+    const Fan across{rays.center_u(), rays.half_u(), slant(rays.center_v())},
+        down{rays.center_v(), rays.half_v(), slant(rays.center_u())};
     for (std::size_t i = 0; i < steps; ++i) {
         const double depth = depth_step * static_cast<double>(i);
         const double u = one_dimension(line, depth, across, spectrum);

@@ -25,7 +25,7 @@ Box depth_box(const LightFieldGrid& grid, const HogelRange& r) {
 
 // The front lies at the root of the file, the sides in groups of their names.
 std::string dataset_name(Face face, const char* dataset) {
-    return face == Face::front ? dataset : fmt::format("{}/{}", name(face), dataset);
+    return face == Face::front ? dataset : fmt::format("{}/{}", face_name(face), dataset);
 }
 
 class LightFieldReader final : public LightFieldSource {
@@ -34,9 +34,9 @@ class LightFieldReader final : public LightFieldSource {
                      const std::shared_ptr<const core::RawFile>& raw)
         : grid_(grid) {
         const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
-        radiance_.emplace(file, dataset_name(grid.face, "radiance").c_str(), radiance_box(grid, all).extent, false,
+        radiance_.emplace(file, dataset_name(grid.face(), "radiance").c_str(), radiance_box(grid, all).extent, false,
                           raw);
-        const std::string depth = dataset_name(grid.face, "depth");
+        const std::string depth = dataset_name(grid.face(), "depth");
         if (hdf5::has_member(file, depth.c_str(), path))
             depth_.emplace(file, depth.c_str(), depth_box(grid, all).extent, false, raw);
     }
@@ -88,10 +88,10 @@ class LightFieldWriter final : public LightFieldSink {
 
     void finish() override {
         if (hogels_ != grid_.hogels())
-            throw Error(ErrorCode::internal,
-                        fmt::format("cannot finish the {} face of '{}': {} of {} hogels were "
-                                    "written",
-                                    name(grid_.face), shared_->file.path().string(), hogels_.load(), grid_.hogels()));
+            throw Error(ErrorCode::internal, fmt::format("cannot finish the {} face of '{}': {} of {} hogels were "
+                                                         "written",
+                                                         face_name(grid_.face()), shared_->file.path().string(),
+                                                         hogels_.load(), grid_.hogels()));
         if (--shared_->unfinished == 0) shared_->file.finish();
     }
 
@@ -106,23 +106,21 @@ class LightFieldWriter final : public LightFieldSink {
 };
 
 // The attribute that says how far directions go also says in what they are uniform.
-std::string half_name(Spacing spacing, char axis) {
-    return fmt::format("{}_half_{}", spacing == Spacing::sines ? "sine" : "tan", axis);
-}
+std::string half_name(bool sines, char axis) { return fmt::format("{}_half_{}", sines ? "sine" : "tan", axis); }
 
 hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
     return {{"axis_order", "c,t,s,v,u"},
-            {"face", std::string(name(grid.face))},
+            {"face", std::string(face_name(grid.face()))},
             {"channels", std::uint64_t{grid.channels}},
             {"hogels_s", std::uint64_t{grid.hogels_s}},
             {"hogels_t", std::uint64_t{grid.hogels_t}},
             {"hogel_pitch_m", grid.pitch},
             {"directions_u", std::uint64_t{grid.directions_u}},
             {"directions_v", std::uint64_t{grid.directions_v}},
-            {half_name(grid.spacing, 'u'), grid.tan_half_u},
-            {half_name(grid.spacing, 'v'), grid.tan_half_v},
-            {"center_u", grid.center_u},
-            {"center_v", grid.center_v}};
+            {half_name(!grid.is_perspective(), 'u'), grid.half_u()},
+            {half_name(!grid.is_perspective(), 'v'), grid.half_v()},
+            {"center_u", grid.center_u()},
+            {"center_v", grid.center_v()}};
 }
 
 LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path& path) {
@@ -138,7 +136,7 @@ LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path
     if (order != "c,t,s,v,u") hdf5::fail(path, fmt::format("its axis_order is '{}' instead of 'c,t,s,v,u'", order));
     const std::string found =
         hdf5::has_attribute(radiance.id(), "face", path) ? hdf5::read_text(radiance.id(), "face", path) : "front";
-    if (found != name(face))
+    if (found != face_name(face))
         hdf5::fail(path, fmt::format("its dataset '{}' says that it is the face '{}'", dataset, found));
     LightFieldGrid grid;
     grid.channels = count("channels");
@@ -147,12 +145,17 @@ LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path
     grid.pitch = number("hogel_pitch_m");
     grid.directions_u = count("directions_u");
     grid.directions_v = count("directions_v");
-    if (hdf5::has_attribute(radiance.id(), half_name(Spacing::sines, 'u').c_str(), path)) grid.spacing = Spacing::sines;
-    grid.tan_half_u = number(half_name(grid.spacing, 'u').c_str());
-    grid.tan_half_v = number(half_name(grid.spacing, 'v').c_str());
-    grid.center_u = middle("center_u");
-    grid.center_v = middle("center_v");
-    grid.face = face;
+    const bool sines = hdf5::has_attribute(radiance.id(), half_name(true, 'u').c_str(), path);
+    const DirectionRange range{number(half_name(sines, 'u').c_str()), number(half_name(sines, 'v').c_str()),
+                               middle("center_u"), middle("center_v")};
+    if (sines && face != Face::front)
+        hdf5::fail(path, fmt::format("the directions of its {} face are uniform in sines; only those of the front can "
+                                     "be",
+                                     face_name(face)));
+    if (sines)
+        grid.view = Frequencies{range};
+    else
+        grid.view = Perspective{range, face};
     validate(grid, ErrorCode::bad_input, fmt::format("cannot read '{}'", path.string()));
     return grid;
 }
@@ -163,10 +166,10 @@ std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesy
     hdf5::check_format(file, hdf5::light_field_format, "radiance", path);
     std::vector<LightFieldGrid> grids;
     for (const Face face : all_faces) {
-        if (face != Face::front && !hdf5::has_member(file, std::string(name(face)).c_str(), path)) continue;
+        if (face != Face::front && !hdf5::has_member(file, std::string(face_name(face)).c_str(), path)) continue;
         grids.push_back(read_face_grid(file, face, path));
         if (!same_hogels(grids.front(), grids.back()))
-            hdf5::fail(path, fmt::format("its {} face has other hogels or channels than its front", name(face)));
+            hdf5::fail(path, fmt::format("its {} face has other hogels or channels than its front", face_name(face)));
     }
     return grids;
 }
@@ -178,9 +181,30 @@ namespace hogel {
 using namespace io;
 using namespace io::hdf5;
 
+namespace {
+
+// A face that is shared with others.
+class SharedFace final : public LightFieldSource {
+  public:
+    explicit SharedFace(LightField::Source face) : face_(std::move(face)) {}
+    const LightFieldGrid& grid() const override { return face_->grid(); }
+    bool has_depth() const override { return face_->has_depth(); }
+    HogelRange preferred_tile() const override { return face_->preferred_tile(); }
+    void read(LightFieldTile& tile) const override { face_->read(tile); }
+
+  private:
+    LightField::Source face_;
+};
+
+}  // namespace
+
 std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path) {
-    if (is_stream(path)) return open_stream_faces(path);
     std::vector<std::unique_ptr<LightFieldSource>> faces;
+    if (is_stream(path)) {
+        const LightField light_field = open_stream(path);
+        for (const LightField::Source& face : light_field.faces()) faces.push_back(std::make_unique<SharedFace>(face));
+        return faces;
+    }
     const hdf5::Session session;
     const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
@@ -204,22 +228,22 @@ std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std:
     std::vector<hdf5::NewDataset> datasets;
     for (const LightFieldGrid& grid : grids) {
         validate(grid, ErrorCode::usage, "light field");
-        const auto same_face = [&](const LightFieldGrid& other) { return other.face == grid.face; };
+        const auto same_face = [&](const LightFieldGrid& other) { return other.face() == grid.face(); };
         if (!same_hogels(grid, grids.front()) || std::ranges::count_if(grids, same_face) != 1)
             throw Error(ErrorCode::usage, fmt::format("light field '{}': its faces must have the same hogels and "
                                                       "channels, each face once",
                                                       path.string()));
         const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
-        datasets.push_back({dataset_name(grid.face, "radiance"),
+        datasets.push_back({dataset_name(grid.face(), "radiance"),
                             options.type == SampleType::half ? Element::half : Element::single,
                             radiance_box(grid, all).extent, light_field_attributes(grid)});
         if (options.with_depth)
-            datasets.push_back({dataset_name(grid.face, "depth"),
+            datasets.push_back({dataset_name(grid.face(), "depth"),
                                 Element::single,
                                 depth_box(grid, all).extent,
                                 {{"axis_order", "t,s,v,u"}, {"unit", "m"}}});
     }
-    if (grids.empty() || grids.front().face != Face::front)
+    if (grids.empty() || grids.front().face() != Face::front)
         throw Error(ErrorCode::usage, fmt::format("light field '{}': its front face must come first", path.string()));
     std::shared_ptr<SharedFile> shared(new SharedFile{
         {path, hdf5::root_attributes(hdf5::light_field_format, options.metadata), std::move(datasets), options.resume},

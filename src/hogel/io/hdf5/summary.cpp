@@ -33,15 +33,13 @@ FileKind kind_by_extension(const std::filesystem::path& path) {
 }
 
 // The angle between the first and the last of the directions.
-double degrees_across(Spacing spacing, double center, double half) {
-    const auto angle = [&](double at) {
-        return spacing == Spacing::sines ? std::asin(std::clamp(at, -1.0, 1.0)) : std::atan(at);
-    };
+double degrees_across(bool sines, double center, double half) {
+    const auto angle = [&](double at) { return sines ? std::asin(std::clamp(at, -1.0, 1.0)) : std::atan(at); };
     return (angle(center + half) - angle(center - half)) * 180 / std::numbers::pi;
 }
 
 void describe(const LightFieldGrid& grid, FileSummary& summary) {
-    const bool sines = grid.spacing == Spacing::sines;
+    const bool sines = !grid.is_perspective();
     summary.numbers.insert(summary.numbers.end(),
                            {{"hogels_s", static_cast<double>(grid.hogels_s)},
                             {"hogels_t", static_cast<double>(grid.hogels_t)},
@@ -50,12 +48,12 @@ void describe(const LightFieldGrid& grid, FileSummary& summary) {
                             {"height_m", static_cast<double>(grid.hogels_t) * grid.pitch},
                             {"directions_u", static_cast<double>(grid.directions_u)},
                             {"directions_v", static_cast<double>(grid.directions_v)},
-                            {sines ? "sine_half_u" : "tan_half_u", grid.tan_half_u},
-                            {sines ? "sine_half_v" : "tan_half_v", grid.tan_half_v},
-                            {"center_u", grid.center_u},
-                            {"center_v", grid.center_v},
-                            {"field_of_view_u_deg", degrees_across(grid.spacing, grid.center_u, grid.tan_half_u)},
-                            {"field_of_view_v_deg", degrees_across(grid.spacing, grid.center_v, grid.tan_half_v)},
+                            {sines ? "sine_half_u" : "tan_half_u", grid.half_u()},
+                            {sines ? "sine_half_v" : "tan_half_v", grid.half_v()},
+                            {"center_u", grid.center_u()},
+                            {"center_v", grid.center_v()},
+                            {"field_of_view_u_deg", degrees_across(sines, grid.center_u(), grid.half_u())},
+                            {"field_of_view_v_deg", degrees_across(sines, grid.center_v(), grid.half_v())},
                             {"channels", static_cast<double>(grid.channels)}});
 }
 
@@ -64,11 +62,11 @@ void describe_faces(const std::vector<LightFieldGrid>& grids, FileSummary& summa
     std::string faces;
     for (const LightFieldGrid& face : grids) {
         if (!faces.empty()) faces += ' ';
-        faces += name(face.face);
-        if (face.face == Face::front) continue;
-        summary.numbers.emplace_back(fmt::format("{}_directions_u", name(face.face)),
+        faces += face_name(face.face());
+        if (face.face() == Face::front) continue;
+        summary.numbers.emplace_back(fmt::format("{}_directions_u", face_name(face.face())),
                                      static_cast<double>(face.directions_u));
-        summary.numbers.emplace_back(fmt::format("{}_directions_v", name(face.face)),
+        summary.numbers.emplace_back(fmt::format("{}_directions_v", face_name(face.face())),
                                      static_cast<double>(face.directions_v));
     }
     summary.text.emplace_back("faces", faces);

@@ -45,7 +45,7 @@ class RaytraceRenderer final : public LightFieldSource {
     // How many steps forward the rays of a hogel begin and end: a little before the nearest point and a little behind
     // the farthest.
     std::pair<double, double> steps(Vec3 hogel) const {
-        const double a = to_face(grid_.face, low_ - hogel).z, b = to_face(grid_.face, high_ - hogel).z;
+        const double a = to_face(grid_.face(), low_ - hogel).z, b = to_face(grid_.face(), high_ - hogel).z;
         const double low = std::min(a, b), high = std::max(a, b), margin = 1e-3 * (high - low) + 1e-9;
         return {low - margin, high + margin};
     }

@@ -76,7 +76,7 @@ class ZbufferRenderer final : public LightFieldSource {
         const double hogel_s = grid_.s(static_cast<double>(s)), hogel_t = grid_.t(static_cast<double>(t));
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Vec3& p = scene_->positions[i];
-            const auto [x, y, depth] = to_face(grid_.face, {p.x - hogel_s, p.y - hogel_t, -p.z});
+            const auto [x, y, depth] = to_face(grid_.face(), {p.x - hogel_s, p.y - hogel_t, -p.z});
             vertices[i] = {x, y, depth, grid_.column(x / depth), grid_.row(y / depth)};
         }
     }

@@ -11,7 +11,7 @@
 namespace hogel::render::epi {
 namespace {
 
-const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
+const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
 
 TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
     const ShadedScene scene = scattered_triangles(1000, 0.1e-3);
@@ -52,7 +52,7 @@ TEST(TriangleClusters, come_nearest_first_and_lie_in_their_boxes) {
 
 // Right in front of a triangle its front is seen where a strip's end 0 is left of end 1.
 TEST(TriangleClusters, show_fronts_first_and_then_backs) {
-    for (const LightFieldGrid& g : hemicube({9, 8, 0.5e-3, 20, 30, 1, 1, 3})) {
+    for (const LightFieldGrid& g : hemicube({9, 8, 0.5e-3, 20, 30, Perspective{1, 1}, 3})) {
         const EpipolarFrame frame(g);
         const TriangleClusters clusters(scattered_triangles(1000, 0.4e-3), frame, 3);
         ASSERT_GT(clusters.fronts, 4u);
@@ -107,10 +107,10 @@ TEST(TriangleClusters, hold_the_luminance_if_there_is_one_channel) {
 // The points of a ray of any face lie in its epipolar plane, and the ray is straight there.
 TEST(EpipolarFrame, counts_in_samples) {
     LightFieldGrid aside = grid;
-    aside.center_u = 0.3;
-    aside.center_v = -0.2;
-    std::vector<LightFieldGrid> grids{grid, {8, 9, 0.5e-3, 21, 30, 0.5, 0.4, 3}, aside};
-    for (const LightFieldGrid& face : hemicube({8, 9, 0.5e-3, 20, 30, 1, 1, 3})) grids.push_back(face);
+    aside.range().center_u = 0.3;
+    aside.range().center_v = -0.2;
+    std::vector<LightFieldGrid> grids{grid, {8, 9, 0.5e-3, 21, 30, Perspective{0.5, 0.4}, 3}, aside};
+    for (const LightFieldGrid& face : hemicube({8, 9, 0.5e-3, 20, 30, Perspective{1, 1}, 3})) grids.push_back(face);
     for (const LightFieldGrid& g : grids) {
         const EpipolarFrame frame(g);
         const HogelRange all{0, 0, g.hogels_s, g.hogels_t};

@@ -20,11 +20,11 @@ INSTANTIATE_TEST_SUITE_P(Crossings, CrossingsOnEveryTarget, ::testing::ValuesIn(
 // Light fields whose planes are found alike: the front, directions to one side, a side of a hemicube, and more
 // directions than a slab has.
 std::vector<LightFieldGrid> grids() {
-    const LightFieldGrid front{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
+    const LightFieldGrid front{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
     LightFieldGrid aside = front, tall = front;
-    aside.center_v = -0.7;
+    aside.range().center_v = -0.7;
     tall.directions_v = 300;
-    const std::vector<LightFieldGrid> cube = hemicube({8, 9, 0.5e-3, 20, 30, 1, 1, 3});
+    const std::vector<LightFieldGrid> cube = hemicube({8, 9, 0.5e-3, 20, 30, Perspective{1, 1}, 3});
     return {front, aside, tall, cube[1], cube[3]};
 }
 
@@ -93,7 +93,7 @@ TEST(Crossings, are_all_that_show_and_few_others) {
                 }
             }
             EXPECT_GT(crossed, 20u);
-            EXPECT_LT(found, crossed + crossed / 2) << int(grid.face) << " " << reach;
+            EXPECT_LT(found, crossed + crossed / 2) << int(grid.face()) << " " << reach;
         }
     EXPECT_GT(shown, 1000u);
 }
@@ -118,7 +118,7 @@ TEST(Crossings, a_box_is_met_where_its_only_point_is_seen_and_nowhere_far_from_t
 
 // Triangles that a plane only just separates, of which clusters hold quite different ones.
 TEST(Crossings, miss_no_narrow_one) {
-    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, 0.5, 0.4, 3};
+    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, Perspective{0.5, 0.4}, 3};
     const EpipolarFrame frame(grid);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> depth(0.5e-3, 9e-3), height(-1e-9, 1e-9);
@@ -150,7 +150,7 @@ TEST(Crossings, miss_no_narrow_one) {
 
 // Of triangles that do not touch the hologram plane hardly one is found in vain.
 TEST(Crossings, are_nearly_exact_behind_the_hologram) {
-    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, 0.5, 0.4, 3};
+    const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, Perspective{0.5, 0.4}, 3};
     const EpipolarFrame frame(grid);
     ShadedScene scene = scattered_triangles(5000, 0.05e-3);
     for (Vec3& p : scene.positions) p.z -= 8e-3;

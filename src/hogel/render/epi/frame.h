@@ -22,8 +22,8 @@ class EpipolarFrame {
           axes_(grid),
           step_(axes_.turned() ? grid.step_v() : grid.step_u()),
           offset_(fast_count() % 2 == 0 ? 0.5 : 0.0),
-          middle_fast_(axes_.turned() ? -grid.center_v / step_ : grid.center_u / step_),
-          middle_slow_((axes_.turned() ? grid.center_u : grid.center_v) / step_),
+          middle_fast_(axes_.turned() ? -grid.center_v() / step_ : grid.center_u() / step_),
+          middle_slow_((axes_.turned() ? grid.center_u() : grid.center_v()) / step_),
           step_ratio_((axes_.turned() ? grid.step_u() : grid.step_v()) / step_) {}
 
     const RowAxes& axes() const { return axes_; }
@@ -52,7 +52,7 @@ class EpipolarFrame {
         const double towards = axes_.turned() ? k + 0.5 - 0.5 * static_cast<double>(grid_.directions_u)
                                               : 0.5 * static_cast<double>(grid_.directions_v) - k - 0.5;
         const double slope = towards * step_ratio_ + middle_slow_;
-        if (grid_.face == Face::front) return {place, slope, 0, 0, 1};
+        if (grid_.face() == Face::front) return {place, slope, 0, 0, 1};
         const Vec3 here = axes_.turned() ? Vec3{place, 0, 0} : Vec3{0, place, 0};
         const double z0 = axes_.seen(here, 0).forward * step_;
         const double direction_here = axes_.slow_direction(direction);

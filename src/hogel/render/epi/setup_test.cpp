@@ -17,7 +17,7 @@ namespace {
 class SetUpOnEveryTarget : public KernelTargetTest {};
 INSTANTIATE_TEST_SUITE_P(SetUp, SetUpOnEveryTarget, ::testing::ValuesIn(kernel_targets()));
 
-const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, 0.5, 0.4, 3};
+const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
 
 PlanePlace place_of(const EpipolarFrame& frame, std::size_t t, std::size_t v) {
     const EpipolarFrame::Plane place = frame.plane(t, v);

@@ -15,7 +15,7 @@ class SimplexRenderer final : public LightFieldSource {
         : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
         near_ = near_plane(*scene_, "simplex");
         // Only on a side of a hemicube: in front the triangles are cut.
-        if (grid.face != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
+        if (grid.face() != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
     }
 
     const LightFieldGrid& grid() const override { return grid_; }

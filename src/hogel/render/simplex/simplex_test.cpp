@@ -122,7 +122,7 @@ TEST(ProductPaths, fill_the_product_of_two_triangles_once) {
 
 // [K] 5.7.1: a triangle seen from a triangle, a rectangle, a pentagon.
 TEST(ProjectedVolume, has_6_12_or_18_simplices_that_fill_it_once) {
-    const LightFieldGrid grid{8, 6, 1_mm, 32, 24, 0.5, 0.4, 1};
+    const LightFieldGrid grid{8, 6, 1_mm, 32, 24, Perspective{0.5, 0.4}, 1};
     const HogelRange range{2, 1, 4, 3};
     const DeepTriangle triangle{{{-2e-3, 1e-3, 5e-3}, {3e-3, 0, 9e-3}, {0, 4e-3, 6e-3}}};
     const std::vector<CameraPoint> pentagon{{0, 0}, {2, -0.3}, {3, 1}, {2.2, 2}, {0.1, 1.4}};
@@ -175,7 +175,7 @@ double area(const std::vector<CameraPoint>& polygon) {
 
 // [K] fig. 5.22: on the side of the front face nothing, a triangle, a quadrilateral, a pentagon, everything.
 TEST(BackFace, cuts_the_region_in_one_of_five_ways) {
-    const LightFieldGrid grid{8, 8, 1_mm, 32, 32, 0.5, 0.5, 1};
+    const LightFieldGrid grid{8, 8, 1_mm, 32, 32, Perspective{0.5, 0.5}, 1};
     const HogelRange range{2, 2, 4, 4};
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-3e-3, 3e-3), deep(1e-3, 9e-3);
@@ -213,7 +213,7 @@ TEST(BackFace, cuts_the_region_in_one_of_five_ways) {
 
 // Where both faces are seen the volume folds through itself; the lobes of the two sides still fill it once.
 TEST(ProjectedVolume, with_two_lobes_is_filled_once) {
-    const LightFieldGrid grid{8, 8, 1_mm, 32, 32, 0.5, 0.5, 1};
+    const LightFieldGrid grid{8, 8, 1_mm, 32, 32, Perspective{0.5, 0.5}, 1};
     const HogelRange range{2, 2, 4, 4};
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-3e-3, 3e-3), deep(1e-3, 9e-3), column(0, 3);

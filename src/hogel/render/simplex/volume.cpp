@@ -65,7 +65,7 @@ ProjectedPoint as_seen(const std::array<double, 3>& point, CameraPoint camera, c
                        const HogelRange& range) {
     const double s = grid.s(static_cast<double>(range.s0) + camera.s);
     const double t = grid.t(static_cast<double>(range.t0) + camera.t);
-    const auto [right, up, forward] = to_face(grid.face, {point[0] - s, point[1] - t, point[2]});
+    const auto [right, up, forward] = to_face(grid.face(), {point[0] - s, point[1] - t, point[2]});
     return {right, up, camera.s, camera.t, forward};
 }
 
@@ -130,7 +130,7 @@ double nearest_forward(const LightFieldGrid& grid, double near) {
         for (const double v : {-1.0, 1.0})
             steepest =
                 std::max(steepest,
-                         grid.direction_of(grid.center_u + u * grid.tan_half_u, grid.center_v + v * grid.tan_half_v).z);
+                         grid.direction_of(grid.center_u() + u * grid.half_u(), grid.center_v() + v * grid.half_v()).z);
     return near / steepest;
 }
 
