@@ -147,7 +147,8 @@ int make(const Options& options, const Session& session) {
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
     timed(session, report, "photographs by rays", [&](Stage& stage) {
-        std::vector<Image> pictures = photograph(*light_field, cameras, options.pupil_samples, stage.progress());
+        std::vector<Image> pictures =
+            photograph(borrow(*light_field), cameras, {options.pupil_samples}, stage.progress());
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].geometric = std::move(pictures[i]);
     });
     if (options.store_hologram)

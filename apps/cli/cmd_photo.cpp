@@ -91,7 +91,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
         Stage stage(session, "geometric photograph");
         std::vector<const LightFieldSource*> sources;
         for (const auto& face : faces) sources.push_back(face.get());
-        return photograph(sources, cameras, options.pupil_samples, stage.progress());
+        return photograph(borrow(sources), cameras, {options.pupil_samples}, stage.progress());
     }
     require_holograms(grids_of(faces), options.hologram, cameras);
     if (kind == InputKind::scene)

@@ -332,14 +332,33 @@ bool needs_depth(const HologramChoices& options) {
     return needs_depth(stereogram);
 }
 
+namespace {
+
+// A face that is shared with others.
+class SharedFace final : public LightFieldSource {
+  public:
+    explicit SharedFace(LightField::Source face) : face_(std::move(face)) {}
+    const LightFieldGrid& grid() const override { return face_->grid(); }
+    bool has_depth() const override { return face_->has_depth(); }
+    HogelRange preferred_tile() const override { return face_->preferred_tile(); }
+    void read(LightFieldTile& tile) const override { face_->read(tile); }
+
+  private:
+    LightField::Source face_;
+};
+
+}  // namespace
+
 std::vector<std::unique_ptr<LightFieldSource>> render_for_reading(const Session& session,
                                                                   std::vector<std::unique_ptr<LightFieldSource>> faces,
                                                                   std::size_t times, bool with_depth) {
     double samples = 0;
     for (const auto& face : faces) samples += face->grid().samples();
     if (times == 1 || samples * sizeof(float) > kept_bytes) {
-        for (auto& face : faces)
-            face = cached_tiles(std::move(face), kept_tile_bytes / static_cast<double>(faces.size()), with_depth);
+        std::vector<LightField::Source> shared;
+        for (auto& face : faces) shared.push_back(std::move(face));
+        const LightField cached = cached_tiles(LightField(std::move(shared)), kept_tile_bytes, with_depth);
+        for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = std::make_unique<SharedFace>(cached.faces()[i]);
         return faces;
     }
     Stage stage(session, "rendering");
