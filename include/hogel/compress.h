@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/image.h"
 #include "hogel/light_field.h"
 #include "hogel/progress.h"
@@ -88,19 +89,18 @@ struct CompressionResult {
 };
 
 /// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads. Quality and rate are those of
-/// all its faces together. Memory: a few tiles for each
-/// thread. The step that meets an SQNR or a rate is searched by coding some of the tiles first and then all of them. A
-/// rate is met to the byte: less than half a per cent is filled by metadata without meaning (more for light fields of
-/// few samples), or an embedded code (ezw) is cut. With MaxError and Lossless the step of the prediction is the one
-/// that makes the middle of the light field smallest. Depth is coded first and counts as a part of the file. The file
-/// appears when it is complete. Throws Error(usage) for a target or method that makes no sense, a rate that no step
-/// gives, and a quality finer than the coder can be; Error(bad_input) for radiance that is not finite (unless the
-/// target is MaxError or Lossless), Error(cannot_write).
-CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
-                           const CompressionOptions& options, const Progress& progress = {});
+/// all its faces together. Memory: a few tiles for each thread. The step that meets an SQNR or a rate is searched by
+/// coding some of the tiles first and then all of them. A rate is met to the byte: less than half a per cent is filled
+/// by metadata without meaning (more for light fields of few samples), or an embedded code (ezw) is cut. With MaxError
+/// and Lossless the step of the prediction is the one that makes the middle of the light field smallest. Depth is coded
+/// first and counts as a part of the file. The file appears when it is complete. Throws Error(usage) for a target or
+/// method that makes no sense, a rate that no step gives, and a quality finer than the coder can be; Error(bad_input)
+/// for radiance that is not finite (unless the target is MaxError or Lossless), Error(cannot_write).
+HOGEL_API CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
+                                     const CompressionOptions& options, const Progress& progress = {});
 
 /// What the header of a stream says.
-struct StreamInfo {
+struct HOGEL_API StreamInfo {
     LightFieldGrid grid;  ///< of the light field, or of the front of a hemicube
     HogelRange tile;      ///< size of the tiles, s0 = t0 = 0
     CodingMethod method;  ///< a row of coders(), or "lossless" or "bounded", which compress() makes of hogel
@@ -135,11 +135,11 @@ struct StreamInfo {
 };
 
 /// Whether a file begins as a stream does. Throws Error(bad_input) where there is no such file.
-bool is_stream(const std::filesystem::path& path);
+HOGEL_API bool is_stream(const std::filesystem::path& path);
 
 /// Reads and checks the header and the index only. A file that was cut off is accepted if it has the first layer.
 /// Throws Error(bad_input).
-StreamInfo read_stream_info(const std::filesystem::path& path);
+HOGEL_API StreamInfo read_stream_info(const std::filesystem::path& path);
 
 struct StreamOptions {
     std::size_t memory = std::size_t{1} << 29;  ///< bytes for decoded tiles
@@ -148,16 +148,16 @@ struct StreamOptions {
 
 /// Opens a compressed light field; it is decoded where it is read. With the coder hogel only what the wanted hogels
 /// need is decoded, with other coders a whole tile. The tiles decoded last are kept, as many as `memory` bytes hold, at
-/// least one; all faces share them. Depth is there if the file has it. Throws Error(bad_input) for a file
-/// that is damaged, of another version, or cut off before the end of the last layer that is wanted; damage inside a
-/// tile shows when that tile is read. Throws Error(usage) for more layers than there are.
-LightField open_stream(const std::filesystem::path& path, const StreamOptions& options = {});
+/// least one; all faces share them. Depth is there if the file has it. Throws Error(bad_input) for a file that is
+/// damaged, of another version, or cut off before the end of the last layer that is wanted; damage inside a tile shows
+/// when that tile is read. Throws Error(usage) for more layers than there are.
+HOGEL_API LightField open_stream(const std::filesystem::path& path, const StreamOptions& options = {});
 
 /// Opens a stream of the coder fringes without undoing the transform of the directions, for holograms made of basis
 /// fringes ([K] 4.2.3): in place of radiances the coefficients of √L, an array [n_V][n_U] for each hogel and channel,
 /// of the transform that the header names. Throws Error(bad_input) as open_stream() does, for another coder, for a
 /// light field that was coded along a tone curve or with coarser chrominance, and for a hemicube.
-std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path);
+HOGEL_API LightField open_coefficients(const std::filesystem::path& path);
 
 /// The directions of an array [n_V][n_U] that belong to a light field: rows begin_v to end_v completely, of other rows
 /// the columns begin_u to end_u. By default all; of an unfolded hemicube its faces without the corners.
@@ -174,7 +174,7 @@ struct DirectionCross {
 };
 
 /// A tile that is decoded where it is read.
-class TileDecoder {
+class HOGEL_API TileDecoder {
   public:
     virtual ~TileDecoder() = default;
     /// Fills the radiance of a part of the tile. Called by several threads. Throws Error(bad_input) for bytes that no
@@ -184,7 +184,7 @@ class TileDecoder {
 
 /// Turns tiles of a light field into bytes and back. Tiles are coded independently. Called by several threads; the same
 /// tile gives the same bytes for any number of them.
-class TileCoder {
+class HOGEL_API TileCoder {
   public:
     struct Encoded {
         std::vector<std::uint8_t> bytes;
@@ -237,9 +237,9 @@ struct CoderInfo {
 
 /// All coders: hogel, threepass, ezw, jpeg4d, fringes, and what a program adds. A stream names its coder, so a reader
 /// needs the same row.
-Table<CoderInfo>& coders();
+HOGEL_API Table<CoderInfo>& coders();
 
 /// The transforms that coders with a CoderInfo::transform know: 15 wavelets, and dct8 for jpeg4d (docs/codec.md).
-std::vector<std::string> transform_names();
+HOGEL_API std::vector<std::string> transform_names();
 
 }  // namespace hogel

@@ -3,65 +3,79 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/progress.h"
 #include "hogel/scene.h"
+#include "hogel/table.h"
 
 namespace hogel {
 
 struct ShadedScene;
+struct ShadingOptions;
+class SampleLighting;
 namespace shading {
-class LightCache;
+class RadianceCache;
 }
 
-/// Where light is worked out. The models of [K] 5.8.
-enum class ShadingModel {
-    vertex,    ///< at the vertices, with shadow rays, and interpolated; matt
-    direct,    ///< at each sample, with shadow maps, and the glossy lobe
-    shadowed,  ///< at the vertices without shadows and interpolated; shadow maps at each sample; matt
-    given,     ///< each vertex brings its radiance
-};
-
+/// A shading model: where the light on surfaces is evaluated. Source: [K] 5.8.
 struct ShadingInfo {
-    ShadingModel model;
-    std::string_view name;
-    std::string_view description;  ///< one line
+    std::string name;
+    std::string text;  ///< one line
+    /// Lights a scene. `shaded` has the scene's geometry and textures and the radiance that meshes bring; the radiance
+    /// of other vertices is zero. The function either sets that and returns null, or returns the lighting of samples.
+    /// `shaded.lighting` is what it returned the last time, and may be taken for its memory.
+    std::function<std::shared_ptr<const SampleLighting>(const Scene& scene, const ShadingOptions& options,
+                                                        ShadedScene& shaded, const Progress& progress)>
+        make;
+    /// Bytes that the shadow maps of a scene take; null where the model has none.
+    std::function<double(const Scene& scene, const ShadingOptions& options)> shadow_map_bytes = nullptr;
 };
 
-/// All models by name, in the order in which to show them.
-std::span<const ShadingInfo> shading_models();
-
-/// Throws Error(usage) for an unknown name, listing the known ones.
-ShadingModel shading_model(std::string_view name);
+/// The shading models by name:
+///   vertex    at the vertices, with shadow rays, and interpolated; matt. Radiance = emission + colour · (ambient +
+///             Σ E · max(0, n·l)/π) over the lights that the vertex sees, E = intensity for a directional light and
+///             intensity/r² for a point light. Cost: vertices × lights rays
+///   direct    at each sample, with shadow maps, and the glossy lobe
+///   shadowed  at the vertices without shadows and interpolated; shadow maps at each sample; matt
+///   given     each vertex brings its radiance
+HOGEL_API Table<ShadingInfo>& shading_models();
 
 struct ShadingOptions {
-    ShadingModel model = ShadingModel::vertex;
-    std::size_t shadow_map = 512;   ///< texels along a side of a shadow map (see ShadowMap)
+    std::string model = "vertex";   ///< a name of shading_models()
+    std::size_t shadow_map = 512;   ///< texels along a side of a shadow map (twice that across a directional light)
     double max_shadow_bytes = 8e9;  ///< of all shadow maps together
-    bool filter_textures = true;    ///< average textures over what a sample covers
+    bool filter_textures = true;    ///< average textures over the area that a sample covers
 };
 
-/// How much memory the shadow maps of a scene take: none where the model has no shadow maps.
-double shadow_map_bytes(const Scene& scene, const ShadingOptions& options);
+/// Bytes that the shadow maps of a scene take: 0 where the model has none. Throws Error(usage) for an unknown model.
+HOGEL_API double shadow_map_bytes(const Scene& scene, const ShadingOptions& options);
 
 /// Makes a scene ready to be rendered. Meshes with given radiance show that in every model. Throws what
 /// validate(Scene) throws; Error(bad_input) for a mesh without normals where there are lights, and, for `given`, for
-/// one without radiance; Error(usage) where the shadow maps would take more memory than allowed.
-ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options, const Progress& progress = {});
+/// one without radiance; Error(usage) for an unknown model, and where the shadow maps would take more memory than
+/// allowed.
+HOGEL_API ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options = {},
+                                  const Progress& progress = {});
 
-/// Lights a scene at its vertices (Gouraud): radiance = emission + colour · (ambient + Σ E · max(0, n·l)/π) over the
-/// lights that the vertex sees, E = intensity for a directional light and intensity/r² for a point light. Shadow rays
-/// start a ten-thousandth of the scene's diagonal above the surface. Textures are point sampled. Cost: vertices ×
-/// lights rays.
-ShadedScene shade_scene_vertices(const Scene& scene);
+/// The same into `shaded`, whose memory is used again: shading a scene that has changed but not grown allocates little.
+/// A picture behind the same pointer as before is taken as unchanged. `shaded.fronts_only` keeps its value; the
+/// radiance cache is dropped. Where it throws, `shaded` may only be destroyed, assigned or shaded again.
+HOGEL_API void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedScene& shaded,
+                                const Progress& progress = {});
 
-/// A picture on a surface, repeated in both directions, with coarser versions of itself to be seen from afar.
-class Texture {
+/// Shading by `vertex` with point sampled textures. Shadow rays start a ten-thousandth of the scene's diagonal above
+/// the surface.
+HOGEL_API ShadedScene shade_scene_vertices(const Scene& scene);
+
+/// A picture on a surface, repeated in both directions, with coarser versions of itself for distant views.
+class HOGEL_API Texture {
   public:
     /// Point sampled unless `filtered`: then levels of half the size, each the mean of the one before, down to a single
     /// texel, are made (a third more memory).
@@ -69,9 +83,10 @@ class Texture {
 
     /// The picture interpolated between texels, averaged over about `width` texels of the finest level.
     Rgb sample(TextureCoordinate at, double width) const;
-    /// Texels of the finest level in the unit square of texture coordinates.
+    /// Number of texels of the finest level, which covers the unit square of texture coordinates.
     double texels() const { return static_cast<double>(finest_->width()) * static_cast<double>(finest_->height()); }
     bool filtered() const { return !coarser_.empty(); }
+    const std::shared_ptr<const Image>& picture() const { return finest_; }
 
   private:
     std::shared_ptr<const Image> finest_;
@@ -81,40 +96,41 @@ class Texture {
 /// How a sample looks at a surface.
 struct ViewSample {
     Vec3 to_viewer{0, 0, 1};  ///< unit length
-    double footprint = 0;     ///< how wide the sample is on the surface, metres: textures are averaged over about that
+    double footprint = 0;     ///< width of the sample on the surface, metres, over which textures are averaged
 };
 
-/// Lighting that is worked out for each sample: a pure function of what a ray hits and where it comes from, so that
-/// samples do not depend on the order or the tile in which they are asked for. It comes in two steps: the light that
-/// falls on a point of a surface, which is dear and the same for all rays that see the point; and what a ray sees of
-/// it.
-class SampleLighting {
+/// Lighting that is evaluated for each sample: a pure function of the point that a ray hits and the direction to the
+/// viewer, so that samples do not depend on the order or the tile in which they are read. It has two steps: the light
+/// that falls on a point, which is costly and the same for all rays that see the point; and the radiance that one ray
+/// sees of it.
+class HOGEL_API SampleLighting {
   public:
-    /// Numbers that say what light falls on a point: some of any size from 0 up, then some between 0 and 1.
+    /// The numbers that describe the light on a point.
     struct Size {
-        std::size_t any = 0, shares = 0;
-        std::size_t sum() const { return any + shares; }
+        std::size_t values = 0;  ///< non-negative numbers of any size, which come first
+        std::size_t shares = 0;  ///< numbers between 0 and 1
+        std::size_t sum() const { return values + shares; }
     };
 
     virtual ~SampleLighting() = default;
-    /// How many numbers the light on a mesh takes; none where its vertices say it all.
+    /// How many numbers describe the light on a mesh; none where the radiance of its vertices is all there is.
     virtual Size size_of_light(std::size_t mesh) const = 0;
-    /// Whether these are three numbers: the radiance before the texture, the same for whoever looks.
+    /// Whether these are three numbers: the radiance before the texture, the same for all viewers.
     virtual bool light_is_radiance(std::size_t mesh) const = 0;
     /// The light on the point of triangle `index` with these weights of its vertices, `size_of_light` numbers. They may
     /// be interpolated between points of one triangle.
     virtual void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                           std::span<float> light) const = 0;
-    /// The radiance towards the viewer of the point under that light, on a mesh on which there is some. `texture`
+    /// The radiance towards the viewer of the point under that light, on a mesh whose light has any numbers. `texture`
     /// multiplies the base colour and the emission.
     virtual Rgb radiance(const ShadedScene& /*scene*/, std::size_t /*index*/, const std::array<float, 3>& /*weights*/,
-                         std::span<const float> light, Rgb texture, const ViewSample& /*sight*/) const {
+                         std::span<const float> light, Rgb texture, const ViewSample& /*view*/) const {
         return texture * Rgb{light[0], light[1], light[2]};
     }
 };
 
 /// A scene ready for any renderer: one list of triangles, and their light. Without `lighting` the radiance at a point
-/// of a triangle is the interpolated vertex radiance times the texture.
+/// of a triangle is the interpolated vertex radiance times the texture. Renderers share a scene by a pointer to const.
 struct ShadedScene {
     static constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
 
@@ -130,23 +146,22 @@ struct ShadedScene {
     std::vector<Triangle> triangles;
     std::vector<Texture> textures;
     Rgb background;
-    /// Whether a triangle is seen from its front alone, where its corners go round counterclockwise. Light falls on
-    /// both sides and is kept off by both.
+    /// Whether triangles are seen from their front only, where their corners run counterclockwise. Light falls on both
+    /// sides, and both sides cast shadows.
     bool fronts_only = false;
-    std::shared_ptr<const SampleLighting> lighting;    ///< null where `radiance` says it all
-    std::shared_ptr<shading::LightCache> light_cache;  ///< where light is kept for all rays (see cache_light); null:
-                                                       ///< worked out for each ray
+    std::shared_ptr<const SampleLighting> lighting;          ///< null where `radiance` is all there is
+    std::shared_ptr<shading::RadianceCache> radiance_cache;  ///< null: light is evaluated anew for each ray
 
-    /// Whether light is worked out for the samples of this triangle, and its vertices have none.
+    /// Whether light is evaluated at the samples of this triangle instead of at its vertices.
     bool is_lit(std::size_t index) const {
         return lighting && lighting->size_of_light(triangles[index].mesh).sum() > 0;
     }
-    /// Whether interpolating the vertices' radiance is not all there is to this triangle.
+    /// Whether the radiance of this triangle is more than an interpolation between its vertices.
     bool needs_samples(std::size_t index) const { return triangles[index].texture != no_texture || is_lit(index); }
 };
 
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).
-Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2,
-                const ViewSample& sight = {});
+HOGEL_API Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2,
+                          const ViewSample& view = {});
 
 }  // namespace hogel

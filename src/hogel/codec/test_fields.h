@@ -81,11 +81,6 @@ inline double sqnr_of(const LightFieldBuffer& truth, const LightFieldBuffer& oth
     return 10 * std::log10(signal / error);
 }
 
-inline CompressionResult compress(const LightFieldBuffer& field, const std::filesystem::path& path,
-                                  const CompressionOptions& options) {
-    return hogel::compress(borrow(field), path, options);
-}
-
 inline LightFieldBuffer decoded(const std::filesystem::path& path) {
     const LightField opened = open_stream(path);
     LightFieldBuffer field(opened.grid());
@@ -102,6 +97,16 @@ inline ErrorCode code_of(const std::function<void()>& call) {
         return error.code();
     }
     return ErrorCode{0};
+}
+
+// compress() of local objects, which outlive the call.
+inline CompressionResult compress(const LightFieldSource& field, const std::filesystem::path& path,
+                                  const CompressionOptions& options) {
+    return hogel::compress(borrow(field), path, options);
+}
+inline CompressionResult compress(const std::vector<const LightFieldSource*>& faces, const std::filesystem::path& path,
+                                  const CompressionOptions& options) {
+    return hogel::compress(borrow(faces), path, options);
 }
 
 }  // namespace hogel::codec

@@ -14,11 +14,11 @@ namespace {
 
 class Averaged final : public LightFieldSource {
   public:
-    Averaged(std::unique_ptr<LightFieldSource> fine, const LightFieldGrid& grid, const SamplesPerRay& samples)
+    Averaged(std::shared_ptr<const LightFieldSource> fine, const LightFieldGrid& grid, const SamplesPerRay& samples)
         : fine_(std::move(fine)), grid_(grid), samples_(samples) {
-        const HogelRange suits = fine_->preferred_tile();
-        block_ = {0, 0, std::clamp<std::size_t>(suits.ns / samples.hogel, 1, grid.hogels_s),
-                  std::clamp<std::size_t>(suits.nt / samples.hogel, 1, grid.hogels_t)};
+        const HogelRange preferred = fine_->preferred_tile();
+        block_ = {0, 0, std::clamp<std::size_t>(preferred.ns / samples.hogel, 1, grid.hogels_s),
+                  std::clamp<std::size_t>(preferred.nt / samples.hogel, 1, grid.hogels_t)};
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -33,39 +33,45 @@ class Averaged final : public LightFieldSource {
     }
 
   private:
-    // Hogels (s, t) and on of a tile.
+    // Reads the block of ns × nt hogels whose first is (s, t) of the tile.
     void read_block(LightFieldTile& tile, std::size_t s, std::size_t t, std::size_t ns, std::size_t nt) const {
         const std::size_t n = samples_.hogel;
         const HogelRange& range = tile.range;
         LightFieldTile fine(fine_->grid(), {n * (range.s0 + s), n * (range.t0 + t), n * ns, n * nt},
                             tile.depth.size() > 0);
         fine_->read(fine);
-        const double each = 1 / static_cast<double>(samples_.count());
         std::vector<double> sums(grid_.directions_u);
         for (std::size_t j = 0; j < nt; ++j)
             for (std::size_t i = 0; i < ns; ++i)
                 for (std::size_t v = 0; v < grid_.directions_v; ++v) {
-                    for (std::size_t c = 0; c < grid_.channels; ++c) {
-                        // In double precision, where the sum of so many floats that are all the same is exact.
-                        std::ranges::fill(sums, 0.0);
-                        for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
-                            add(&fine.radiance(c, fine_t, fine_s, fine_v, 0), sums);
-                        });
-                        float* out = &tile.radiance(c, t + j, s + i, v, 0);
-                        for (std::size_t u = 0; u < sums.size(); ++u) out[u] = static_cast<float>(sums[u] * each);
-                    }
-                    if (tile.depth.size() == 0) continue;
-                    float* out = &tile.depth(t + j, s + i, v, 0);
-                    std::fill_n(out, grid_.directions_u, std::numeric_limits<float>::infinity());
-                    for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
-                        const float* in = &fine.depth(fine_t, fine_s, fine_v, 0);
-                        for (std::size_t k = 0; k < grid_.directions_u * samples_.direction; ++k)
-                            out[k / samples_.direction] = std::min(out[k / samples_.direction], in[k]);
-                    });
+                    for (std::size_t c = 0; c < grid_.channels; ++c)
+                        average_row(fine, c, j, i, v, sums, &tile.radiance(c, t + j, s + i, v, 0));
+                    if (tile.depth.size() > 0) min_depths(fine, j, i, v, &tile.depth(t + j, s + i, v, 0));
                 }
     }
 
-    // The rows of fine samples in the cells of hogel (j, i) and row v of its directions, always in this order.
+    // The means of a row of directions of hogel (j, i) of the block.
+    void average_row(const LightFieldTile& fine, std::size_t channel, std::size_t j, std::size_t i, std::size_t v,
+                     std::vector<double>& sums, float* out) const {
+        const double weight = 1 / static_cast<double>(samples_.count());
+        // In double precision the sum of equal floats is exact.
+        std::ranges::fill(sums, 0.0);
+        for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
+            add(&fine.radiance(channel, fine_t, fine_s, fine_v, 0), sums);
+        });
+        for (std::size_t u = 0; u < sums.size(); ++u) out[u] = static_cast<float>(sums[u] * weight);
+    }
+
+    void min_depths(const LightFieldTile& fine, std::size_t j, std::size_t i, std::size_t v, float* out) const {
+        std::fill_n(out, grid_.directions_u, std::numeric_limits<float>::infinity());
+        for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
+            const float* in = &fine.depth(fine_t, fine_s, fine_v, 0);
+            for (std::size_t k = 0; k < grid_.directions_u * samples_.direction; ++k)
+                out[k / samples_.direction] = std::min(out[k / samples_.direction], in[k]);
+        });
+    }
+
+    // Visits the rows of fine samples in the cells of hogel (j, i) and row v of its directions, always in this order.
     template <class Visit>
     void for_rows(std::size_t j, std::size_t i, std::size_t v, const Visit& visit) const {
         for (std::size_t fine_t = j * samples_.hogel; fine_t < (j + 1) * samples_.hogel; ++fine_t)
@@ -79,20 +85,36 @@ class Averaged final : public LightFieldSource {
             for (std::size_t k = 0; k < samples_.direction; ++k) sum += double{*fine++};
     }
 
-    std::unique_ptr<LightFieldSource> fine_;
+    std::shared_ptr<const LightFieldSource> fine_;
     LightFieldGrid grid_;
     SamplesPerRay samples_;
     HogelRange block_;
 };
 
+class AveragedRenderer final : public Renderer {
+  public:
+    AveragedRenderer(std::shared_ptr<Renderer> fine, const LightFieldGrid& grid, const SamplesPerRay& samples)
+        : fine_(std::move(fine)), averaged_(fine_, grid, samples) {}
+
+    const LightFieldGrid& grid() const override { return averaged_.grid(); }
+    bool has_depth() const override { return averaged_.has_depth(); }
+    HogelRange preferred_tile() const override { return averaged_.preferred_tile(); }
+    void read(LightFieldTile& tile) const override { averaged_.read(tile); }
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override { fine_->set_scene(std::move(scene)); }
+
+  private:
+    std::shared_ptr<Renderer> fine_;
+    Averaged averaged_;
+};
+
 }  // namespace
 
 LightFieldGrid finer(const LightFieldGrid& grid, const SamplesPerRay& samples) {
-    constexpr std::size_t most = 64;
-    if (samples.hogel < 1 || samples.direction < 1 || samples.hogel > most || samples.direction > most)
+    constexpr std::size_t max_factor = 64;
+    if (samples.hogel < 1 || samples.direction < 1 || samples.hogel > max_factor || samples.direction > max_factor)
         throw Error(ErrorCode::usage, fmt::format("{}x{} samples a ray; expected 1 to {} along a hogel and along a "
                                                   "direction's cell",
-                                                  samples.hogel, samples.direction, most));
+                                                  samples.hogel, samples.direction, max_factor));
     LightFieldGrid fine = grid;
     fine.hogels_s *= samples.hogel;
     fine.hogels_t *= samples.hogel;
@@ -103,18 +125,21 @@ LightFieldGrid finer(const LightFieldGrid& grid, const SamplesPerRay& samples) {
     return fine;
 }
 
-std::unique_ptr<LightFieldSource> average(std::unique_ptr<LightFieldSource> fine, const LightFieldGrid& grid,
+std::unique_ptr<LightFieldSource> average(std::shared_ptr<const LightFieldSource> fine, const LightFieldGrid& grid,
                                           const SamplesPerRay& samples) {
     if (fine->grid() != finer(grid, samples))
-        throw Error(ErrorCode::usage, "a light field to average has another sampling than its samples need");
+        throw Error(ErrorCode::usage,
+                    fmt::format("the light field to average does not have {}x{} samples for each ray of the result",
+                                samples.hogel, samples.direction));
     return std::make_unique<Averaged>(std::move(fine), grid, samples);
 }
 
-std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
-                                                const LightFieldGrid& grid, const SamplesPerRay& samples) {
+std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
+                                        const LightFieldGrid& grid, const SamplesPerRay& samples) {
     validate(grid, ErrorCode::usage, "light field to render");
-    auto fine = make_renderer(name, std::move(scene), finer(grid, samples));
-    return samples.count() == 1 ? std::move(fine) : average(std::move(fine), grid, samples);
+    std::unique_ptr<Renderer> fine = make_renderer(name, std::move(scene), finer(grid, samples));
+    if (samples.count() == 1) return fine;
+    return std::make_unique<AveragedRenderer>(std::move(fine), grid, samples);
 }
 
 }  // namespace hogel

@@ -145,7 +145,7 @@ TEST(SamplesPerRay, are_the_same_for_every_algorithm) {
     for (std::size_t i = 0; i < truth.radiance.size(); ++i)
         smoothed = std::max<double>(smoothed, std::abs(truth.radiance.data()[i] - once.radiance.data()[i]));
     EXPECT_GT(smoothed, 0.1);
-    for (const RendererInfo& info : renderers()) {
+    for (const RendererInfo& info : renderers().rows()) {
         const LightFieldBuffer seen = render(info.name, two_leaves(), grid, samples);
         double sum = 0, worst = 0;
         for (std::size_t i = 0; i < seen.radiance.size(); ++i) {

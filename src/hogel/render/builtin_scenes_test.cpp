@@ -53,7 +53,7 @@ struct Case {
 
 std::vector<Case> analytic_cases() {
     std::vector<Case> list;
-    for (const RendererInfo& renderer : renderers())
+    for (const RendererInfo& renderer : renderers().rows())
         for (const SceneInfo& scene : scenes().rows())
             if (scene::has_analytic_radiance(scene.name) &&
                 (renderer.crosses_plane || bounds(make_scene(scene.name, size)).high.z < 0))
@@ -111,15 +111,13 @@ bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::si
 
 std::vector<Case> showpieces() {
     std::vector<Case> list;
-    for (const RendererInfo& renderer : renderers())
+    for (const RendererInfo& renderer : renderers().rows())
         for (const char* scene : {"pumpkin", "tower", "church", "church-radiance", "chandelier", "billiards"})
             if (renderer.name != "raytrace") list.push_back({std::string(renderer.name), scene});
     return list;
 }
 
-bool crosses_plane(std::string_view algorithm) {
-    return std::ranges::find(renderers(), algorithm, &RendererInfo::name)->crosses_plane;
-}
+bool crosses_plane(std::string_view algorithm) { return renderers().find(algorithm).crosses_plane; }
 
 class TwoWitnesses : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Showpieces, TwoWitnesses, ::testing::ValuesIn(showpieces()), name_of);

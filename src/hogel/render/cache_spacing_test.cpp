@@ -11,7 +11,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/renderer.h"
 #include "hogel/shading.h"
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
 
 namespace hogel::render {
@@ -31,8 +31,8 @@ class Counted final : public SampleLighting {
         inner_->light_on(scene, index, weights, light);
     }
     Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                 std::span<const float> light, Rgb texture, const ViewSample& sight) const override {
-        return inner_->radiance(scene, index, weights, light, texture, sight);
+                 std::span<const float> light, Rgb texture, const ViewSample& view) const override {
+        return inner_->radiance(scene, index, weights, light, texture, view);
     }
 
     mutable std::atomic<std::size_t> points = 0;
@@ -71,7 +71,7 @@ Scene lit_wall() {
     return scene;
 }
 
-std::shared_ptr<ShadedScene> shaded(ShadingModel model, double share, std::shared_ptr<Counted>* counted = nullptr) {
+std::shared_ptr<ShadedScene> shaded(const char* model, double share, std::shared_ptr<Counted>* counted = nullptr) {
     ShadingOptions options;
     options.model = model;
     options.shadow_map = 256;
@@ -79,7 +79,7 @@ std::shared_ptr<ShadedScene> shaded(ShadingModel model, double share, std::share
     const auto lighting = std::make_shared<Counted>(scene->lighting);
     scene->lighting = lighting;
     if (counted) *counted = lighting;
-    if (share > 0) shading::cache_light(*scene, cache_spacing(*scene, grid, share));
+    if (share > 0) shading::add_radiance_cache(*scene, cache_spacing(*scene, grid, share));
     return scene;
 }
 
@@ -100,7 +100,7 @@ TEST(LightSpacing, is_the_finest_width_of_a_sample_on_the_triangle) {
 }
 
 TEST(LightSpacing, shows_the_light_of_each_ray_but_for_the_edges_of_shadows_from_a_twentieth_of_the_points) {
-    for (const ShadingModel model : {ShadingModel::direct, ShadingModel::shadowed}) {
+    for (const char* model : {"direct", "shadowed"}) {
         std::shared_ptr<Counted> counted;
         const LightFieldBuffer truth = render(shaded(model, 0)), seen = render(shaded(model, 0.5, &counted));
         double error = 0, power = 0;
@@ -122,11 +122,11 @@ TEST(LightSpacing, shows_the_light_of_each_ray_but_for_the_edges_of_shadows_from
 }
 
 TEST(LightSpacing, gives_the_same_bytes_for_any_number_of_threads_any_tiling_and_nearly_so_for_any_algorithm) {
-    const LightFieldBuffer many = render(shaded(ShadingModel::direct, 0.5));
+    const LightFieldBuffer many = render(shaded("direct", 0.5));
     LightFieldBuffer tiled(grid);
     {
         const ThreadLimit one(1);
-        const auto source = make_renderer("epi", shaded(ShadingModel::direct, 0.5), grid);
+        const auto source = make_renderer("epi", shaded("direct", 0.5), grid);
         for (std::size_t t = grid.hogels_t; t-- > 0;)
             for (std::size_t s = 0; s < grid.hogels_s; s += 10) {
                 LightFieldTile tile(grid, {s, t, 10, 1}, false);
@@ -135,7 +135,7 @@ TEST(LightSpacing, gives_the_same_bytes_for_any_number_of_threads_any_tiling_and
             }
     }
     EXPECT_TRUE(std::ranges::equal(many.radiance.elements(), tiled.radiance.elements()));
-    const LightFieldBuffer traced = render(shaded(ShadingModel::direct, 0.5), "raytrace");
+    const LightFieldBuffer traced = render(shaded("direct", 0.5), "raytrace");
     // At the edges of shadows epi interpolates what the others read between the points.
     std::size_t off = 0, far_off = 0;
     for (std::size_t i = 0; i < traced.radiance.size(); ++i) {

@@ -14,7 +14,7 @@
 #include "hogel/scene/mesh_builder.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/shading.h"
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
 
 namespace hogel::render {
@@ -64,15 +64,14 @@ struct Case {
     bool hemicube;
     SamplesPerRay samples;
     bool fronts_only;
-    ShadingModel model;
+    const char* model;
     double spacing;  // of points where light is kept, 0: anew for each ray
 
     std::string text() const {
         return std::to_string(front.hogels_s) + "x" + std::to_string(front.hogels_t) + " hogels, " +
                std::to_string(front.directions_u) + "x" + std::to_string(front.directions_v) + " directions, samples " +
-               std::to_string(samples.hogel) + "x" + std::to_string(samples.direction) + ", model " +
-               std::to_string(int(model)) + (hemicube ? ", hemicube" : "") + (fronts_only ? ", culled" : "") +
-               (spacing > 0 ? ", light kept" : "");
+               std::to_string(samples.hogel) + "x" + std::to_string(samples.direction) + ", model " + model +
+               (hemicube ? ", hemicube" : "") + (fronts_only ? ", culled" : "") + (spacing > 0 ? ", light kept" : "");
     }
 };
 
@@ -85,13 +84,9 @@ std::vector<Case> cases() {
                           {3, 3, 3, 3},   {6, 5, 8, 6}, {1, 1, 1, 1}, {19, 2, 7, 5}, {2, 18, 5, 7}};
     const SamplesPerRay samples[] = {{1, 1}, {1, 1}, {2, 1}, {1, 3}, {1, 1}, {2, 2}, {1, 1}};
     const struct {
-        ShadingModel model;
+        const char* model;
         double spacing;
-    } light[] = {{ShadingModel::vertex, 0},
-                 {ShadingModel::direct, 0},
-                 {ShadingModel::direct, 0.25},
-                 {ShadingModel::shadowed, 0},
-                 {ShadingModel::shadowed, 0.25}};
+    } light[] = {{"vertex", 0}, {"direct", 0}, {"direct", 0.25}, {"shadowed", 0}, {"shadowed", 0.25}};
     std::vector<Case> list;
     for (std::size_t i = 0; i < 55; ++i) {
         const Size& n = sizes[i % std::size(sizes)];
@@ -122,7 +117,7 @@ LightFieldBuffer render(std::string_view name, const std::shared_ptr<const Shade
 
 std::vector<std::string> names() {
     std::vector<std::string> list;
-    for (const RendererInfo& info : renderers())
+    for (const RendererInfo& info : renderers().rows())
         if (info.name != "raytrace") list.emplace_back(info.name);
     return list;
 }
@@ -134,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(names()),
 // Only rays along an edge may see one thing or the other; and where light is kept on surfaces, epi interpolates between
 // places where the others do, which shows at the edges of shadows.
 TEST_P(Combinations, show_what_rays_see) {
-    const bool crosses_plane = std::ranges::find(renderers(), GetParam(), &RendererInfo::name)->crosses_plane;
+    const bool crosses_plane = renderers().find(GetParam()).crosses_plane;
     std::size_t hits = 0, rays = 0, hemicubes = 0;
     std::size_t number = 0;
     for (const Case& one : cases()) {
@@ -142,7 +137,8 @@ TEST_P(Combinations, show_what_rays_see) {
         const Scene scene = still_life(crosses_plane ? 0 : 1e-3);
         ShadedScene lit = shade_scene(scene, {.model = one.model, .shadow_map = 64});
         lit.fronts_only = one.fronts_only;
-        if (one.spacing > 0) shading::cache_light(lit, cache_spacing(lit, finer(one.front, one.samples), one.spacing));
+        if (one.spacing > 0)
+            shading::add_radiance_cache(lit, cache_spacing(lit, finer(one.front, one.samples), one.spacing));
         const auto shaded = std::make_shared<const ShadedScene>(std::move(lit));
         const std::vector<LightFieldGrid> faces = one.hemicube ? hemicube(one.front) : std::vector{one.front};
         hemicubes += faces.size() > 1 ? 1 : 0;

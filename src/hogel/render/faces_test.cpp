@@ -50,13 +50,13 @@ LightFieldBuffer render(std::string_view name, const ShadedScene& scene, const L
 class Faces : public ::testing::TestWithParam<std::string> {};
 std::vector<std::string> names() {
     std::vector<std::string> list;
-    for (const RendererInfo& info : renderers()) list.emplace_back(info.name);
+    for (const RendererInfo& info : renderers().rows()) list.emplace_back(info.name);
     return list;
 }
 INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(names()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-const RendererInfo& info(std::string_view name) { return *std::ranges::find(renderers(), name, &RendererInfo::name); }
+const RendererInfo& info(std::string_view name) { return renderers().find(name); }
 
 // What face `grid` of each hogel sees must be what the front of a single hogel sees of the scene turned around it. Only
 // a ray along an edge may see one thing or the other.

@@ -11,16 +11,17 @@
 
 namespace hogel::render {
 
-/// A triangle slid along one direction (U, V) into the hologram plane, where the rays of that direction are points.
+/// A triangle projected along one direction (U, V) into the hologram plane, where the rays of that direction are
+/// points.
 ///
-/// The renderers that find samples by other ways than testing each one (`simplex`, `simploid`, `simplex3d`,
+/// The renderers that collect candidate samples instead of testing every one (`simplex`, `simploid`, `simplex3d`,
 /// `oblique`, `mvr`) all decide here whether a ray meets a triangle and where. The answer depends on the ray and the
-/// triangle alone, so it does not matter which way a sample was found, nor how often, nor in which region.
+/// triangle alone, so it is the same however a sample was found, how often, and in which region.
 ///
 /// The edge functions of docs/notation.md section 2 are those of the ray's own frame: E = p_A × p_B with p = (x − Uζ −
 /// s, y − Vζ − t). A rounded difference of two rounded products may vanish but never has the wrong sign, so triangles
 /// that share vertices tile the plane. A ray through an edge belongs to the triangle on the edge's left in the plane
-/// (above it if the edge is level), as if the ray ran a little to the left (and, much less, above) of where it does.
+/// (above the edge if it is level), as if the ray ran a little to the left (and, much less, above) of where it does.
 class ObliqueTriangle {
   public:
     /// Along the slopes U = dx/dζ and V = dy/dζ.
@@ -33,7 +34,7 @@ class ObliqueTriangle {
         }
     }
 
-    /// Along a ray in column u and row v of a light field's directions, on whatever face.
+    /// Along a ray in column u and row v of a light field's directions, on any face.
     ObliqueTriangle(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid, double u, double v)
         : ObliqueTriangle(scene, index, grid.direction_of(grid.u(u), grid.v(v))) {}
 
@@ -70,8 +71,8 @@ class ObliqueTriangle {
     }
 
   private:
-    ObliqueTriangle(const ShadedScene& scene, std::size_t index, Vec3 way)
-        : ObliqueTriangle(scene, index, way.x / way.z, way.y / way.z) {}
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, Vec3 direction)
+        : ObliqueTriangle(scene, index, direction.x / direction.z, direction.y / direction.z) {}
 
     // Whether a triangle that lies to the left of the edge A → B (to the right for side = −1) has the points on it.
     static bool owns_edge(double ax, double ay, double bx, double by, double side) {
@@ -83,7 +84,8 @@ class ObliqueTriangle {
     bool fronts_only_;
 };
 
-/// What a sample of a region's depth buffer holds: 8 bytes. The rest follows from the ray when all triangles are in.
+/// A sample of a region's depth buffer: 8 bytes. Weights and radiance are computed from the ray and the triangle once
+/// all triangles have been drawn.
 struct NearestTriangle {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -91,14 +93,14 @@ struct NearestTriangle {
     std::uint32_t triangle = none;
 };
 
-/// Lets the ray through (s, t) see triangle `index` if it meets it at a depth of at least `least`, and before what it
-/// saw until now; of two at equal depth the one that came first stays.
+/// Records triangle `index` as what the ray through (s, t) sees if the ray meets it at a depth of at least `min_depth`
+/// and less than the recorded one. Of two triangles at equal depth the first stays.
 inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangle& triangle, double s, double t,
-                double least = -std::numeric_limits<double>::infinity()) {
+                double min_depth = -std::numeric_limits<double>::infinity()) {
     if (seen.triangle == index) return;
     const ObliqueTriangle::Hit hit = triangle.at(s, t);
     const float depth = static_cast<float>(hit.depth);
-    if (hit && hit.depth >= least && depth < seen.depth) seen = {depth, index};
+    if (hit && hit.depth >= min_depth && depth < seen.depth) seen = {depth, index};
 }
 
 /// Shades what the ray of hogel (t, s) of the tile in direction (v, u) saw, and stores it in the tile.
@@ -115,9 +117,10 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
     store(tile, scene, grid, point, t, s, v, u);
 }
 
-/// The triangles that can be seen at all. One thinner than 1e-12 of its length covers no sample but by rounding.
-inline std::vector<std::uint32_t> triangles_with_area(const ShadedScene& scene) {
-    std::vector<std::uint32_t> list;
+/// The triangles that can be seen at all. One thinner than 1e-12 of its length covers no sample except by rounding.
+/// @param list  an earlier list whose memory is used again
+inline std::vector<std::uint32_t> triangles_with_area(const ShadedScene& scene, std::vector<std::uint32_t> list = {}) {
+    list.clear();
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const auto& [a, b, c] = scene.triangles[i].vertices;
         const Vec3 ab = scene.positions[b] - scene.positions[a], ac = scene.positions[c] - scene.positions[a];

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "hogel/array.h"
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/row_axes.h"
 
 namespace hogel::render {
 
-/// The shapes of the depth buffers that renderers keep for a region of hogels: one NearestTriangle a sample.
+// The shapes of the depth buffers that renderers keep for a region of hogels: one NearestTriangle a sample.
 
 /// [v][u][t][s]: the inner loops of `simplex` run over hogels.
 inline Shape<4> simplex_buffer(const LightFieldGrid& grid, const HogelRange& region) {
@@ -14,7 +15,7 @@ inline Shape<4> simplex_buffer(const LightFieldGrid& grid, const HogelRange& reg
 }
 
 /// [slow hogels][fast hogels][fast directions]: the rays of one V.
-inline Shape<3> simplex_strip_buffer(const RowAxes& axes, const HogelRange& region) {
+inline Shape<3> simploid_buffer(const RowAxes& axes, const HogelRange& region) {
     return {axes.slow_hogels(region), axes.fast_hogels(region), axes.fast_directions()};
 }
 
@@ -25,5 +26,13 @@ inline Shape<3> simplex3d_buffer(const LightFieldGrid& grid, const HogelRange& r
 
 /// [t][s]: one direction.
 inline Shape<2> oblique_buffer(const HogelRange& region) { return {region.nt, region.ns}; }
+
+/// The size of such a buffer in bytes, in floating point: regions may be larger than any memory.
+template <std::size_t rank>
+double buffer_bytes(const Shape<rank>& shape) {
+    double product = sizeof(NearestTriangle);
+    for (const std::size_t extent : shape) product *= static_cast<double>(extent);
+    return product;
+}
 
 }  // namespace hogel::render

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <vector>
 
 #include "hogel/render/baselines/mvr.h"
@@ -17,41 +16,61 @@
 #include "hogel/render/simplex/simploid.h"
 
 namespace hogel {
-
-using namespace render;
-
 namespace {
 
-constexpr std::array infos{
-    RendererInfo{"raytrace", "one ray a sample through a bounding volume hierarchy (Embree)"},
-    RendererInfo{"zbuffer", "an ordinary depth buffer for each hogel in turn"},
-    RendererInfo{"simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false},
-    RendererInfo{"simploid", "the same in slices of whole simploids, one row of directions after the other"},
-    RendererInfo{"simplex3d", "the same as simplex in three dimensions, for one row of hogels after the other", false},
-    RendererInfo{"oblique", "for each direction a parallel projection over all hogels of a tile"},
-    RendererInfo{"mvr", "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions"},
-    RendererInfo{"epi", "epipolar planes: each triangle is set up once for a whole row of hogels"},
+// A source that is no Renderer as one: for each scene it is made anew.
+class RemadeRenderer final : public Renderer {
+  public:
+    RemadeRenderer(const RendererInfo& info, const LightFieldGrid& grid, std::unique_ptr<LightFieldSource> source)
+        : info_(info), grid_(grid), source_(std::move(source)) {}
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return source_->has_depth(); }
+    HogelRange preferred_tile() const override { return source_->preferred_tile(); }
+    View<const float, 5> in_memory() const override { return source_->in_memory(); }
+    void read(LightFieldTile& tile) const override { source_->read(tile); }
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override { source_ = info_.make(std::move(scene), grid_); }
+
+  private:
+    const RendererInfo& info_;  // rows of a table stay where they are
+    LightFieldGrid grid_;
+    std::unique_ptr<LightFieldSource> source_;
 };
+
+void require_renderable(const LightFieldGrid& grid, const RendererInfo& info) {
+    if (info.takes_frequencies) return;
+    std::vector<std::string> others;
+    for (const RendererInfo& other : renderers().rows())
+        if (other.takes_frequencies) others.push_back(other.name);
+    require_perspective(grid, ErrorCode::usage,
+                        fmt::format("the renderer '{}' (but not {})", info.name, fmt::join(others, ", ")));
+}
 
 }  // namespace
 
-std::span<const RendererInfo> renderers() { return infos; }
+Table<RendererInfo>& renderers() {
+    static Table<RendererInfo> table("renderer", {render::baselines::raytrace_renderer(),  //
+                                                  render::baselines::zbuffer_renderer(),   //
+                                                  render::simplex::simplex_renderer(),     //
+                                                  render::simplex::simploid_renderer(),    //
+                                                  render::simplex::simplex3d_renderer(),   //
+                                                  render::baselines::oblique_renderer(),   //
+                                                  render::baselines::mvr_renderer(),       //
+                                                  render::epi::epi_renderer()});
+    return table;
+}
 
-std::unique_ptr<LightFieldSource> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
-                                                const LightFieldGrid& grid) {
+std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
+                                        const LightFieldGrid& grid) {
     validate(grid, ErrorCode::usage, "light field to render");
-    if (name == "raytrace") return baselines::make_raytrace_renderer(std::move(scene), grid);
-    require_perspective(grid, ErrorCode::usage, fmt::format("the renderer '{}' (but not raytrace)", name));
-    if (name == "zbuffer") return baselines::make_zbuffer_renderer(std::move(scene), grid);
-    if (name == "simplex") return simplex::make_simplex_renderer(std::move(scene), grid);
-    if (name == "simploid") return simplex::make_simploid_renderer(std::move(scene), grid);
-    if (name == "simplex3d") return simplex::make_simplex3d_renderer(std::move(scene), grid);
-    if (name == "oblique") return baselines::make_oblique_renderer(std::move(scene), grid);
-    if (name == "mvr") return baselines::make_mvr_renderer(std::move(scene), grid);
-    if (name == "epi") return epi::make_epi_renderer(std::move(scene), grid);
-    std::vector<std::string_view> known;
-    for (const RendererInfo& info : infos) known.push_back(info.name);
-    throw Error(ErrorCode::usage, fmt::format("unknown renderer '{}'; known: {}", name, fmt::join(known, ", ")));
+    const RendererInfo& info = renderers().find(name);
+    require_renderable(grid, info);
+    std::unique_ptr<LightFieldSource> source = info.make(std::move(scene), grid);
+    if (auto* renderer = dynamic_cast<Renderer*>(source.get())) {
+        source.release();
+        return std::unique_ptr<Renderer>(renderer);
+    }
+    return std::make_unique<RemadeRenderer>(info, grid, std::move(source));
 }
 
 }  // namespace hogel

@@ -44,13 +44,11 @@ const LightFieldGrid grid{5, 4, 1_mm, 33, 31, Perspective{0.5, 0.4}, 3};
 
 std::vector<std::string> names() {
     std::vector<std::string> list;
-    for (const RendererInfo& info : renderers()) list.emplace_back(info.name);
+    for (const RendererInfo& info : renderers().rows()) list.emplace_back(info.name);
     return list;
 }
 
-bool crosses_plane(std::string_view name) {
-    return std::ranges::find(renderers(), name, &RendererInfo::name)->crosses_plane;
-}
+bool crosses_plane(std::string_view name) { return renderers().find(name).crosses_plane; }
 
 // Random triangles within 4 mm of the hologram plane, or from 1 to 9 mm behind it. Some have no area, some are as thin
 // as a line, and of some both faces show, one from some hogels and the other from the rest; behind the plane some come
@@ -401,7 +399,7 @@ TEST(Renderers, that_need_the_scene_behind_the_plane_say_so_and_name_one_that_do
     ShadedScene scene;
     add_triangle(scene, {0, 0, -1e-3}, {1e-3, 0, -1e-3}, {0, 1e-3, 2e-3}, [](Vec3) { return Rgb{1, 1, 1}; });
     std::size_t refused = 0;
-    for (const RendererInfo& info : renderers()) {
+    for (const RendererInfo& info : renderers().rows()) {
         try {
             make_renderer(info.name, std::make_shared<const ShadedScene>(scene), grid);
             EXPECT_TRUE(info.crosses_plane) << info.name;
@@ -427,7 +425,7 @@ TEST(Renderers, that_need_the_scene_behind_the_plane_see_up_to_their_near_plane)
         add_triangle(scene, p + Vec3{-100e-9, -80e-9, 0}, p + Vec3{100e-9, -80e-9, 0}, p + Vec3{0, 90e-9, 0}, [](Vec3) {
             return Rgb{1, 1, 1};
         });
-        for (const RendererInfo& info : renderers()) {
+        for (const RendererInfo& info : renderers().rows()) {
             if (info.crosses_plane) continue;
             const LightFieldBuffer seen = render(std::string(info.name), scene, grid);
             for (float value : seen.depth[2][1].elements()) {

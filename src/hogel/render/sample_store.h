@@ -10,7 +10,7 @@
 
 namespace hogel::render {
 
-/// What a ray sees first: a triangle, the weights of its vertices, the depth.
+/// The point that a ray sees: a triangle, the weights of its vertices, the depth.
 struct VisiblePoint {
     static constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
 
@@ -19,16 +19,15 @@ struct VisiblePoint {
     double depth = std::numeric_limits<double>::infinity();  ///< ζ, metres
 };
 
-/// By the weights of Rec. ITU-R BT.709: what a light field with one channel holds.
+/// The value of a light field with one channel, by the weights of Rec. ITU-R BT.709.
 inline float luminance(Rgb radiance) { return 0.2126f * radiance.r + 0.7152f * radiance.g + 0.0722f * radiance.b; }
 
-/// How the ray (U, V) of a grid looks at what it meets at depth ζ. Neighbouring rays meet a surface a hogel's pitch
-/// apart if they come from neighbouring hogels, and ζΔU apart if they come from one: a sample stands for the larger of
-/// the two.
-inline ViewSample sight_along(const LightFieldGrid& grid, double U, double V, double depth) {
-    const Vec3 way = grid.direction_of(U, V);
-    const double spread = std::abs(depth / way.z) * std::max(grid.step_u(), grid.step_v());
-    return {normalize({-way.x, -way.y, way.z}), std::max(grid.pitch, spread)};
+/// How the ray (U, V) of a grid looks at the surface that it meets at depth ζ. Rays of neighbouring hogels meet the
+/// surface a hogel's pitch apart, and neighbouring rays of one hogel ζΔU apart: a sample covers the larger of the two.
+inline ViewSample view_sample(const LightFieldGrid& grid, double U, double V, double depth) {
+    const Vec3 direction = grid.direction_of(U, V);
+    const double spread = std::abs(depth / direction.z) * std::max(grid.step_u(), grid.step_v());
+    return {normalize({-direction.x, -direction.y, direction.z}), std::max(grid.pitch, spread)};
 }
 
 /// Shades a visible point and stores it as sample (t, s, v, u) of a tile; t and s count from the tile's corner.
@@ -36,10 +35,10 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
                   std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     Rgb radiance = scene.background;
     if (point.triangle != VisiblePoint::nothing) {
-        ViewSample sight;
+        ViewSample view;
         if (scene.needs_samples(point.triangle))
-            sight = sight_along(grid, grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v)), point.depth);
-        radiance = radiance_at(scene, point.triangle, point.b0, point.b1, point.b2, sight);
+            view = view_sample(grid, grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v)), point.depth);
+        radiance = radiance_at(scene, point.triangle, point.b0, point.b1, point.b2, view);
     }
     if (tile.radiance.extent(0) == 3) {
         tile.radiance(0, t, s, v, u) = radiance.r;

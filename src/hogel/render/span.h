@@ -5,21 +5,21 @@
 
 namespace hogel::render {
 
-/// Samples this close to an edge, in samples, count as inside while they are looked for: far more than rounding can
-/// amount to on the way, and far too little to find a sample twice often. Whether a ray meets the triangle is decided
-/// by ObliqueTriangle.
+/// Samples this close to an edge, in samples, count as inside while candidates are collected. It exceeds all rounding
+/// on the way and is small enough that few samples are found twice. ObliqueTriangle then decides whether the ray meets
+/// the triangle.
 constexpr double scan_margin = 1e-6;
 
-/// Samples that follow each other: first <= i < end.
+/// Consecutive samples: first <= i < end.
 struct Span {
     std::size_t first = 0, end = 0;
 };
 
-/// The whole numbers from `low` to `high` within the margin, of [0, n).
+/// The whole numbers of [0, n) from `low` to `high`, both widened by the margin.
 inline Span samples_between(double low, double high, std::size_t n) {
     const double from = low - scan_margin, to = high + scan_margin;
     if (!(from <= to) || to < 0 || from > static_cast<double>(n - 1)) return {};
-    // Conversions cut off the fraction, which costs less than std::ceil and std::floor.
+    // Conversions truncate, which costs less than std::ceil and std::floor.
     std::size_t first = from > 0 ? static_cast<std::size_t>(from) : 0;
     if (static_cast<double>(first) < from) ++first;
     const std::size_t end = to < static_cast<double>(n - 1) ? static_cast<std::size_t>(to) + 1 : n;

@@ -22,12 +22,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t vertices_per_task = 256;
-constexpr std::size_t fewer_rays = 8;  // by which all rounds but the last are cheaper
-// Vertices lie on edges, often just where other surfaces begin. What they see is looked at from a little way inside
-// their triangles.
+constexpr std::size_t fewer_rays = 8;  // all rounds but the last send this fraction of the rays
+// Vertices lie on edges, often where other surfaces begin. Rays therefore start this part of the way towards the middle
+// of their triangles.
 constexpr double inside = 0.08;
 
-/// A scene's vertices in one list, and the rays' view of them.
+/// A scene's vertices in one list, with the points at which they gather light.
 struct Surfaces {
     explicit Surfaces(const Scene& scene, ShadedScene without_light)
         : shaded(std::move(without_light)), caster(all_triangles(shaded)), offset(ray_offset(scene)) {
@@ -51,36 +51,37 @@ struct Surfaces {
             }
     }
 
-    ShadedScene shaded;  // `radiance` is what the vertices show so far
+    ShadedScene shaded;  // `radiance`: of the vertices so far
     trace::RayCaster caster;
     double offset;
-    std::vector<Vec3> eyes, normals;
+    std::vector<Vec3> eyes, normals;  // eyes: where rays of a vertex start
     std::vector<Rgb> colors, emissions;
-    std::vector<char> given;
+    std::vector<char> given;  // whether a vertex brings its radiance
 };
 
 ShadedScene unlit(const Scene& scene) {
-    ShadingOptions options;
-    options.model = ShadingModel::vertex;
     Scene dark = scene;
     dark.lights.clear();
-    return shade_scene(dark, options);
+    return shade_scene(dark);
 }
 
-/// Calls body(vertex) for all vertices, reporting from `from` to `to`.
+/// Calls body(vertex) for all vertices, and reports progress from `from` to `to`.
 void for_vertices(std::size_t n, const Progress& progress, double from, double to,
                   const std::function<void(std::size_t)>& body) {
     const std::size_t tasks = (n + vertices_per_task - 1) / vertices_per_task;
     std::mutex mutex;
     std::size_t done = 0;
     core::parallel_for(tasks, [&](std::size_t task) {
-        for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) body(i);
+        for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) {
+            core::throw_if_stopped();
+            body(i);
+        }
         const std::lock_guard lock(mutex);
         progress.report(from + (to - from) * static_cast<double>(++done) / static_cast<double>(tasks));
     });
 }
 
-/// Direct light, reflected.
+/// The direct light that each vertex reflects.
 std::vector<Rgb> direct_light(const Scene& scene, const Surfaces& surfaces, const Progress& progress, double from,
                               double to) {
     std::vector<Rgb> radiance(surfaces.normals.size());
@@ -91,7 +92,7 @@ std::vector<Rgb> direct_light(const Scene& scene, const Surfaces& surfaces, cons
     return radiance;
 }
 
-/// The mean radiance that arrives at a vertex from all directions, weighted by the cosine.
+/// The mean radiance that arrives at a vertex, weighted by the cosine.
 Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std::size_t rays, std::uint64_t seed) {
     const Vec3 normal = surfaces.normals[vertex];
     if (normal == Vec3{}) return scene.ambient;
@@ -100,7 +101,7 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
     const auto random = core::philox({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(rays), 0, 0},
                                      {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
     const double shift_a = random[0] / 4294967296.0, shift_b = random[1] / 4294967296.0;
-    // The multiples of the inverse powers of the plastic number fill the square evenly; each vertex shifts them.
+    // Multiples of the inverse powers of the plastic number fill the square evenly. Each vertex shifts them at random.
     constexpr double plastic = 1.32471795724474602596;
     Rgb sum{0, 0, 0};
     for (std::size_t k = 0; k < rays; ++k) {
@@ -122,8 +123,8 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
     return 1 / static_cast<float>(rays) * sum;
 }
 
-/// Puts a value for each vertex into the meshes, but for those that brought their radiance.
-void give(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>& values) {
+/// Sets the radiance of each vertex in the meshes that bring none.
+void set_radiance(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>& values) {
     std::size_t base = 0;
     for (Mesh& mesh : scene.meshes) {
         const std::size_t n = mesh.positions.size();
@@ -134,48 +135,56 @@ void give(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>& values
     }
 }
 
-}  // namespace
-
-Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
-    if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
-    validate(scene);
-    for (const Mesh& mesh : scene.meshes)
-        if (mesh.normals.empty() && !mesh.triangles.empty() && mesh.radiance.empty())
-            throw Error(ErrorCode::bad_input, "mesh '" + mesh.name + "': no normals; expected one a vertex");
-    Surfaces coarse(scene, unlit(scene));
-    const std::size_t vertices = coarse.normals.size();
-    const std::vector<Rgb> direct = direct_light(scene, coarse, progress, 0, 0.1);
-    const auto show = [&](const std::vector<Rgb>& indirect) {
-        for (std::size_t i = 0; i < vertices; ++i)
-            if (!coarse.given[i])
-                coarse.shaded.radiance[i] = coarse.emissions[i] + direct[i] + coarse.colors[i] * indirect[i];
-    };
+/// The light that arrives at each vertex from other surfaces.
+std::vector<Rgb> indirect_light(const Scene& scene, Surfaces& surfaces, const BakeOptions& options,
+                                const Progress& progress) {
+    const std::size_t vertices = surfaces.normals.size();
+    const std::vector<Rgb> direct = direct_light(scene, surfaces, progress, 0, 0.1);
     std::vector<Rgb> indirect(vertices);
     for (std::size_t round = 0; round < options.bounces; ++round) {
-        show(indirect);
+        for (std::size_t i = 0; i < vertices; ++i)
+            if (!surfaces.given[i])
+                surfaces.shaded.radiance[i] = surfaces.emissions[i] + direct[i] + surfaces.colors[i] * indirect[i];
         const bool last = round + 1 == options.bounces;
         const std::size_t rays = last ? options.rays : (options.rays + fewer_rays - 1) / fewer_rays;
         const double from = last ? 0.4 : 0.1 + 0.3 * static_cast<double>(round) / static_cast<double>(options.bounces);
         for_vertices(vertices, progress, from, last ? 0.7 : from, [&](std::size_t i) {
-            if (!coarse.given[i]) indirect[i] = gather(scene, coarse, i, rays, options.seed + round);
+            if (!surfaces.given[i]) indirect[i] = gather(scene, surfaces, i, rays, options.seed + round);
         });
     }
+    return indirect;
+}
 
-    // Cutting interpolates the radiance, which here is the light that arrives indirectly.
+void require_normals(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.normals.empty() && !mesh.triangles.empty() && mesh.radiance.empty())
+            throw Error(ErrorCode::bad_input, "mesh '" + mesh.name + "': no normals; expected one a vertex");
+}
+
+}  // namespace
+
+Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
+    if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
+    validate(scene);
+    require_normals(scene);
     Scene baked = scene;
-    give(baked, coarse, indirect);
+    {
+        // Tessellation interpolates the radiance, which here is the light that arrives indirectly.
+        Surfaces coarse(scene, unlit(scene));
+        set_radiance(baked, coarse, indirect_light(scene, coarse, options, progress));
+    }
     baked = scene::tessellate(baked, options.tessellation);
     Scene bare = baked;
     for (std::size_t i = 0; i < bare.meshes.size(); ++i)
         if (scene.meshes[i].radiance.empty()) bare.meshes[i].radiance.clear();
     const Surfaces fine(bare, unlit(bare));
-    const std::vector<Rgb> fine_direct = direct_light(bare, fine, progress, 0.7, 1);
+    const std::vector<Rgb> direct = direct_light(bare, fine, progress, 0.7, 1);
     std::size_t base = 0;
     for (std::size_t m = 0; m < baked.meshes.size(); ++m) {
         Mesh& mesh = baked.meshes[m];
         for (std::size_t i = 0; i < mesh.radiance.size() && scene.meshes[m].radiance.empty(); ++i)
-            mesh.radiance[i] =
-                fine.emissions[base + i] + fine_direct[base + i] + fine.colors[base + i] * mesh.radiance[i];
+            mesh.radiance[i] = fine.emissions[base + i] + direct[base + i] + fine.colors[base + i] * mesh.radiance[i];
         base += mesh.positions.size();
     }
     return baked;

@@ -7,15 +7,22 @@
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/reflection.h"
 #include "hogel/shading/shadow_maps.h"
+#include "hogel/shading/triangles.h"
 
 namespace hogel::shading {
 namespace {
 
-/// Every light, through its shadow map, reflected by what the surface is made of at that very point.
+/// Evaluates every light at each sample, through its shadow map, reflected by the material at that point.
 class DirectLighting final : public SampleLighting {
   public:
-    DirectLighting(const Scene& scene, std::vector<ShadowMap> maps)
-        : lights_(scene.lights), lamps_(lights_), maps_(std::move(maps)), ambient_(scene.ambient) {
+    void set_scene(const Scene& scene, const trace::RayCaster& caster, std::size_t texels, const Progress& progress) {
+        lights_ = scene.lights;
+        lamps_ = LampTable(lights_);
+        maps_.set(make_shadow_maps(scene, caster, texels, maps_.release(), progress));
+        ambient_ = scene.ambient;
+        surfaces_.clear();
+        normals_.clear();
+        colors_.clear();
         for (const Mesh& mesh : scene.meshes) {
             surfaces_.push_back({mesh.material, !mesh.radiance.empty()});
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -25,8 +32,8 @@ class DirectLighting final : public SampleLighting {
         }
     }
 
-    // On matt surfaces what is seen; on glossy ones the light that arrives, what of it the lobe may take, and how far
-    // each lamp gets there.
+    // On matt surfaces the radiance; on glossy ones the irradiance, the part of it that depends on the lobe, and the
+    // visibility of each lamp.
     Size size_of_light(std::size_t mesh) const override {
         const Surface& surface = surfaces_[mesh];
         if (surface.given) return {};
@@ -46,8 +53,7 @@ class DirectLighting final : public SampleLighting {
         LightUnderLobe sum;
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < lights_.size(); first += block) {
-            // Lamps that the surface faces.
-            std::array<std::uint32_t, block> facing;
+            std::array<std::uint32_t, block> facing;  // lamps in front of the surface
             std::array<double, block> cosines, falloffs;
             std::size_t count = 0;
             for (std::size_t i = first; i < std::min(first + block, lights_.size()); ++i) {
@@ -57,13 +63,13 @@ class DirectLighting final : public SampleLighting {
                 facing[count] = static_cast<std::uint32_t>(i);
                 if (cosines[count] > 0) ++count;
             }
-            std::array<float, block> shares;
-            maps_.lit(std::span(facing).first(count), point.position, point.flat_normal, shares.data());
+            std::array<float, block> visible;
+            maps_.visibility(std::span(facing).first(count), point.position, point.flat_normal, visible.data());
             for (std::size_t k = 0; k < count; ++k) {
-                if (!(shares[k] > 0)) continue;
-                sum.add(surface.material, shares[k] * static_cast<float>(falloffs[k]) * lights_[facing[k]].intensity,
+                if (!(visible[k] > 0)) continue;
+                sum.add(surface.material, visible[k] * static_cast<float>(falloffs[k]) * lights_[facing[k]].intensity,
                         cosines[k]);
-                if (glossy) light[6 + facing[k]] = shares[k];
+                if (glossy) light[6 + facing[k]] = visible[k];
             }
         }
         if (glossy) {
@@ -76,20 +82,20 @@ class DirectLighting final : public SampleLighting {
     }
 
     Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                 std::span<const float> light, Rgb texture, const ViewSample& sight) const override {
+                 std::span<const float> light, Rgb texture, const ViewSample& view) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const Surface& surface = surfaces_[triangle.mesh];
         if (!surface.material.is_glossy()) return texture * rgb(light.first<3>());
         const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
         const Rgb emission = texture * surface.material.emission, arriving = rgb(light.first<3>());
         const Vec3 normal = normal_at(triangle, weights);
-        const Reflection reflection(surface.material, color, dot(normal, sight.to_viewer));
+        const Reflection reflection(surface.material, color, dot(normal, view.to_viewer));
         Rgb seen = emission + ambient_ * reflection.in_uniform_light() +
                    reflection.diffuse({arriving, rgb(light.subspan<3, 3>())});
-        if (const double cos_view = dot(normal, sight.to_viewer); cos_view > 0)
+        if (const double cos_view = dot(normal, view.to_viewer); cos_view > 0)
             seen += reflection.lobe(gloss(lamps_, light.subspan(6).data(),
                                           {SurfacePoint(scene, triangle.vertices, weights).position, normal,
-                                           sight.to_viewer, cos_view, reflection.roughness()}));
+                                           view.to_viewer, cos_view, reflection.roughness()}));
         return seen;
     }
 
@@ -118,15 +124,23 @@ class DirectLighting final : public SampleLighting {
     LampTable lamps_;
     ShadowMaps maps_;
     Rgb ambient_;
-    std::vector<Surface> surfaces_;  // of the meshes
+    std::vector<Surface> surfaces_;  // one a mesh
     std::vector<Vec3> normals_;
     std::vector<Rgb> colors_;
 };
 
 }  // namespace
 
-std::unique_ptr<SampleLighting> make_direct_lighting(const Scene& scene, std::vector<ShadowMap> maps) {
-    return std::make_unique<DirectLighting>(scene, std::move(maps));
+ShadingInfo direct_shading() {
+    return {.name = "direct",
+            .text = "lit at every sample, with shadow maps and gloss",
+            .make =
+                [](const Scene& scene, const ShadingOptions& options, ShadedScene& shaded, const Progress& progress) {
+                    auto lighting = take_lighting<DirectLighting>(shaded);
+                    lighting->set_scene(scene, all_triangles(shaded), options.shadow_map, progress);
+                    return lighting;
+                },
+            .shadow_map_bytes = bytes_of_shadow_maps};
 }
 
 }  // namespace hogel::shading

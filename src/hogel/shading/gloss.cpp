@@ -45,7 +45,7 @@ GlossyFloats::GlossyFloats(const GlossyPoint& point)
 LightInLobe GlossySums::total() const {
     std::array<float, 6> sum;
     for (std::size_t i = 0; i < 6; ++i) {
-        // Halves upon each other, which a compiler makes vectors of.
+        // Adds one half to the other until one number is left, a form that compilers vectorise.
         std::array<float, LampTable::block> rest;
         std::ranges::copy(values[i], rest.begin());
         for (std::size_t half = LampTable::block / 2; half > 0; half /= 2)
@@ -55,19 +55,20 @@ LightInLobe GlossySums::total() const {
     return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
 }
 
-LightInLobe gloss_plain(const LampTable& lamps, const float* lit, const GlossyPoint& point) {
+LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const GlossyPoint& point) {
     const GlossyFloats at(point);
     constexpr auto half_per_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
     GlossySums sums;
     for (std::size_t i = 0; i < lamps.size(); ++i) {
-        if (!(lit[i] * lamps.r[i] > 0 || lit[i] * lamps.g[i] > 0 || lit[i] * lamps.b[i] > 0)) continue;
+        const float seen = visibility[i];
+        if (!(seen * lamps.r[i] > 0 || seen * lamps.g[i] > 0 || seen * lamps.b[i] > 0)) continue;
         const float wx = lamps.x[i] - lamps.near[i] * at.px, wy = lamps.y[i] - lamps.near[i] * at.py,
                     wz = lamps.z[i] - lamps.near[i] * at.pz;
         const float squared = wx * wx + wy * wy + wz * wz;
         const float per_distance = 1 / std::sqrt(squared);
         const float cos_light = (at.nx * wx + at.ny * wy + at.nz * wz) * per_distance;
         const float towards = (at.vx * wx + at.vy * wy + at.vz * wz) * per_distance;
-        // The direction between light and viewer is as long as √(2 + 2 l·v).
+        // The sum of the directions to the light and to the viewer has the length √(2 + 2 l·v).
         const float between = 2 + 2 * towards;
         if (!(squared > 0 && cos_light > 0 && between > 0)) continue;
         const float per_between = 1 / std::sqrt(between);
@@ -75,9 +76,9 @@ LightInLobe gloss_plain(const LampTable& lamps, const float* lit, const GlossyPo
         const float d = 1 - cos_half * cos_half * at.less_alpha2;
         const float masked_light = std::sqrt(at.alpha2 + at.less_alpha2 * cos_light * cos_light);
         const float visible = at.cos_view * masked_light + cos_light * at.masked_view;
-        // Of intensity: D V n·l times how far it gets, per squared distance.
+        // The factor of the intensity: D V n·l times visibility, over the squared distance.
         const float falloff = lamps.near[i] > 0 ? 1 / squared : 1;
-        const float peak = at.alpha2 * half_per_pi / (d * d * visible) * cos_light * (lit[i] * falloff);
+        const float peak = at.alpha2 * half_per_pi / (d * d * visible) * cos_light * (seen * falloff);
         const float rest = 1 - std::min(view_half, 1.0f), rest2 = rest * rest, grazing = rest2 * rest2 * rest;
         const float more = peak * grazing, less = peak - more;
         const std::array<float, 3> intensity{lamps.r[i], lamps.g[i], lamps.b[i]};

@@ -11,40 +11,37 @@
 
 namespace hogel::shading {
 
-/// The lamps of a scene, number by number, filled up with dark ones to whole blocks.
+/// The lamps of a scene as arrays of numbers, padded with dark lamps to whole blocks.
 class LampTable {
   public:
-    static constexpr std::size_t block = 16;  ///< as many floats as the widest vector has
+    static constexpr std::size_t block = 16;  ///< floats of the widest vector
 
+    LampTable() = default;
     explicit LampTable(std::span<const Light> lights);
 
     std::size_t size() const { return x.size(); }
 
     using Numbers = std::vector<float, CacheLineAllocator<float>>;
-    Numbers x, y, z;  ///< where a lamp is, or the unit direction towards a distant one
-    Numbers near;     ///< 1; 0 for a distant one
+    Numbers x, y, z;  ///< position of a point light, or the unit direction towards a directional one
+    Numbers near;     ///< 1 for a point light, 0 for a directional one
     Numbers r, g, b;  ///< intensity
 };
 
-/// A point of a glossy surface and who looks at it.
+/// A point of a glossy surface and the direction to its viewer.
 struct GlossyPoint {
     Vec3 position, normal, to_viewer;  ///< unit length
     double cos_view = 1;               ///< normal · to_viewer, above 0
     double roughness = 1;              ///< at least min_roughness
 };
 
-/// The light in the lobe, the sum of Reflection::lobe over the lamps, in single precision.
-/// @param lit  how far each lamp gets to the point; `lamps.size()` numbers, of which only those of lamps count
-/// Twins that give the same bits: they sum up what is the same number in all blocks, and then the sums.
-LightInLobe gloss_plain(const LampTable& lamps, const float* lit, const GlossyPoint& point);
-LightInLobe gloss(const LampTable& lamps, const float* lit, const GlossyPoint& point);
+/// The light in the lobe, the sum of Reflection::lobe over the lamps, in single precision. Twins that give the same
+/// bits: both sum the lamps at each index of a block, then these sums.
+/// @param visibility  share of each lamp's light that arrives at the point; `lamps.size()` numbers, any values for dark
+///                    lamps
+LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
+LightInLobe gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
 
-/// The instruction sets of this processor that the vector twin is built for, and a way to use but one of them, or with
-/// 0 the best again: for tests. Not while it runs.
-std::vector<std::int64_t> gloss_targets();
-void use_gloss_target(std::int64_t target);
-
-/// A point's numbers as the twins need them.
+/// A point's numbers in the form that the twins use.
 struct GlossyFloats {
     float px, py, pz, nx, ny, nz, vx, vy, vz;
     float cos_view, alpha2, less_alpha2, masked_view;
@@ -52,7 +49,7 @@ struct GlossyFloats {
     explicit GlossyFloats(const GlossyPoint& point);
 };
 
-/// Sums for each lamp of a block: scale r, g, b and offset r, g, b.
+/// Sums for each index of a block: scale r, g, b and offset r, g, b.
 struct GlossySums {
     alignas(64) float values[6][LampTable::block] = {};
 

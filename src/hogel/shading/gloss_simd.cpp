@@ -15,7 +15,7 @@ namespace hogel::shading {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-LightInLobe Gloss(const LampTable& lamps, const float* lit, const GlossyPoint& point) {
+LightInLobe Gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point) {
     const hn::CappedTag<float, LampTable::block> d;
     using Floats = hn::Vec<decltype(d)>;
     const GlossyFloats at(point);
@@ -31,7 +31,7 @@ LightInLobe Gloss(const LampTable& lamps, const float* lit, const GlossyPoint& p
     GlossySums sums;
     for (std::size_t i = 0; i < lamps.size(); i += hn::Lanes(d)) {
         const auto of = [d, i](const LampTable::Numbers& numbers) HWY_ATTR { return hn::Load(d, numbers.data() + i); };
-        const Floats reach = hn::LoadU(d, lit + i), r = of(lamps.r), g = of(lamps.g), b = of(lamps.b);
+        const Floats reach = hn::LoadU(d, visibility + i), r = of(lamps.r), g = of(lamps.g), b = of(lamps.b);
         const auto above = [&](Floats intensity) HWY_ATTR { return hn::Gt(hn::Mul(reach, intensity), zero); };
         const auto shines = hn::Or(above(r), hn::Or(above(g), above(b)));
         if (hn::AllFalse(d, shines)) continue;
@@ -77,15 +77,8 @@ namespace hogel::shading {
 
 HWY_EXPORT(Gloss);
 
-LightInLobe gloss(const LampTable& lamps, const float* lit, const GlossyPoint& point) {
-    return HWY_DYNAMIC_DISPATCH(Gloss)(lamps, lit, point);
-}
-
-std::vector<std::int64_t> gloss_targets() { return hwy::SupportedAndGeneratedTargets(); }
-
-void use_gloss_target(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+LightInLobe gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point) {
+    return HWY_DYNAMIC_DISPATCH(Gloss)(lamps, visibility, point);
 }
 
 }  // namespace hogel::shading

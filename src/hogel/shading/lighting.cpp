@@ -4,6 +4,12 @@
 
 namespace hogel::shading {
 
+double bytes_of_shadow_maps(const Scene& scene, const ShadingOptions& options) {
+    double sum = 0;
+    for (const Light& light : scene.lights) sum += ShadowMap::bytes(light, options.shadow_map);
+    return sum;
+}
+
 double ray_offset(const Scene& scene) {
     const Bounds box = bounds(scene);
     return 1e-4 * length(box.high - box.low);

@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "hogel/shading.h"
 #include "hogel/shading/shadow_map.h"
 
 namespace hogel::shading {
 
-/// ShadingModel::direct and ShadingModel::shadowed for a scene whose geometry is that of the shaded scene's meshes in
-/// order. `maps` has one map a light.
-std::unique_ptr<SampleLighting> make_direct_lighting(const Scene& scene, std::vector<ShadowMap> maps);
-std::unique_ptr<SampleLighting> make_shadowed_lighting(const Scene& scene, std::vector<ShadowMap> maps);
+/// The rows of shading_models(), each defined in a file of its own.
+ShadingInfo vertex_shading();
+ShadingInfo direct_shading();
+ShadingInfo shadowed_shading();
+ShadingInfo given_shading();
 
-/// Rays start this far above a surface, a ten-thousandth of the scene's diagonal, so that a point does not stand in its
-/// own light.
+/// ShadingInfo::shadow_map_bytes of models with a map of options.shadow_map texels for each light.
+double bytes_of_shadow_maps(const Scene& scene, const ShadingOptions& options);
+
+/// The lighting of an earlier shading for its memory, where it is of the same type and nothing else holds it; a new one
+/// otherwise.
+template <class Lighting>
+std::shared_ptr<Lighting> take_lighting(ShadedScene& shaded) {
+    auto last = std::dynamic_pointer_cast<Lighting>(
+        std::const_pointer_cast<SampleLighting>(std::exchange(shaded.lighting, nullptr)));
+    return last && last.use_count() == 1 ? last : std::make_shared<Lighting>();
+}
+
+/// Shadow rays start this far above a surface, a ten-thousandth of the scene's diagonal, so that a surface does not
+/// shadow itself.
 double ray_offset(const Scene& scene);
 
 /// The irradiance from all lights that a point of a surface sees.
@@ -25,14 +41,14 @@ inline Rgb vertex_color(const Mesh& mesh, std::size_t vertex) {
     return mesh.colors.empty() ? mesh.material.base_color : mesh.material.base_color * mesh.colors[vertex];
 }
 
-/// Interpolates one value of each of a triangle's vertices.
+/// Interpolates a value between a triangle's vertices.
 template <class T>
 T interpolate(const std::vector<T>& values, const std::array<std::uint32_t, 3>& vertices,
               const std::array<float, 3>& weights) {
     return weights[0] * values[vertices[0]] + weights[1] * values[vertices[1]] + weights[2] * values[vertices[2]];
 }
 
-/// Where a sample lies, and a normal of its triangle (of any length).
+/// The position of a sample, and a normal of its triangle (of any length).
 struct SurfacePoint {
     Vec3 position, flat_normal;
 

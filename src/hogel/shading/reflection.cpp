@@ -30,17 +30,17 @@ double visibility(double cos_light, double cos_view, double alpha) {
     return 0.5 / (l + v);
 }
 
-/// The albedo by a sum over normals of facets, spread as the lobe has them.
+/// The albedo as a sum over facet normals, distributed as in the lobe.
 LobeAlbedo integrate(double cosine, double roughness) {
     constexpr std::uint32_t samples = 1024;
     const double alpha = roughness * roughness;
     const Vec3 to_viewer{std::sqrt(1 - cosine * cosine), 0, cosine};
     LobeAlbedo sum{0, 0};
     for (std::uint32_t i = 0; i < samples; ++i) {
-        // Hammersley's points: i/n, and i with its binary digits reversed.
+        // Hammersley points: i/n, and i with its binary digits reversed.
         std::uint32_t bits = i;
         double reversed = 0;
-        for (double place = 0.5; bits != 0; bits >>= 1, place *= 0.5) reversed += bits & 1 ? place : 0;
+        for (double digit = 0.5; bits != 0; bits >>= 1, digit *= 0.5) reversed += bits & 1 ? digit : 0;
         const double x = (i + 0.5) / samples, angle = 2 * pi * reversed;
         const double cos_half = std::sqrt((1 - x) / (1 + (alpha * alpha - 1) * x));
         const double sin_half = std::sqrt(1 - cos_half * cos_half);
@@ -58,7 +58,7 @@ LobeAlbedo integrate(double cosine, double roughness) {
 
 constexpr std::size_t cells = 32;
 
-struct Table {
+struct AlbedoTable {
     std::array<std::array<LobeAlbedo, cells>, cells> albedo;  // [roughness][cosine]
     std::array<LobeAlbedo, cells> mean;
 
@@ -70,10 +70,10 @@ struct Table {
     static double roughness(std::size_t k) {
         return min_roughness + (1 - min_roughness) * static_cast<double>(k) / (cells - 1);
     }
-    Table() {
+    AlbedoTable() {
         for (std::size_t k = 0; k < cells; ++k) {
             for (std::size_t i = 0; i < cells; ++i) albedo[k][i] = integrate(cosine(i), roughness(k));
-            // ∫ 2 µ E(µ) dµ, E linear between the nodes in √µ as it is looked up.
+            // ∫ 2 µ E(µ) dµ with E as look_up() interpolates it, linear in √µ between nodes.
             LobeAlbedo sum{0, 0};
             constexpr int steps = 512;
             for (int j = 0; j < steps; ++j) {
@@ -94,11 +94,12 @@ struct Table {
     }
 };
 
-const Table& table() {
-    static const Table made;
-    return made;
+const AlbedoTable& table() {
+    static const AlbedoTable albedo;
+    return albedo;
 }
 
+/// Two neighbouring rows of the table, k and k + 1, and the weight of the second.
 struct Row {
     std::size_t k;
     double weight;
@@ -154,16 +155,16 @@ Reflection::Reflection(const Material& material, Rgb color, double cos_view)
     if (!glossy_) return;
     const float plain = (1 - material.metallic) * material.reflectance;
     lobe_ = Rgb{plain, plain, plain} + material.metallic * color;
-    most_ = std::max({lobe_.r, lobe_.g, lobe_.b});
+    max_lobe_ = std::max({lobe_.r, lobe_.g, lobe_.b});
     roughness_ = clamped_roughness(material);
     here_ = lobe_albedo(std::abs(cos_view), roughness_);
     const LobeAlbedo mean = mean_lobe_albedo(roughness_);
-    left_by_lobe_ = (1 - (most_ * here_.scale + here_.offset)) / (1 - (most_ * mean.scale + mean.offset));
+    left_by_lobe_ = (1 - (max_lobe_ * here_.scale + here_.offset)) / (1 - (max_lobe_ * mean.scale + mean.offset));
 }
 
 Rgb Reflection::diffuse(const LightUnderLobe& light) const {
-    const auto most = static_cast<float>(most_);
-    return static_cast<float>(left_by_lobe_) * (diffuse_ * (light.arriving + -most * light.for_lobe));
+    const auto max_lobe = static_cast<float>(max_lobe_);
+    return static_cast<float>(left_by_lobe_) * (diffuse_ * (light.arriving + -max_lobe * light.for_lobe));
 }
 
 Rgb Reflection::lobe(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const {
@@ -187,7 +188,7 @@ Rgb Reflection::towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_l
 
 Rgb Reflection::in_uniform_light() const {
     if (!glossy_) return diffuse_;
-    const auto left = static_cast<float>(1 - (most_ * here_.scale + here_.offset));
+    const auto left = static_cast<float>(1 - (max_lobe_ * here_.scale + here_.offset));
     const auto scale = static_cast<float>(here_.scale), offset = static_cast<float>(here_.offset);
     return left * diffuse_ + scale * lobe_ + Rgb{offset, offset, offset};
 }

@@ -5,45 +5,46 @@
 
 namespace hogel::shading {
 
-/// What of the light on a point may be reflected diffusely, whoever looks: Σ E n·l/π less what the lobe takes on its
-/// way in, which is in part a multiple of the lobe's reflectance: arriving − reflectance · for_lobe.
+/// The light on a point that may be reflected diffusely, for any viewer: Σ E n·l/π less what the lobe reflects of the
+/// incident light, part of which is a multiple of the lobe's reflectance: arriving − reflectance · for_lobe.
 struct LightUnderLobe {
     Rgb arriving{0, 0, 0}, for_lobe{0, 0, 0};
 
-    /// A light of this irradiance at normal incidence, from where n·l is cos_light > 0.
+    /// Adds a light of this irradiance at normal incidence; n·l is cos_light > 0.
     void add(const Material& material, Rgb irradiance, double cos_light);
 };
 
-/// What a lobe shows of light: its reflectance at normal incidence times `scale`, and `offset`.
+/// The radiance that a lobe shows: its reflectance at normal incidence times `scale`, plus `offset`.
 struct LightInLobe {
     Rgb scale{0, 0, 0}, offset{0, 0, 0};
 };
 
-/// The albedo of a lobe whose reflectance at normal incidence is r: r · scale + offset.
-/// Both come from a table over cosine and roughness, within 0.5 %.
+/// The albedo of a lobe whose reflectance at normal incidence is r: r · scale + offset. Both come from a table over
+/// cosine and roughness, within 0.5 %.
 struct LobeAlbedo {
     double scale, offset;
 };
 LobeAlbedo lobe_albedo(double cosine, double roughness);
 
-/// Its mean over the hemisphere, weighted by the cosine.
+/// The mean of the albedo over the hemisphere, weighted by the cosine.
 LobeAlbedo mean_lobe_albedo(double roughness);
 
-/// How a point of a surface reflects: a diffuse part and a glossy lobe (GGX microfacets) that together reflect no more
-/// than they receive, and the same both ways.
+/// The reflection at a point of a surface: a diffuse part and a glossy lobe (GGX microfacets) that together reflect no
+/// more than they receive, and reciprocally.
 ///
 /// The lobe is D V F: the distribution of Trowbridge and Reitz, the masking and shadowing of Smith for correlated
 /// heights and Schlick's reflectance (Walter et al., "Microfacet models for refraction", 2007; Heitz, "Understanding
-/// the masking-shadowing function", 2014). The diffuse part gets what the lobe leaves, coming and going:
+/// the masking-shadowing function", 2014). The diffuse part gets what the lobe leaves of incident and reflected light:
 ///     color/π · (1 − E(n·l)) (1 − E(n·v)) / (1 − mean of E),
 /// where E is the lobe's albedo (Kelemen and Szirmay-Kalos, 2001). In uniform light a white surface shows that light.
 class Reflection {
   public:
-    /// @param color  of the diffuse part, and of the lobe as far as the material is metallic
-    /// @param cos_view  n·v; the diffuse part looks the same from behind (n·v < 0), the lobe is seen from in front only
+    /// @param color     of the diffuse part, and of the lobe in the measure in which the material is metallic
+    /// @param cos_view  n·v; the diffuse part looks the same from behind (n·v < 0), the lobe is seen from the front
+    /// only
     Reflection(const Material& material, Rgb color, double cos_view);
 
-    /// The two parts of it: the lobe, for one direction, and the diffuse part, for any sum of lights.
+    /// The two parts: the lobe, for one direction or for a sum of lights, and the diffuse part, for any sum of lights.
     Rgb lobe(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const;
     Rgb lobe(const LightInLobe& light) const { return light.scale * lobe_ + light.offset; }
     Rgb diffuse(const LightUnderLobe& light) const;
@@ -52,19 +53,19 @@ class Reflection {
     Rgb towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const;
     /// The radiance towards the viewer in uniform light of radiance 1.
     Rgb in_uniform_light() const;
-    /// As the lobe has it.
+    /// The roughness of the lobe, at least min_roughness.
     double roughness() const { return roughness_; }
 
   private:
     bool glossy_ = false;
-    Rgb diffuse_, lobe_;  // lobe_: its reflectance at normal incidence
-    double most_ = 0;     // the largest channel of that, for E
+    Rgb diffuse_, lobe_;   // lobe_: its reflectance at normal incidence
+    double max_lobe_ = 0;  // the largest channel of that, for E
     double roughness_ = 1, cos_view_ = 1;
     LobeAlbedo here_{0, 0};    // E(n·v)
     double left_by_lobe_ = 1;  // (1 − E(n·v)) / (1 − mean of E)
 };
 
-/// Surfaces smoother than this are treated as this rough: a lamp is a point, and its image would be one too.
+/// Smoother surfaces are treated as this rough: a lamp is a point, and its mirror image would be one too.
 inline constexpr double min_roughness = 0.15;
 
 }  // namespace hogel::shading

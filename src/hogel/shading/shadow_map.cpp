@@ -16,7 +16,7 @@ constexpr std::size_t cube_faces = 6;
 
 double component(Vec3 p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// A direction of the cube's face: 1 along the face's axis, b and c along the two axes after it.
+/// A direction through a face of the cube: 1 along the face's axis, b and c along the two axes after it.
 Vec3 on_face(std::size_t face, double b, double c) {
     std::array<double, 3> p{};
     const std::size_t axis = face / 2;
@@ -26,10 +26,11 @@ Vec3 on_face(std::size_t face, double b, double c) {
 
 }  // namespace
 
-ShadowMap::ShadowMap(const Light& light, const Bounds& scene, std::size_t n)
+ShadowMap::ShadowMap(const Light& light, const Bounds& scene, std::size_t n, std::vector<float> memory)
     : point_light_(light.kind == Light::Kind::point),
       faces_(point_light_ ? cube_faces : 1),
-      side_(point_light_ ? n : 2 * n) {
+      side_(point_light_ ? n : 2 * n),
+      depth_(std::move(memory)) {
     const double inf = std::numeric_limits<double>::infinity();
     if (!light.casts_shadows) {
         faces_ = side_ = 0;
@@ -80,7 +81,7 @@ void ShadowMap::fill(const trace::RayCaster& caster, std::size_t row) {
         if (hits[i].triangle != trace::RayHit::miss) out[i] = static_cast<float>(hits[i].distance);
 }
 
-ShadowMap::Place ShadowMap::place(Vec3 point) const {
+ShadowMap::Projected ShadowMap::project(Vec3 point) const {
     const Vec3 from = point - origin_;
     if (!point_light_) return {0, dot(from, right_) / width_ - 0.5, dot(from, up_) / width_ - 0.5, dot(from, forward_)};
     const std::array<double, 3> size{std::abs(from.x), std::abs(from.y), std::abs(from.z)};
@@ -90,20 +91,20 @@ ShadowMap::Place ShadowMap::place(Vec3 point) const {
     return {2 * axis + (component(from, axis) < 0 ? 1 : 0), texel((axis + 1) % 3), texel((axis + 2) % 3), depth};
 }
 
-float ShadowMap::lit(Vec3 point, Vec3 normal) const {
+float ShadowMap::visibility(Vec3 point, Vec3 normal) const {
     if (depth_.empty()) return 1;
-    const Place here = place(point);
+    const Projected here = project(point);
     if (!(here.depth > 0)) return 1;
-    // A texel's width here, and the height of the tangent plane's point along a texel's ray.
+    // A texel's width at the point's depth, and the height of the tangent plane above the light.
     const double width = point_light_ ? 2 * here.depth / static_cast<double>(side_) : width_;
-    const double limit = here.depth + steepest * width;
+    const double limit = here.depth + max_slope * width;
     const double height = dot(normal, point - origin_);
     const double last = static_cast<double>(side_) - 1, per_side = 1 / static_cast<double>(side_);
     const double column = std::floor(here.column), row = std::floor(here.row);
     const std::array columns{std::clamp(column, 0.0, last), std::clamp(column + 1, 0.0, last)};
     const std::array rows{std::clamp(row, 0.0, last), std::clamp(row + 1, 0.0, last)};
-    // A texel's ray meets the tangent plane at (height − start)/fall; both are sums of what the texel's column and its
-    // row add.
+    // A texel's ray meets the tangent plane at (height − start)/fall. Both are sums of a term of the texel's column and
+    // one of its row.
     const std::size_t axis = here.face / 2;
     const double fall = point_light_ ? (here.face % 2 == 0 ? 1 : -1) * component(normal, axis) : dot(normal, forward_);
     const double along_columns = point_light_ ? component(normal, (axis + 1) % 3) : width_ * dot(normal, right_);
@@ -114,7 +115,7 @@ float ShadowMap::lit(Vec3 point, Vec3 normal) const {
     const auto compare = [&](std::size_t i, std::size_t j) {
         const double added = of_columns[i] + of_rows[j];
         const double f = point_light_ ? fall + added : fall, h = point_light_ ? height : height - added;
-        // A lamp's rays do not go backwards.
+        // Behind a point light its rays meet nothing.
         const bool meets = point_light_ ? f * h > 0 : f != 0;
         const double plane = meets ? h / f : limit;
         const std::size_t at =
@@ -128,12 +129,13 @@ float ShadowMap::lit(Vec3 point, Vec3 normal) const {
 }
 
 std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const trace::RayCaster& caster, std::size_t n,
-                                        const Progress& progress) {
+                                        std::vector<ShadowMap> memory, const Progress& progress) {
     const Bounds box = bounds(scene);
     std::vector<ShadowMap> maps;
     std::vector<std::pair<std::size_t, std::size_t>> work;  // light, row
     for (const Light& light : scene.lights) {
-        maps.emplace_back(light, box, n);
+        maps.emplace_back(light, box, n,
+                          maps.size() < memory.size() ? memory[maps.size()].release() : std::vector<float>());
         for (std::size_t row = 0; row < maps.back().rows(); ++row) work.emplace_back(maps.size() - 1, row);
     }
     constexpr std::size_t rows_per_task = 64;

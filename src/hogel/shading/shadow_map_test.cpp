@@ -59,7 +59,7 @@ TEST(ShadowMap, the_edge_of_a_shadow_is_where_geometry_puts_it) {
                 const Vec3 to = illuminate(light, {x, y, 0}).to_light, p = Vec3{x, y, 0} + to / to.z;
                 const double edge = std::max(std::abs(p.x), std::abs(p.y)) - 0.3;  // on the caster
                 if (std::abs(edge) < 2.5 * texel) continue;
-                ASSERT_EQ(map.lit({x, y, 0}, {0, 0, 1}), edge < 0 ? 0.0f : 1.0f) << x << " " << y;
+                ASSERT_EQ(map.visibility({x, y, 0}, {0, 0, 1}), edge < 0 ? 0.0f : 1.0f) << x << " " << y;
                 (edge < 0 ? inside : outside)++;
             }
         EXPECT_GT(inside, 300u);
@@ -81,8 +81,8 @@ TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
                 const ShadowMap map = map_of(scene, light, n);
                 for (int i = 0; i < 2000; ++i) {
                     const Vec3 p = place(engine) * right + place(engine) * up;
-                    ASSERT_EQ(map.lit(p, cross(right, up)), 1.0f) << slant << " " << n;
-                    ASSERT_EQ(map.lit(p, cross(up, right)), 1.0f) << slant << " " << n;
+                    ASSERT_EQ(map.visibility(p, cross(right, up)), 1.0f) << slant << " " << n;
+                    ASSERT_EQ(map.visibility(p, cross(up, right)), 1.0f) << slant << " " << n;
                 }
             }
         }
@@ -125,7 +125,7 @@ TEST(ShadowMap, neither_leaks_nor_speckles_on_the_built_in_scenes) {
                 }
                 if (seen != 0 && seen != around) continue;
                 ++compared;
-                const float lit = map.lit(p, normal);
+                const float lit = map.visibility(p, normal);
                 leaks += seen == 0 && lit > 0.5f;
                 speckles += seen == around && lit < 0.5f;
             }
@@ -144,21 +144,21 @@ TEST(ShadowMap, of_a_light_without_shadows_is_empty_and_lets_all_through) {
     const ShadowMap map(light, bounds(scene), 1024);
     EXPECT_EQ(map.rows(), 0u);
     EXPECT_EQ(ShadowMap::bytes(light, 1024), 0);
-    EXPECT_EQ(map.lit({0, 0, 0}, {0, 0, 1}), 1.0f);
+    EXPECT_EQ(map.visibility({0, 0, 0}, {0, 0, 1}), 1.0f);
 }
 
 TEST(ShadowMap, a_light_on_a_surface_or_inside_a_body_is_no_trouble) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     const ShadowMap on = map_of(scene, lamp({0.2, 0.1, 0}, 1), 32);
-    EXPECT_TRUE(std::isfinite(on.lit({0.2, 0.1, 0}, {0, 0, 1})));
-    EXPECT_TRUE(std::isfinite(on.lit({0.5, 0.1, 0}, {0, 0, 1})));
+    EXPECT_TRUE(std::isfinite(on.visibility({0.2, 0.1, 0}, {0, 0, 1})));
+    EXPECT_TRUE(std::isfinite(on.visibility({0.5, 0.1, 0}, {0, 0, 1})));
     // Interpolation two plates, seen from outside of both.
     add_square(scene, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
     add_square(scene, {0, 0, 3}, {1, 0, 0}, {0, 1, 0});
     const ShadowMap between = map_of(scene, lamp({0, 0, 0.5}, 1), 64);
-    EXPECT_EQ(between.lit({0, 0, 1}, {0, 0, 1}), 1.0f);
-    EXPECT_EQ(between.lit({0, 0, 3}, {0, 0, 1}), 0.0f);
+    EXPECT_EQ(between.visibility({0, 0, 1}, {0, 0, 1}), 1.0f);
+    EXPECT_EQ(between.visibility({0, 0, 3}, {0, 0, 1}), 0.0f);
 }
 
 }  // namespace

@@ -7,13 +7,17 @@
 namespace hogel::shading {
 namespace {
 
-// A map of one texel a face.
+// A map of one texel a face, for lamps that the vector twin evaluates in vain.
 constexpr float far = std::numeric_limits<float>::infinity();
 constexpr std::array no_depth{far, far, far, far, far, far};
 
 }  // namespace
 
-ShadowMaps::ShadowMaps(std::vector<ShadowMap> maps) : maps_(std::move(maps)) {
+void ShadowMaps::set(std::vector<ShadowMap> maps) {
+    maps_ = std::move(maps);
+    table_ = {};
+    other_.clear();
+    any_other_ = false;
     for (const ShadowMap& map : maps_) {
         const std::span<const float> faces = map.faces();
         const Vec3 at = map.origin();
@@ -27,8 +31,8 @@ ShadowMaps::ShadowMaps(std::vector<ShadowMap> maps) : maps_(std::move(maps)) {
     }
 }
 
-void ShadowMaps::lit_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const {
-    for (std::size_t i = 0; i < lamps.size(); ++i) shares[i] = maps_[lamps[i]].lit(point, normal);
+void ShadowMaps::visibility_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const {
+    for (std::size_t i = 0; i < lamps.size(); ++i) shares[i] = maps_[lamps[i]].visibility(point, normal);
 }
 
 }  // namespace hogel::shading

@@ -10,19 +10,23 @@
 
 namespace hogel::shading {
 
-/// The shadow maps of all lamps of a scene, for looking into many of them at once.
+/// The shadow maps of all lamps of a scene, evaluated for many lamps at once.
 class ShadowMaps {
   public:
-    explicit ShadowMaps(std::vector<ShadowMap> maps);
+    ShadowMaps() = default;
+    explicit ShadowMaps(std::vector<ShadowMap> maps) { set(std::move(maps)); }
 
-    /// How much of the light of these lamps arrives at a point of a surface, as ShadowMap::lit has it. Twins that give
-    /// the same bits.
-    /// @param lamps  their numbers
-    /// @param shares  gets one for each
-    void lit_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
-    void lit(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
+    void set(std::vector<ShadowMap> maps);
+    /// Takes the maps out.
+    std::vector<ShadowMap> release() { return std::move(maps_); }
 
-    /// What the vector twin knows of lamps around which there are six faces; of others only so much that it may look.
+    /// ShadowMap::visibility() of a point for several lamps. Twins that give the same bits.
+    /// @param lamps  indices of the lamps
+    /// @param shares  receives one share for each
+    void visibility_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
+    void visibility(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
+
+    /// The data of the vector twin: of point lights with shadows; of others values that are safe to evaluate.
     struct Table {
         using Doubles = std::vector<double, CacheLineAllocator<double>>;
         Doubles x, y, z, side;
@@ -32,7 +36,7 @@ class ShadowMaps {
   private:
     std::vector<ShadowMap> maps_;
     Table table_;
-    std::vector<std::uint8_t> other_;  // whether a lamp is not for the vector twin
+    std::vector<std::uint8_t> other_;  // whether a lamp needs the plain twin
     bool any_other_ = false;
 };
 

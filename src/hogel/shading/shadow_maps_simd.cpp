@@ -26,86 +26,141 @@ constexpr std::size_t max_lanes = HWY_MAX_BYTES / 8;
 // As std::clamp.
 HWY_INLINE Doubles clamp(Doubles v, Doubles low, Doubles high) { return hn::Min(hn::Max(v, low), high); }
 
-// A lamp a lane: ShadowMap::lit, step by step.
-void Lit(const ShadowMaps::Table& table, std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) {
+// Vectors hold one lamp a lane, and the steps are those of ShadowMap::visibility. All functions are inline, so that
+// their values stay in registers.
+
+// The component along a face's axis, or along the first or second axis after it: pass x, y, z in rotated order.
+struct FaceAxis {
+    Mask is_y, is_z;
+
+    HWY_INLINE Doubles operator()(Doubles if_x, Doubles if_y, Doubles if_z) const {
+        return hn::IfThenElse(is_z, if_z, hn::IfThenElse(is_y, if_y, if_x));
+    }
+};
+
+// A point on the maps of some lamps.
+struct Projected {
+    Doubles x, y, z;  // from the lamp
+    Doubles side, depth, face, column, row;
+    FaceAxis along;
+    Mask backwards, in_front;  // whether the face looks against its axis; whether the point is not at the lamp
+};
+
+HWY_INLINE Projected project(const ShadowMaps::Table& table, hn::Vec<IndexTag> lamp, Vec3 point) {
+    const Tag d;
+    const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), half = hn::Set(d, 0.5);
+    const auto of = [&](const ShadowMaps::Table::Doubles& values)
+                        HWY_ATTR { return hn::GatherIndex(d, values.data(), lamp); };
+    Projected p;
+    p.x = hn::Sub(hn::Set(d, point.x), of(table.x));
+    p.y = hn::Sub(hn::Set(d, point.y), of(table.y));
+    p.z = hn::Sub(hn::Set(d, point.z), of(table.z));
+    p.side = of(table.side);
+    const Doubles size_x = hn::Abs(p.x), size_y = hn::Abs(p.y), size_z = hn::Abs(p.z);
+    const Mask over_x = hn::Lt(size_x, size_y);
+    const Doubles larger = hn::IfThenElse(over_x, size_y, size_x);
+    p.along.is_z = hn::Lt(larger, size_z);
+    p.along.is_y = hn::AndNot(p.along.is_z, over_x);
+    p.depth = p.along(size_x, size_y, size_z);
+    p.backwards = hn::Lt(p.along(p.x, p.y, p.z), zero);
+    p.face = hn::Add(p.along(zero, two, hn::Set(d, 4.0)), hn::IfThenElse(p.backwards, one, zero));
+    const Doubles half_side = hn::Mul(half, p.side);
+    const auto texel = [&](Doubles component) HWY_ATTR {
+        return hn::Sub(hn::Mul(hn::Add(hn::Div(component, p.depth), one), half_side), half);
+    };
+    p.column = texel(p.along(p.y, p.z, p.x));
+    p.row = texel(p.along(p.z, p.x, p.y));
+    p.in_front = hn::Gt(p.depth, zero);
+    return p;
+}
+
+// The columns and rows of the four texels around a point, whole numbers.
+struct TexelsAround {
+    Doubles columns[2], rows[2];
+    hn::Vec<HalfTag> right, down;  // weights of the second column and row
+};
+
+HWY_INLINE TexelsAround texels_around(const Projected& p) {
+    const Tag d;
+    const HalfTag df;
+    const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0), last = hn::Sub(p.side, one);
+    const Doubles column = hn::Floor(p.column), row = hn::Floor(p.row);
+    return {{clamp(column, zero, last), clamp(hn::Add(column, one), zero, last)},
+            {clamp(row, zero, last), clamp(hn::Add(row, one), zero, last)},
+            hn::DemoteTo(df, hn::Sub(p.column, column)),
+            hn::DemoteTo(df, hn::Sub(p.row, row))};
+}
+
+// The depths of the four texels: texels[2 · row + column][lane]. All are fetched before the first is used.
+HWY_INLINE void fetch(const ShadowMaps::Table& table, const std::int64_t* lamps, const Projected& p,
+                      const TexelsAround& around, float (*texels)[max_lanes]) {
+    const Tag d;
+    const IndexTag di;
+    HWY_ALIGN std::int64_t indices[4][max_lanes];
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Doubles in_row =
+            hn::Add(hn::Mul(hn::Add(hn::Mul(p.face, p.side), around.rows[k / 2]), p.side), around.columns[k % 2]);
+        hn::Store(hn::ConvertTo(di, hn::IfThenElseZero(p.in_front, in_row)), di, indices[k]);
+    }
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+        const float* map = table.depth[static_cast<std::size_t>(lamps[i])];
+        for (std::size_t k = 0; k < 4; ++k) texels[k][i] = map[indices[k][i]];
+    }
+}
+
+// Compares each texel with the depth at which its ray meets the tangent plane, and interpolates the results.
+HWY_INLINE hn::Vec<HalfTag> compare(const Projected& p, const TexelsAround& around, Vec3 normal,
+                                    const float (*texels)[max_lanes]) {
+    const Tag d;
+    const HalfTag df;
+    const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
+    const Doubles nx = hn::Set(d, normal.x), ny = hn::Set(d, normal.y), nz = hn::Set(d, normal.z);
+    const Doubles width = hn::Div(hn::Mul(two, p.depth), p.side);
+    const Doubles limit = hn::Add(p.depth, hn::Mul(hn::Set(d, ShadowMap::max_slope), width));
+    const Doubles nearest = hn::Mul(hn::Set(d, ShadowMap::bias), width);
+    const Doubles height = hn::Add(hn::Add(hn::Mul(nx, p.x), hn::Mul(ny, p.y)), hn::Mul(nz, p.z));
+    const Doubles per_side = hn::Div(one, p.side);
+    const Doubles normal_along = p.along(nx, ny, nz);
+    const Doubles fall = hn::IfThenElse(p.backwards, hn::Neg(normal_along), normal_along);
+    const auto added = [&](Doubles component, Doubles at) HWY_ATTR {
+        return hn::Mul(component, hn::Sub(hn::Mul(hn::Add(hn::Mul(two, at), one), per_side), one));
+    };
+    const Doubles along_columns = p.along(ny, nz, nx), along_rows = p.along(nz, nx, ny);
+    const Doubles of_columns[2] = {added(along_columns, around.columns[0]), added(along_columns, around.columns[1])};
+    const Doubles of_rows[2] = {added(along_rows, around.rows[0]), added(along_rows, around.rows[1])};
+    const auto reached = [&](std::size_t i, std::size_t j) HWY_ATTR {
+        const Doubles f = hn::Add(fall, hn::Add(of_columns[i], of_rows[j]));
+        const Mask meets = hn::Gt(hn::Mul(f, height), zero);
+        const Doubles plane = hn::IfThenElse(meets, hn::Div(height, f), limit);
+        const Doubles seen = hn::PromoteTo(d, hn::Load(df, texels[2 * j + i]));
+        const Mask is_lit = hn::Ge(seen, hn::Sub(hn::Min(plane, limit), nearest));
+        return hn::DemoteTo(df, hn::IfThenElse(is_lit, one, zero));
+    };
+    const auto between = [](auto a, auto b, auto part) HWY_ATTR { return hn::Add(a, hn::Mul(part, hn::Sub(b, a))); };
+    return between(between(reached(0, 0), reached(1, 0), around.right),
+                   between(reached(0, 1), reached(1, 1), around.right), around.down);
+}
+
+void Visibility(const ShadowMaps::Table& table, std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal,
+                float* shares) {
     const Tag d;
     const IndexTag di;
     const HalfTag df;
     const std::size_t lanes = hn::Lanes(d);
-    const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), half = hn::Set(d, 0.5);
-    const Doubles nx = hn::Set(d, normal.x), ny = hn::Set(d, normal.y), nz = hn::Set(d, normal.z);
+    const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0);
     for (std::size_t begin = 0; begin < lamps.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, lamps.size() - begin);
         HWY_ALIGN std::int64_t numbers[max_lanes];
         for (std::size_t i = 0; i < lanes; ++i) numbers[i] = lamps[begin + std::min(i, count - 1)];
-        const auto lamp = hn::Load(di, numbers);
-        const auto of = [&](const ShadowMaps::Table::Doubles& values)
-                            HWY_ATTR { return hn::GatherIndex(d, values.data(), lamp); };
-        const Doubles x = hn::Sub(hn::Set(d, point.x), of(table.x)), y = hn::Sub(hn::Set(d, point.y), of(table.y)),
-                      z = hn::Sub(hn::Set(d, point.z), of(table.z)), side = of(table.side);
-        // The face, and what lies along its axis and the two after it.
-        const Doubles size_x = hn::Abs(x), size_y = hn::Abs(y), size_z = hn::Abs(z);
-        const Mask over_x = hn::Lt(size_x, size_y);
-        const Doubles larger = hn::IfThenElse(over_x, size_y, size_x);
-        const Mask is_z = hn::Lt(larger, size_z), is_y = hn::AndNot(is_z, over_x);
-        const auto along = [&](Doubles if_x, Doubles if_y, Doubles if_z)
-                               HWY_ATTR { return hn::IfThenElse(is_z, if_z, hn::IfThenElse(is_y, if_y, if_x)); };
-        const Doubles depth = along(size_x, size_y, size_z);
-        const Mask backwards = hn::Lt(along(x, y, z), zero);
-        const Doubles face = hn::Add(along(zero, two, hn::Set(d, 4.0)), hn::IfThenElse(backwards, one, zero));
-        const Doubles half_side = hn::Mul(half, side);
-        const auto texel = [&](Doubles component) HWY_ATTR {
-            return hn::Sub(hn::Mul(hn::Add(hn::Div(component, depth), one), half_side), half);
-        };
-        const Doubles column = texel(along(y, z, x)), row = texel(along(z, x, y));
-        const Mask there = hn::Gt(depth, zero);
-
-        const Doubles width = hn::Div(hn::Mul(two, depth), side);
-        const Doubles limit = hn::Add(depth, hn::Mul(hn::Set(d, ShadowMap::steepest), width));
-        const Doubles nearest = hn::Mul(hn::Set(d, ShadowMap::bias), width);
-        const Doubles height = hn::Add(hn::Add(hn::Mul(nx, x), hn::Mul(ny, y)), hn::Mul(nz, z));
-        const Doubles last = hn::Sub(side, one), per_side = hn::Div(one, side);
-        const Doubles whole_column = hn::Floor(column), whole_row = hn::Floor(row);
-        const Doubles columns[2] = {clamp(whole_column, zero, last), clamp(hn::Add(whole_column, one), zero, last)};
-        const Doubles rows[2] = {clamp(whole_row, zero, last), clamp(hn::Add(whole_row, one), zero, last)};
-        const Doubles normal_along = along(nx, ny, nz);
-        const Doubles fall = hn::IfThenElse(backwards, hn::Neg(normal_along), normal_along);
-        const auto added = [&](Doubles component, Doubles at) HWY_ATTR {
-            return hn::Mul(component, hn::Sub(hn::Mul(hn::Add(hn::Mul(two, at), one), per_side), one));
-        };
-        const Doubles along_columns = along(ny, nz, nx), along_rows = along(nz, nx, ny);
-        const Doubles of_columns[2] = {added(along_columns, columns[0]), added(along_columns, columns[1])};
-        const Doubles of_rows[2] = {added(along_rows, rows[0]), added(along_rows, rows[1])};
-
-        // All texels are fetched before one is looked at.
-        HWY_ALIGN std::int64_t places[4][max_lanes];
+        const Projected projected = project(table, hn::Load(di, numbers), point);
+        const TexelsAround around = texels_around(projected);
         HWY_ALIGN float texels[4][max_lanes] = {};
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Doubles in_row = hn::Add(hn::Mul(hn::Add(hn::Mul(face, side), rows[k / 2]), side), columns[k % 2]);
-            hn::Store(hn::ConvertTo(di, hn::IfThenElseZero(there, in_row)), di, places[k]);
-        }
-        for (std::size_t i = 0; i < lanes; ++i) {
-            const float* map = table.depth[static_cast<std::size_t>(numbers[i])];
-            for (std::size_t k = 0; k < 4; ++k) texels[k][i] = map[places[k][i]];
-        }
-        const auto compare = [&](std::size_t i, std::size_t j) HWY_ATTR {
-            const Doubles f = hn::Add(fall, hn::Add(of_columns[i], of_rows[j]));
-            const Mask meets = hn::Gt(hn::Mul(f, height), zero);
-            const Doubles plane = hn::IfThenElse(meets, hn::Div(height, f), limit);
-            const Doubles seen = hn::PromoteTo(d, hn::Load(df, texels[2 * j + i]));
-            const Mask reached = hn::Ge(seen, hn::Sub(hn::Min(plane, limit), nearest));
-            return hn::DemoteTo(df, hn::IfThenElse(reached, one, zero));
-        };
-        const auto right = hn::DemoteTo(df, hn::Sub(column, whole_column)),
-                   down = hn::DemoteTo(df, hn::Sub(row, whole_row));
-        const auto between = [](auto a, auto b, auto part)
-                                 HWY_ATTR { return hn::Add(a, hn::Mul(part, hn::Sub(b, a))); };
-        const auto share =
-            between(between(compare(0, 0), compare(1, 0), right), between(compare(0, 1), compare(1, 1), right), down);
-        HWY_ALIGN float some[max_lanes], lit[max_lanes];
+        fetch(table, numbers, projected, around, texels);
+        const auto share = compare(projected, around, normal, texels);
+        HWY_ALIGN float some[max_lanes], in_front[max_lanes];
         hn::Store(share, df, some);
-        hn::Store(hn::DemoteTo(df, hn::IfThenElse(there, one, zero)), df, lit);
-        for (std::size_t i = 0; i < count; ++i) shares[begin + i] = lit[i] != 0 ? some[i] : 1;
+        hn::Store(hn::DemoteTo(df, hn::IfThenElse(projected.in_front, one, zero)), df, in_front);
+        for (std::size_t i = 0; i < count; ++i) shares[begin + i] = in_front[i] != 0 ? some[i] : 1;
     }
 }
 
@@ -116,13 +171,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace hogel::shading {
 
-HWY_EXPORT(Lit);
+HWY_EXPORT(Visibility);
 
-void ShadowMaps::lit(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const {
-    HWY_DYNAMIC_DISPATCH(Lit)(table_, lamps, point, normal, shares);
+void ShadowMaps::visibility(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const {
+    HWY_DYNAMIC_DISPATCH(Visibility)(table_, lamps, point, normal, shares);
     if (!any_other_) return;
     for (std::size_t i = 0; i < lamps.size(); ++i)
-        if (other_[lamps[i]]) shares[i] = maps_[lamps[i]].lit(point, normal);
+        if (other_[lamps[i]]) shares[i] = maps_[lamps[i]].visibility(point, normal);
 }
 
 }  // namespace hogel::shading

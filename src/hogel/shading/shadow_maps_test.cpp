@@ -3,22 +3,17 @@
 
 #include <random>
 
-#include "hogel/shading/gloss.h"
+#include "hogel/core/test_targets.h"
 #include "hogel/shading/shadow_maps.h"
 #include "hogel/shading/test_scenes.h"
 
 namespace hogel::shading {
 namespace {
 
-class EveryTargetOfShadowMaps : public ::testing::TestWithParam<std::int64_t> {
-  protected:
-    void SetUp() override { use_gloss_target(GetParam()); }
-    void TearDown() override { use_gloss_target(0); }
-};
-INSTANTIATE_TEST_SUITE_P(ShadowMaps, EveryTargetOfShadowMaps, ::testing::ValuesIn(gloss_targets()));
+HOGEL_TEST_ON_EVERY_TARGET(ShadowMapKernels);
 
 // Squares at all angles between lamps on all sides, near and distant, some without shadows.
-TEST_P(EveryTargetOfShadowMaps, vectors_of_lamps_give_the_same_bits_as_one_after_the_other) {
+TEST_P(ShadowMapKernels, vectors_of_lamps_give_the_same_bits_as_one_after_the_other) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> place(-1, 1);
     const auto somewhere = [&] { return Vec3{place(random), place(random), place(random)}; };
@@ -53,8 +48,8 @@ TEST_P(EveryTargetOfShadowMaps, vectors_of_lamps_give_the_same_bits_as_one_after
         std::vector<std::uint32_t> lamps(random() % 24);
         for (std::uint32_t& number : lamps) number = static_cast<std::uint32_t>(random() % scene.lights.size());
         std::vector<float> shares(lamps.size(), -1), plain(lamps.size(), -2);
-        maps.lit(lamps, point, normal, shares.data());
-        maps.lit_plain(lamps, point, normal, plain.data());
+        maps.visibility(lamps, point, normal, shares.data());
+        maps.visibility_plain(lamps, point, normal, plain.data());
         ASSERT_EQ(shares, plain) << round;
         for (const float share : plain) ++(share == 0 ? dark : share == 1 ? bright : between);
     }

@@ -7,40 +7,32 @@
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/shadow_maps.h"
+#include "hogel/shading/triangles.h"
 
 namespace hogel::shading {
 namespace {
 
 constexpr std::size_t vertices_per_task = 4096;
 
-/// What each light alone would make of the vertices without shadows, interpolated, and let through by its shadow map.
+/// Interpolates the light of each lamp between the vertices, where it is computed without shadows, and multiplies it
+/// by the visibility from the lamp's shadow map at each sample.
 class ShadowedLighting final : public SampleLighting {
   public:
-    ShadowedLighting(const Scene& scene, std::vector<ShadowMap> maps) : maps_(std::move(maps)) {
+    void set_scene(const Scene& scene, const trace::RayCaster& caster, std::size_t texels, const Progress& progress) {
+        maps_.set(make_shadow_maps(scene, caster, texels, maps_.release(), progress));
+        intensities_.clear();
         for (const Light& light : scene.lights) intensities_.push_back(light.intensity);
+        given_.clear();
+        colors_.clear();
+        unshadowed_.clear();
         std::size_t base = 0;
         for (const Mesh& mesh : scene.meshes) {
-            const std::size_t n = mesh.positions.size(), lights = scene.lights.size();
-            given_.push_back(!mesh.radiance.empty());
-            for (std::size_t i = 0; i < n; ++i) {
-                const Rgb color = vertex_color(mesh, i);
-                colors_.push_back(color);
-                unshadowed_.push_back(color * scene.ambient + mesh.material.emission);
-            }
-            irradiance_.resize((base + n) * lights);
-            core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
-                for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i)
-                    for (std::size_t k = 0; k < lights; ++k) {
-                        const Illumination from = illuminate(scene.lights[k], mesh.positions[i]);
-                        const double cosine = mesh.normals.empty() ? 0 : dot(mesh.normals[i], from.to_light);
-                        irradiance_[(base + i) * lights + k] = static_cast<float>(std::max(0.0, cosine) * from.falloff);
-                    }
-            });
-            base += n;
+            add_mesh(scene, mesh, base);
+            base += mesh.positions.size();
         }
     }
 
-    // All of it: what is seen before the texture.
+    // The radiance before the texture.
     Size size_of_light(std::size_t mesh) const override { return given_[mesh] ? Size{} : Size{3, 0}; }
     bool light_is_radiance(std::size_t) const override { return true; }
 
@@ -53,7 +45,7 @@ class ShadowedLighting final : public SampleLighting {
         constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < intensities_.size(); first += block) {
-            std::array<std::uint32_t, block> shining;
+            std::array<std::uint32_t, block> shining;  // lamps that contribute, and their reflected light
             std::array<Rgb, block> lights;
             std::size_t count = 0;
             for (std::size_t k = first; k < std::min(first + block, intensities_.size()); ++k) {
@@ -64,10 +56,10 @@ class ShadowedLighting final : public SampleLighting {
                 shining[count] = static_cast<std::uint32_t>(k);
                 if (light != Rgb{0, 0, 0}) ++count;
             }
-            std::array<float, block> shares;
-            maps_.lit(std::span(shining).first(count), point.position, point.flat_normal, shares.data());
+            std::array<float, block> visible;
+            maps_.visibility(std::span(shining).first(count), point.position, point.flat_normal, visible.data());
             for (std::size_t i = 0; i < count; ++i)
-                sum += reflected * shares[i] * (intensities_[shining[i]] * lights[i]);
+                sum += reflected * visible[i] * (intensities_[shining[i]] * lights[i]);
         }
         seen[0] = sum.r;
         seen[1] = sum.g;
@@ -75,17 +67,45 @@ class ShadowedLighting final : public SampleLighting {
     }
 
   private:
+    // The vertices of a mesh, which are numbered from `base` on.
+    void add_mesh(const Scene& scene, const Mesh& mesh, std::size_t base) {
+        const std::size_t n = mesh.positions.size(), lights = scene.lights.size();
+        given_.push_back(!mesh.radiance.empty());
+        for (std::size_t i = 0; i < n; ++i) {
+            const Rgb color = vertex_color(mesh, i);
+            colors_.push_back(color);
+            unshadowed_.push_back(color * scene.ambient + mesh.material.emission);
+        }
+        irradiance_.resize((base + n) * lights);
+        core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
+            for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i)
+                for (std::size_t k = 0; k < lights; ++k) {
+                    const Illumination from = illuminate(scene.lights[k], mesh.positions[i]);
+                    const double cosine = mesh.normals.empty() ? 0 : dot(mesh.normals[i], from.to_light);
+                    irradiance_[(base + i) * lights + k] = static_cast<float>(std::max(0.0, cosine) * from.falloff);
+                }
+        });
+    }
+
     ShadowMaps maps_;
     std::vector<Rgb> intensities_;
-    std::vector<bool> given_;  // whether a mesh has radiance of its own
+    std::vector<bool> given_;  // whether a mesh brings its radiance
     std::vector<Rgb> colors_, unshadowed_;
     std::vector<float> irradiance_;  // [vertex][light], per intensity
 };
 
 }  // namespace
 
-std::unique_ptr<SampleLighting> make_shadowed_lighting(const Scene& scene, std::vector<ShadowMap> maps) {
-    return std::make_unique<ShadowedLighting>(scene, std::move(maps));
+ShadingInfo shadowed_shading() {
+    return {.name = "shadowed",
+            .text = "lit at the vertices, shadow maps at every sample; matt",
+            .make =
+                [](const Scene& scene, const ShadingOptions& options, ShadedScene& shaded, const Progress& progress) {
+                    auto lighting = take_lighting<ShadowedLighting>(shaded);
+                    lighting->set_scene(scene, all_triangles(shaded), options.shadow_map, progress);
+                    return lighting;
+                },
+            .shadow_map_bytes = bytes_of_shadow_maps};
 }
 
 }  // namespace hogel::shading

@@ -16,7 +16,7 @@ std::array<float, 3> texel(const Image& image, std::size_t row, std::size_t colu
     return {image.pixels(row, column, 0), image.pixels(row, column, 1), image.pixels(row, column, 2)};
 }
 
-/// The two neighbours of a position in 0..1 (wrapped around) among n samples, and the weight of the second.
+/// The two samples of n next to a position in 0..1 (wrapped around), and the weight of the second.
 struct Neighbours {
     std::size_t first, second;
     float weight;
@@ -41,7 +41,7 @@ Rgb interpolate(const Image& image, TextureCoordinate at) {
     return {mixed[0], mixed[1], mixed[2]};
 }
 
-/// The part of n samples that sample i of m covers, m <= n: weights that sum to one.
+/// The samples of n that sample i of m covers, m <= n, as weights that sum to one.
 struct Covered {
     std::size_t first;
     std::array<float, 4> weights;
@@ -86,7 +86,7 @@ Texture::Texture(std::shared_ptr<const Image> finest, bool filtered) : finest_(s
 }
 
 Rgb Texture::sample(TextureCoordinate at, double width) const {
-    // A level's interpolation is about one of its texels wide; between two levels it is mixed.
+    // Interpolation within a level averages over about one of its texels; two levels are blended for widths in between.
     const double level = width > 1 ? std::min(std::log2(width), static_cast<double>(coarser_.size())) : 0;
     const auto fine = static_cast<std::size_t>(level);
     const auto weight = static_cast<float>(level - static_cast<double>(fine));

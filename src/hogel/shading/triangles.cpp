@@ -4,19 +4,24 @@
 namespace hogel::shading {
 namespace {
 
-trace::RayCaster ray_caster(const ShadedScene& scene, trace::Sides sides) {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    triangles.reserve(scene.triangles.size());
-    for (const ShadedScene::Triangle& triangle : scene.triangles) triangles.push_back(triangle.vertices);
-    return {scene.positions, triangles, sides};
+void set_triangles(trace::RayCaster& caster, const ShadedScene& scene, trace::Sides sides) {
+    trace::TriangleMesh mesh = caster.release();
+    mesh.positions = scene.positions;
+    mesh.triangles.resize(scene.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) mesh.triangles[i] = scene.triangles[i].vertices;
+    caster.set(std::move(mesh), sides);
 }
 
 }  // namespace
 
-trace::RayCaster all_triangles(const ShadedScene& scene) { return ray_caster(scene, trace::Sides::both); }
+trace::RayCaster all_triangles(const ShadedScene& scene) {
+    trace::RayCaster caster;
+    set_triangles(caster, scene, trace::Sides::both);
+    return caster;
+}
 
-trace::RayCaster seen_triangles(const ShadedScene& scene) {
-    return ray_caster(scene, scene.fronts_only ? trace::Sides::fronts : trace::Sides::both);
+void set_seen_triangles(trace::RayCaster& caster, const ShadedScene& scene) {
+    set_triangles(caster, scene, scene.fronts_only ? trace::Sides::fronts : trace::Sides::both);
 }
 
 }  // namespace hogel::shading

@@ -6,9 +6,10 @@
 
 namespace hogel::shading {
 
-/// All triangles, numbered as in the scene, for rays to meet (trace/ray_caster.h): for light, both sides of them, or
-/// those that are seen.
+/// All triangles, both sides of them and numbered as in the scene: what light meets.
 trace::RayCaster all_triangles(const ShadedScene& scene);
-trace::RayCaster seen_triangles(const ShadedScene& scene);
+
+/// Gives a caster the sides of a scene's triangles that are seen (ShadedScene::fronts_only), in the memory that it has.
+void set_seen_triangles(trace::RayCaster& caster, const ShadedScene& scene);
 
 }  // namespace hogel::shading

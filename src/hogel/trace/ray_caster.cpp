@@ -13,7 +13,7 @@
 namespace hogel::trace {
 namespace {
 
-constexpr std::size_t packet = 16;
+constexpr std::size_t packet = 16;  // rays that Embree traces together
 
 [[noreturn]] void fail(const char* what) {
     throw Error(ErrorCode::internal, fmt::format("RayCaster: {}; expected Embree to accept the mesh", what));
@@ -22,55 +22,61 @@ constexpr std::size_t packet = 16;
 }  // namespace
 
 // Embree works in single precision, so it gets coordinates in which the scene's box is centred and about 2 wide, and
-// rays that begin where they enter the ball around that box. It only chooses the triangle: distance and weights are
+// rays that begin where they enter the sphere around that box. It only chooses the triangle: distance and weights are
 // then computed in double precision from the caller's own ray and triangle.
 struct RayCaster::Device {
-    std::vector<Vec3> positions;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
+    TriangleMesh mesh;
     Vec3 center;
     double scale = 1;   ///< Embree's units per metre
-    double radius = 0;  ///< of the ball around the box, metres, with a little room for rounding
+    double radius = 0;  ///< of the sphere around the box, metres, with a margin for rounding
     Sides sides = Sides::both;
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
 
+    Device() = default;
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
     ~Device() {
-        if (scene) rtcReleaseScene(scene);
+        clear();
         if (device) rtcReleaseDevice(device);
     }
 
-    void frame();
+    void clear() {
+        if (scene) rtcReleaseScene(scene);
+        scene = nullptr;
+    }
+    void set_frame();
     void build();
 
     /// A ray in Embree's frame: origin, unit direction, length; and where it begins on the caller's ray.
     struct Segment {
         double start = 0;  ///< in units of the caller's direction
         float x = 0, y = 0, z = 0, dx = 0, dy = 0, dz = 0;
-        float length = -1;  ///< negative: it misses the ball
+        float length = -1;  ///< negative: it misses the sphere
     };
     Segment enter(Vec3 origin, Vec3 direction, double near, double far) const;
     RayHit refine(Vec3 origin, Vec3 direction, double far, std::uint32_t triangle) const;
     bool is_front(Vec3 direction, std::uint32_t triangle) const;
-    static void pass_backs(const RTCFilterFunctionNArguments* hits);
+    static void skip_backs(const RTCFilterFunctionNArguments* hits);
 };
 
-void RayCaster::Device::frame() {
+void RayCaster::Device::set_frame() {
     constexpr double inf = std::numeric_limits<double>::infinity();
     Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
-    for (const auto& triangle : triangles)
+    for (const auto& triangle : mesh.triangles)
         for (std::uint32_t vertex : triangle) {
-            const Vec3 p = positions[vertex];
+            const Vec3 p = mesh.positions[vertex];
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
     center = 0.5 * low + 0.5 * high;
     const Vec3 size = high - low;
     const double widest = std::max({size.x, size.y, size.z});
-    if (widest > 0) scale = 2 / widest;
+    scale = widest > 0 ? 2 / widest : 1;
     radius = 0.5 * length(size) * (1 + 1e-5) + 1e-5 / scale;
 }
 
-// Embree's threads are not built for the thread sanitizer, which would take their hand-overs for races.
+// Embree is not built for the thread sanitizer, which would report the synchronisation of its threads as races.
 #ifdef __SANITIZE_THREAD__
 constexpr const char* device_options = "threads=1";
 #else
@@ -78,44 +84,49 @@ constexpr const char* device_options = nullptr;
 #endif
 
 void RayCaster::Device::build() {
-    device = rtcNewDevice(device_options);
-    if (!device) fail("no Embree device");
+    const auto give_up = [this](const char* what) {
+        clear();
+        fail(what);
+    };
+    if (!device) device = rtcNewDevice(device_options);
+    if (!device) give_up("no Embree device");
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float), positions.size()));
+                                                                 3 * sizeof(float), mesh.positions.size()));
     auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
     if (!vertices || !indices) {
         rtcReleaseGeometry(geometry);
-        fail("out of memory");
+        give_up("out of memory");
     }
-    for (const Vec3& position : positions) {
+    for (const Vec3& position : mesh.positions) {
         const Vec3 p = scale * (position - center);
         *vertices++ = static_cast<float>(p.x);
         *vertices++ = static_cast<float>(p.y);
         *vertices++ = static_cast<float>(p.z);
     }
-    for (const auto& triangle : triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
+    for (const auto& triangle : mesh.triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
     if (sides == Sides::fronts) {
         rtcSetGeometryUserData(geometry, this);
-        rtcSetGeometryIntersectFilterFunction(geometry, pass_backs);
+        rtcSetGeometryIntersectFilterFunction(geometry, skip_backs);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) fail("Embree reports an error");
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) give_up("Embree reports an error");
 }
 
 bool RayCaster::Device::is_front(Vec3 direction, std::uint32_t index) const {
-    const auto& [a, b, c] = triangles[index];
-    return dot(cross(positions[b] - positions[a], positions[c] - positions[a]), direction) < 0;
+    const auto& [a, b, c] = mesh.triangles[index];
+    const std::vector<Vec3>& p = mesh.positions;
+    return dot(cross(p[b] - p[a], p[c] - p[a]), direction) < 0;
 }
 
-// Rays that hit the back of a triangle go on.
-void RayCaster::Device::pass_backs(const RTCFilterFunctionNArguments* hits) {
+// Rejects hits on the backs of triangles, so that these rays go on.
+void RayCaster::Device::skip_backs(const RTCFilterFunctionNArguments* hits) {
     const auto& device = *static_cast<const Device*>(hits->geometryUserPtr);
     for (unsigned i = 0; i < hits->N; ++i) {
         if (hits->valid[i] == 0) continue;
@@ -151,17 +162,17 @@ RayCaster::Device::Segment RayCaster::Device::enter(Vec3 origin, Vec3 direction,
 
 /// Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
 RayHit RayCaster::Device::refine(Vec3 origin, Vec3 direction, double far, std::uint32_t index) const {
-    const auto& triangle = triangles[index];
-    const Vec3 a = positions[triangle[0]];
-    const Vec3 ab = positions[triangle[1]] - a, ac = positions[triangle[2]] - a;
+    const auto& triangle = mesh.triangles[index];
+    const Vec3 a = mesh.positions[triangle[0]];
+    const Vec3 ab = mesh.positions[triangle[1]] - a, ac = mesh.positions[triangle[2]] - a;
     const Vec3 to_origin = origin - a;
     const Vec3 p = cross(direction, ac), q = cross(to_origin, ab);
     const double inverse = 1 / dot(ab, p);
     double b1 = dot(to_origin, p) * inverse, b2 = dot(direction, q) * inverse;
     double distance = dot(ac, q) * inverse;
     if (!(b1 >= 0 && b2 >= 0 && b1 + b2 <= 1)) {
-        // The single-precision hit lies on the triangle's edge and the exact one just beside it; for a triangle seen
-        // edge-on "just beside" may be far away along the ray. Take the point of the triangle itself.
+        // The single-precision hit lies on the triangle's edge and the exact one just outside; for a triangle seen
+        // edge-on that may be far away along the ray. Take the nearest point of the triangle itself.
         b1 = b1 > 0 ? std::min(b1, 1.0) : 0;
         b2 = b2 > 0 ? std::min(b2, 1.0) : 0;
         const double sum = std::max(b1 + b2, 1.0);
@@ -172,20 +183,31 @@ RayHit RayCaster::Device::refine(Vec3 origin, Vec3 direction, double far, std::u
     return {std::clamp(distance, 0.0, far), index, static_cast<float>(b1), static_cast<float>(b2)};
 }
 
+RayCaster::RayCaster() : device_(std::make_unique<Device>()) {}
+
 RayCaster::RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                      Sides sides)
-    : device_(std::make_unique<Device>()) {
-    device_->sides = sides;
-    device_->positions.assign(positions.begin(), positions.end());
-    device_->triangles.assign(triangles.begin(), triangles.end());
-    for (const auto& triangle : triangles)
+    : RayCaster() {
+    set({{positions.begin(), positions.end()}, {triangles.begin(), triangles.end()}}, sides);
+}
+
+void RayCaster::set(TriangleMesh mesh, Sides sides) {
+    device_->clear();
+    for (const auto& triangle : mesh.triangles)
         for (std::uint32_t vertex : triangle)
-            if (vertex >= positions.size())
-                throw Error(ErrorCode::bad_input,
-                            fmt::format("triangle: vertex index {}; expected less than {}", vertex, positions.size()));
-    if (triangles.empty()) return;
-    device_->frame();
+            if (vertex >= mesh.positions.size())
+                throw Error(ErrorCode::bad_input, fmt::format("triangle: vertex index {}; expected less than {}",
+                                                              vertex, mesh.positions.size()));
+    device_->mesh = std::move(mesh);
+    device_->sides = sides;
+    if (device_->mesh.triangles.empty()) return;
+    device_->set_frame();
     device_->build();
+}
+
+TriangleMesh RayCaster::release() {
+    device_->clear();
+    return std::move(device_->mesh);
 }
 
 RayCaster::~RayCaster() = default;
@@ -256,7 +278,7 @@ void RayCaster::occluded(Vec3 origin, std::span<const Vec3> directions, double n
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    // From within the ball around the scene every ray begins at once, and has left it after its diameter.
+    // A ray that starts inside the sphere around the scene has left it after the sphere's diameter.
     const Vec3 from_center = origin - device_->center;
     const double end = std::min(far, 2 * device_->radius), scale = device_->scale;
     if (dot(from_center, from_center) > device_->radius * device_->radius || !(near < end)) {
@@ -269,13 +291,13 @@ void RayCaster::occluded(Vec3 origin, std::span<const Vec3> directions, double n
         alignas(64) RTCRay16 rays{};
         alignas(64) std::array<int, packet> valid{};
         for (std::size_t i = 0; i < n; ++i) {
-            const Vec3 way = directions[first + i], place = start + scale * near * way;
-            rays.org_x[i] = static_cast<float>(place.x);
-            rays.org_y[i] = static_cast<float>(place.y);
-            rays.org_z[i] = static_cast<float>(place.z);
-            rays.dir_x[i] = static_cast<float>(way.x);
-            rays.dir_y[i] = static_cast<float>(way.y);
-            rays.dir_z[i] = static_cast<float>(way.z);
+            const Vec3 direction = directions[first + i], begin = start + scale * near * direction;
+            rays.org_x[i] = static_cast<float>(begin.x);
+            rays.org_y[i] = static_cast<float>(begin.y);
+            rays.org_z[i] = static_cast<float>(begin.z);
+            rays.dir_x[i] = static_cast<float>(direction.x);
+            rays.dir_y[i] = static_cast<float>(direction.y);
+            rays.dir_z[i] = static_cast<float>(direction.z);
             rays.tfar[i] = static_cast<float>(scale * (end - near));
             rays.mask[i] = ~0u;
             valid[i] = -1;

@@ -11,36 +11,48 @@
 
 namespace hogel::trace {
 
-/// Where a ray meets a triangle first.
+/// The first point at which a ray meets a triangle.
 struct RayHit {
     static constexpr std::uint32_t miss = ~std::uint32_t{0};
 
     double distance = 0;            ///< in units of the ray's direction
-    std::uint32_t triangle = miss;  ///< index into the triangles that the caster was built from
+    std::uint32_t triangle = miss;  ///< index into the caster's triangles
     float b1 = 0, b2 = 0;           ///< barycentric weights of the second and third vertex
 };
 
-/// Which sides of a triangle are hit: a ray meets the front if it sees the corners go round counterclockwise.
+/// The sides of a triangle that are hit: a ray meets the front if it sees the corners in counterclockwise order.
 enum class Sides { both, fronts };
 
-/// Rays against triangles, by Embree. Thread-safe after construction.
+struct TriangleMesh {
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of positions
+};
+
+/// Intersects rays with triangles, by Embree. Rays may be cast from several threads at once, but not during set().
 class RayCaster {
   public:
-    /// @param sides  that `closest` hits; `occluded` always both
+    /// No triangles.
+    RayCaster();
+    /// @param sides  that closest() hits; occluded() always hits both
     RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
               Sides sides = Sides::both);
     ~RayCaster();
     RayCaster(RayCaster&&) noexcept;
     RayCaster& operator=(RayCaster&&) noexcept;
 
+    /// Replaces the triangles. Throws Error(bad_input) for an index without a position.
+    void set(TriangleMesh mesh, Sides sides = Sides::both);
+    /// Takes the triangles out, for a caller that refills their memory; until the next set() no ray hits anything.
+    TriangleMesh release();
+
     /// The first hit along origin + distance · direction, distance in [0, far].
     RayHit closest(Vec3 origin, Vec3 direction, double far) const;
-    /// The same for many rays that start and point close to each other: `hits` gets one hit a ray.
+    /// The same for many rays that start and point close to each other: `hits` receives one hit a ray.
     void closest(std::span<const Vec3> origins, std::span<const Vec3> directions, double far,
                  std::span<RayHit> hits) const;
     /// Whether anything lies on origin + distance · direction for distance in [near, far].
     bool occluded(Vec3 origin, Vec3 direction, double near, double far) const;
-    /// The same for many rays that start at one place, with directions of unit length: `hidden` gets one answer a ray.
+    /// The same for many rays from one origin, with directions of unit length: `hidden` receives one answer a ray.
     void occluded(Vec3 origin, std::span<const Vec3> directions, double near, double far, std::span<bool> hidden) const;
 
   private:

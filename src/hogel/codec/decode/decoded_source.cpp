@@ -211,8 +211,8 @@ LightField open_stream(const std::filesystem::path& path, const StreamOptions& o
     return LightField(std::move(faces));
 }
 
-std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path) {
-    return std::make_unique<DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
+LightField open_coefficients(const std::filesystem::path& path) {
+    return std::make_shared<const DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
 }
 
 }  // namespace hogel

@@ -16,6 +16,7 @@
 #include "hogel/codec/format/stacked.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/unfolded.h"
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
 namespace hogel {
@@ -179,6 +180,7 @@ Found code_to_target(const CompressionTarget& target, double rays, const std::st
 
 CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     check(options.target);
     const LightFieldGrid& grid = light_field.grid();
     StreamHeader header;

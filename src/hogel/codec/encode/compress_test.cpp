@@ -36,7 +36,7 @@ TEST(Coefficients, are_those_of_amplitudes_along_directions) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(9, 7, 24, 20, 3);
     compress(field, folder / "a.hgl", with_sqnr({"fringes", "ai33"}, 30));
-    const auto source = open_coefficients(folder / "a.hgl");
+    const auto source = open_coefficients(folder / "a.hgl").faces().front();
     LightFieldBuffer coefficients(source->grid());
     copy(*source, coefficients);
     const transform::Pyramid pyramid = transform::Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});

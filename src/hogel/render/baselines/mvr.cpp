@@ -22,12 +22,12 @@ struct Interval {
     }
 };
 
-// What the rays of one t and one V can see of a triangle: the points (x, ζ) in the plane of these rays between some
-// corners, two as a rule. A slice is a line of points; a triangle that all but lies in the plane is all of it. On a
-// side of a hemicube ζ is the distance forward, and on the left and right x, t and V change places with y, s and U.
+// The part of a triangle that the rays of one t and one V can see: the segment in the plane (x, ζ) of these rays
+// between two corners as a rule, or more corners if the triangle nearly lies in the plane. On a side of a hemicube ζ is
+// the distance forward, and on the left and right x, t and V change places with y, s and U.
 struct Slice {
     std::uint32_t triangle = 0, corners = 0;
-    std::array<double, 5> x{}, depth{};  // on two edges at most, and at three vertices
+    std::array<double, 5> x{}, depth{};  // at most two crossings of edges and three vertices
 
     void include(double corner_x, double corner_depth) {
         x[corners] = corner_x;
@@ -36,14 +36,20 @@ struct Slice {
     }
 };
 
-class MvrRenderer final : public LightFieldSource {
+class MvrRenderer final : public Renderer {
   public:
-    MvrRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(triangles_with_area(*scene_)) {}
+    MvrRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid), axes_(grid) {
+        MvrRenderer::set_scene(std::move(scene));
+    }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
-    HogelRange preferred_tile() const override { return row_tile(grid_, axes_.turned()); }
+    HogelRange preferred_tile() const override { return row_tile(grid_, axes_.transposed()); }
+
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        scene_ = std::move(scene);
+        triangles_ = triangles_with_area(*scene_, std::move(triangles_));
+    }
 
     // Source: [K] fig. 5.8.
     void read(LightFieldTile& tile) const override {
@@ -51,9 +57,9 @@ class MvrRenderer final : public LightFieldSource {
         std::vector<std::vector<Slice>> tables(axes_.slow_directions());
         Array<NearestTriangle, 2> picture({axes_.fast_directions(), hogels});
         for (std::size_t row = 0; row < axes_.slow_hogels(tile.range); ++row) {
-            const double place = axes_.slow_hogel(tile.range, row);
+            const double slow_hogel = axes_.slow_hogel(tile.range, row);
             for (std::vector<Slice>& table : tables) table.clear();
-            for (std::uint32_t index : triangles_) slice_triangle(index, place, tables);
+            for (std::uint32_t index : triangles_) slice_triangle(index, slow_hogel, tables);
             for (std::size_t slow = 0; slow < tables.size(); ++slow) {
                 std::ranges::fill(picture.elements(), NearestTriangle{});
                 for (const Slice& slice : tables[slow]) scan_convert(slice, slow, row, tile.range, picture);
@@ -67,16 +73,17 @@ class MvrRenderer final : public LightFieldSource {
     }
 
   private:
-    std::array<RowAxes::Seen, 3> corners(std::uint32_t index, double place) const {
+    std::array<RowAxes::Seen, 3> corners(std::uint32_t index, double slow_hogel) const {
         const auto& [a, b, c] = scene_->triangles[index].vertices;
-        return {axes_.seen(scene_->positions[a], place), axes_.seen(scene_->positions[b], place),
-                axes_.seen(scene_->positions[c], place)};
+        return {axes_.seen(scene_->positions[a], slow_hogel), axes_.seen(scene_->positions[b], slow_hogel),
+                axes_.seen(scene_->positions[c], slow_hogel)};
     }
 
-    // Where points have no direction, or rounding makes one up.
+    // Whether some points are so close to the hologram plane that they have no direction, or only rounding gives them
+    // one.
     bool touches_hologram(const Interval& depth) const {
-        const double least = 1e-3 * grid_.pitch;
-        return depth.low < least && depth.high > -least;
+        const double margin = 1e-3 * grid_.pitch;
+        return depth.low < margin && depth.high > -margin;
     }
 
     // The rows of directions in which a triangle is seen from a row of hogels.
@@ -90,8 +97,8 @@ class MvrRenderer final : public LightFieldSource {
         return samples_between(row.low, row.high, axes_.slow_directions());
     }
 
-    void slice_triangle(std::uint32_t index, double place, std::vector<std::vector<Slice>>& tables) const {
-        const std::array<RowAxes::Seen, 3> triangle = corners(index, place);
+    void slice_triangle(std::uint32_t index, double slow_hogel, std::vector<std::vector<Slice>>& tables) const {
+        const std::array<RowAxes::Seen, 3> triangle = corners(index, slow_hogel);
         const double margin = scan_margin * grid_.pitch;
         const Span seen_in = rows(triangle);
         for (std::size_t v = seen_in.first; v < seen_in.end; ++v) {
@@ -112,7 +119,8 @@ class MvrRenderer final : public LightFieldSource {
         }
     }
 
-    // A polygon slice track: for each U the slice covers the s between the places x − Uζ of its corners.
+    // Draws a slice's track: for each U the slice covers the s between the smallest and the largest x − Uζ of its
+    // corners.
     void scan_convert(const Slice& slice, std::size_t slow, std::size_t row, const HogelRange& range,
                       Array<NearestTriangle, 2>& picture) const {
         const std::size_t count = axes_.fast_hogels(range);
@@ -129,19 +137,19 @@ class MvrRenderer final : public LightFieldSource {
             const ObliqueTriangle triangle(*scene_, slice.triangle, grid_, static_cast<double>(u),
                                            static_cast<double>(v));
             for (std::size_t i = hogels.first; i < hogels.end; ++i) {
-                const std::size_t along_s = axes_.turned() ? 0 : i, along_t = axes_.turned() ? i : 0;
+                const std::size_t along_s = axes_.transposed() ? 0 : i, along_t = axes_.transposed() ? i : 0;
                 see(picture(fast, i), slice.triangle, triangle, grid_.s(static_cast<double>(range.s0 + s0 + along_s)),
                     grid_.t(static_cast<double>(range.t0 + t0 + along_t)));
             }
         }
     }
 
-    // The columns of directions in which a slice is seen from hogels between two places.
+    // The columns of directions in which a slice is seen from hogels between two positions.
     Span columns_of_directions(const Slice& slice, double first, double last) const {
         Interval column, depth;
         for (std::size_t i = 0; i < slice.corners; ++i) {
             depth.include(slice.depth[i]);
-            for (double place : {first, last}) column.include(axes_.fast_index((slice.x[i] - place) / slice.depth[i]));
+            for (double hogel : {first, last}) column.include(axes_.fast_index((slice.x[i] - hogel) / slice.depth[i]));
         }
         if (touches_hologram(depth)) return {0, axes_.fast_directions()};
         return samples_between(column.low, column.high, axes_.fast_directions());
@@ -155,9 +163,12 @@ class MvrRenderer final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_mvr_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                    const LightFieldGrid& grid) {
-    return std::make_unique<MvrRenderer>(std::move(scene), grid);
+RendererInfo mvr_renderer() {
+    return {.name = "mvr",
+            .text = "multiple viewpoint rendering: slices of triangles for each row of hogels and of directions",
+            .make = [](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
+                return std::make_unique<MvrRenderer>(std::move(scene), grid);
+            }};
 }
 
 }  // namespace hogel::render::baselines

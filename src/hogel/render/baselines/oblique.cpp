@@ -11,7 +11,7 @@
 namespace hogel::render::baselines {
 namespace {
 
-// The slid triangle's corners as columns and rows of hogels, counted from the tile's first.
+// The corners of a projected triangle as columns and rows of hogels, counted from the tile's first.
 struct TriangleInHogels {
     std::array<double, 3> s, t;
 
@@ -28,12 +28,12 @@ struct TriangleInHogels {
         return samples_between(*low, *high, nt);
     }
 
-    // Interpolation the outermost places where edges cross the row, or end within the margin of it.
+    // The columns between the outermost points where edges cross the row or end within the margin of it.
     Span columns(std::size_t row, std::size_t ns) const {
         double low = std::numeric_limits<double>::infinity(), high = -low;
-        const auto include = [&](double place) {
-            low = std::min(low, place);
-            high = std::max(high, place);
+        const auto include = [&](double column) {
+            low = std::min(low, column);
+            high = std::max(high, column);
         };
         const double level = static_cast<double>(row);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -46,13 +46,19 @@ struct TriangleInHogels {
     }
 };
 
-class ObliqueRenderer final : public LightFieldSource {
+class ObliqueRenderer final : public Renderer {
   public:
-    ObliqueRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {}
+    ObliqueRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
+        ObliqueRenderer::set_scene(std::move(scene));
+    }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
+
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        scene_ = std::move(scene);
+        triangles_ = triangles_with_area(*scene_, std::move(triangles_));
+    }
 
     void read(LightFieldTile& tile) const override {
         Array<NearestTriangle, 2> picture(oblique_buffer(tile.range));
@@ -88,9 +94,14 @@ class ObliqueRenderer final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_oblique_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                        const LightFieldGrid& grid) {
-    return std::make_unique<ObliqueRenderer>(std::move(scene), grid);
+RendererInfo oblique_renderer() {
+    return {
+        .name = "oblique",
+        .text = "for each direction a parallel projection over all hogels of a tile",
+        .make = [](std::shared_ptr<const ShadedScene> scene,
+                   const LightFieldGrid& grid) { return std::make_unique<ObliqueRenderer>(std::move(scene), grid); },
+        .depth_buffer_bytes = [](const LightFieldGrid&,
+                                 const HogelRange& region) { return buffer_bytes(oblique_buffer(region)); }};
 }
 
 }  // namespace hogel::render::baselines

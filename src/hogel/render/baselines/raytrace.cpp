@@ -13,13 +13,22 @@
 namespace hogel::render::baselines {
 namespace {
 
-// Neighbouring directions travel together: the rays of a square of this side share most of their way through the tree.
+// Side of the square of neighbouring directions that are traced together: their rays share most of their path through
+// the hierarchy.
 constexpr std::size_t bundle = 16;
 
-class RaytraceRenderer final : public LightFieldSource {
+class RaytraceRenderer final : public Renderer {
   public:
-    RaytraceRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), caster_(shading::seen_triangles(*scene_)) {
+    RaytraceRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
+        RaytraceRenderer::set_scene(std::move(scene));
+    }
+
+    const LightFieldGrid& grid() const override { return grid_; }
+    bool has_depth() const override { return true; }
+
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        scene_ = std::move(scene);
+        shading::set_seen_triangles(caster_, *scene_);
         constexpr double infinity = std::numeric_limits<double>::infinity();
         low_ = {infinity, infinity, infinity};
         high_ = -low_;
@@ -31,9 +40,6 @@ class RaytraceRenderer final : public LightFieldSource {
             }
     }
 
-    const LightFieldGrid& grid() const override { return grid_; }
-    bool has_depth() const override { return true; }
-
     void read(LightFieldTile& tile) const override {
         for (std::size_t t = 0; t < tile.range.nt; ++t)
             for (std::size_t s = 0; s < tile.range.ns; ++s)
@@ -42,9 +48,9 @@ class RaytraceRenderer final : public LightFieldSource {
     }
 
   private:
-    // How many steps forward the rays of a hogel begin and end: a little before the nearest point and a little behind
-    // the farthest.
-    std::pair<double, double> steps(Vec3 hogel) const {
+    // The distances forward at which the rays of a hogel begin and end: a little before the nearest point of the scene
+    // and a little behind the farthest.
+    std::pair<double, double> ray_interval(Vec3 hogel) const {
         const double a = to_face(grid_.face(), low_ - hogel).z, b = to_face(grid_.face(), high_ - hogel).z;
         const double low = std::min(a, b), high = std::max(a, b), margin = 1e-3 * (high - low) + 1e-9;
         return {low - margin, high + margin};
@@ -55,17 +61,17 @@ class RaytraceRenderer final : public LightFieldSource {
                           nu = std::min(bundle, grid_.directions_u - u0);
         const Vec3 hogel{grid_.s(static_cast<double>(tile.range.s0 + s)),
                          grid_.t(static_cast<double>(tile.range.t0 + t)), 0};
-        const auto [near, far] = steps(hogel);
+        const auto [near, far] = ray_interval(hogel);
         std::array<Vec3, bundle * bundle> origins, directions;
         std::array<trace::RayHit, bundle * bundle> hits;
         for (std::size_t v = 0; v < nv; ++v)
             for (std::size_t u = 0; u < nu; ++u) {
-                const Vec3 way =
+                const Vec3 direction =
                     grid_.direction_of(grid_.u(static_cast<double>(u0 + u)), grid_.v(static_cast<double>(v0 + v)));
-                const Vec3 start = hogel + way * near;
-                // z = −ζ: with this direction the distance along the ray is counted in steps.
+                const Vec3 start = hogel + direction * near;
+                // z = −ζ. The direction is one unit forward, so distances along the ray are distances forward.
                 origins[v * nu + u] = {start.x, start.y, -start.z};
-                directions[v * nu + u] = {way.x, way.y, -way.z};
+                directions[v * nu + u] = {direction.x, direction.y, -direction.z};
             }
         const std::size_t n = nv * nu;
         caster_.closest(std::span(origins).first(n), std::span(directions).first(n), far - near,
@@ -74,7 +80,7 @@ class RaytraceRenderer final : public LightFieldSource {
             for (std::size_t u = 0; u < nu; ++u) {
                 const trace::RayHit& hit = hits[v * nu + u];
                 VisiblePoint point;
-                const bool is_ray = directions[v * nu + u].z != 0;  // a frequency grid has corners beyond all rays
+                const bool is_ray = directions[v * nu + u].z != 0;  // the corners of a frequency grid are evanescent
                 if (is_ray && hit.triangle != trace::RayHit::miss)
                     point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2,
                              -directions[v * nu + u].z * (near + hit.distance)};
@@ -85,14 +91,18 @@ class RaytraceRenderer final : public LightFieldSource {
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
     trace::RayCaster caster_;
-    Vec3 low_, high_;  // the scene's box in (x, y, ζ)
+    Vec3 low_, high_;  // bounding box of the scene in (x, y, ζ)
 };
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_raytrace_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                         const LightFieldGrid& grid) {
-    return std::make_unique<RaytraceRenderer>(std::move(scene), grid);
+RendererInfo raytrace_renderer() {
+    return {
+        .name = "raytrace",
+        .text = "one ray a sample through a bounding volume hierarchy (Embree)",
+        .make = [](std::shared_ptr<const ShadedScene> scene,
+                   const LightFieldGrid& grid) { return std::make_unique<RaytraceRenderer>(std::move(scene), grid); },
+        .takes_frequencies = true};
 }
 
 }  // namespace hogel::render::baselines

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
-#include "hogel/light_field.h"
-#include "hogel/shading.h"
+#include "hogel/renderer.h"
 
 namespace hogel::render::baselines {
 
-/// One ray a sample, traced through Embree from in front of the whole scene, so scenes on both sides of the hologram
+/// One ray a sample, traced by Embree from in front of the whole scene, so that scenes on both sides of the hologram
 /// plane need no special care.
-std::unique_ptr<LightFieldSource> make_raytrace_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                         const LightFieldGrid& grid);
+RendererInfo raytrace_renderer();
 
 }  // namespace hogel::render::baselines

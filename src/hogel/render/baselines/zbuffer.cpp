@@ -17,10 +17,10 @@ struct LinearInDirection {
     double operator()(double U, double V) const { return c + (u * U + v * V); }
 };
 
-// A vertex as a hogel sees it: the position relative to the hogel's centre, and where it falls in the hogel's picture.
+// A vertex as a hogel sees it: the position relative to the hogel's centre, and its place in the hogel's picture.
 struct SeenVertex {
     double x, y, depth;  // x − s, y − t, ζ; on a side of a hemicube right, up and forward in its picture
-    double k, l;         // column and row of the picture, if ζ is not too near to zero
+    double k, l;         // column and row of the picture, unless ζ is too near to zero
 };
 
 // The edge function of docs/notation.md section 2 for a ray through the origin of the hogel's frame:
@@ -44,18 +44,21 @@ Edge edge(const SeenVertex& a, const SeenVertex& b) {
     return {{-reverse.c, -reverse.u, -reverse.v}, false};
 }
 
-class ZbufferRenderer final : public LightFieldSource {
+class ZbufferRenderer final : public Renderer {
   public:
-    ZbufferRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid) {
-        // Nearer to the plane than this a projection is no longer trusted to bound a triangle.
-        double size = 0;
-        for (const Vec3& p : scene_->positions) size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        min_depth_ = 1e-6 * size;
+    ZbufferRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
+        ZbufferRenderer::set_scene(std::move(scene));
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
+
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        scene_ = std::move(scene);
+        double size = 0;
+        for (const Vec3& p : scene_->positions) size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        min_depth_ = 1e-6 * size;
+    }
 
     void read(LightFieldTile& tile) const override {
         std::vector<SeenVertex> vertices(scene_->positions.size());
@@ -67,7 +70,7 @@ class ZbufferRenderer final : public LightFieldSource {
                 for (std::size_t i = 0; i < scene_->triangles.size(); ++i) scan_convert(i, vertices, picture);
                 for (std::size_t v = 0; v < grid_.directions_v; ++v)
                     for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        store_in_metres(tile, picture[v * grid_.directions_u + u], t, s, v, u);
+                        store_as_depth(tile, picture[v * grid_.directions_u + u], t, s, v, u);
             }
     }
 
@@ -81,9 +84,9 @@ class ZbufferRenderer final : public LightFieldSource {
         }
     }
 
-    // The picture counts depth in steps forward.
-    void store_in_metres(LightFieldTile& tile, VisiblePoint point, std::size_t t, std::size_t s, std::size_t v,
-                         std::size_t u) const {
+    // The picture holds depth as distance forward, the tile as ζ.
+    void store_as_depth(LightFieldTile& tile, VisiblePoint point, std::size_t t, std::size_t s, std::size_t v,
+                        std::size_t u) const {
         point.depth *= grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))).z;
         store(tile, *scene_, grid_, point, t, s, v, u);
     }
@@ -95,8 +98,8 @@ class ZbufferRenderer final : public LightFieldSource {
         const SeenVertex& b = vertices[triangle.vertices[1]];
         const SeenVertex& c = vertices[triangle.vertices[2]];
 
-        // The rectangle of samples that the triangle can cover: all of them if it comes close to the plane, whose
-        // points have no direction.
+        // The rectangle of samples that the triangle can cover: all of them if it comes close to the hologram plane,
+        // whose points have no direction.
         double k0 = 0, k1 = static_cast<double>(grid_.directions_u) - 1;
         double l0 = 0, l1 = static_cast<double>(grid_.directions_v) - 1;
         const auto [shallow, deep] = std::minmax({a.depth, b.depth, c.depth});
@@ -110,7 +113,7 @@ class ZbufferRenderer final : public LightFieldSource {
         if (!(k0 <= k1 && l0 <= l1)) return;
 
         const Edge ea = edge(b, c), eb = edge(c, a), ec = edge(a, b);
-        // a(U,V) = N·(U,V,1) and N·P: the ray meets the triangle's plane at ζ = N·P / a.
+        // The ray meets the triangle's plane at ζ = N·P / (N·(U, V, 1)).
         const double ux = b.x - a.x, uy = b.y - a.y, uz = b.depth - a.depth;
         const double vx = c.x - a.x, vy = c.y - a.y, vz = c.depth - a.depth;
         const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
@@ -138,14 +141,17 @@ class ZbufferRenderer final : public LightFieldSource {
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
-    double min_depth_ = 0;
+    double min_depth_ = 0;  // nearer to the plane, projected vertices are not trusted to bound a triangle
 };
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_zbuffer_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                        const LightFieldGrid& grid) {
-    return std::make_unique<ZbufferRenderer>(std::move(scene), grid);
+RendererInfo zbuffer_renderer() {
+    return {.name = "zbuffer",
+            .text = "an ordinary depth buffer for each hogel in turn",
+            .make = [](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
+                return std::make_unique<ZbufferRenderer>(std::move(scene), grid);
+            }};
 }
 
 }  // namespace hogel::render::baselines

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/render/simplex/simplex.h"
+
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/simplex/scan.h"
@@ -9,30 +10,35 @@
 namespace hogel::render::simplex {
 namespace {
 
-class SimplexRenderer final : public LightFieldSource {
+class SimplexRenderer final : public Renderer {
   public:
-    SimplexRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
-        near_ = near_plane(*scene_, "simplex");
-        // Only on a side of a hemicube: in front the triangles are cut.
-        if (grid.face() != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
+    SimplexRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
+        SimplexRenderer::set_scene(std::move(scene));
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        near_ = near_plane(*scene, "simplex");
+        // On the front the triangles are clipped at the near plane; on a side simplices are clipped before the
+        // division.
+        if (grid_.face() != Face::front) min_forward_ = min_forward_distance(grid_, 0.5 * near_);
+        scene_ = std::move(scene);
+        triangles_ = triangles_with_area(*scene_, std::move(triangles_));
+    }
 
     // Source: [K] fig. 5.21.
     void read(LightFieldTile& tile) const override {
         Array<NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
         std::vector<Simplex<4>> simplices;
         for (std::uint32_t index : triangles_) {
-            // Half of the near plane's depth: what lies before it is decided ray by ray.
+            // Clipped at half the depth of the near plane, so that the clip itself decides about no ray: see() does.
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
                 simplices.clear();
-                append_projected_volume(part, sides.front, grid_, tile.range, simplices, nearest_forward_);
+                append_projected_volume(part, sides.front, grid_, tile.range, simplices, min_forward_);
                 if (!scene_->fronts_only)
-                    append_projected_volume(part, sides.back, grid_, tile.range, simplices, nearest_forward_);
+                    append_projected_volume(part, sides.back, grid_, tile.range, simplices, min_forward_);
                 clip_to_view(simplices, grid_);
                 for (const Simplex<4>& simplex : simplices) scan_convert(index, simplex, tile.range, buffer);
             }
@@ -70,14 +76,20 @@ class SimplexRenderer final : public LightFieldSource {
     LightFieldGrid grid_;
     std::vector<std::uint32_t> triangles_;
     double near_ = 0;  // ζ
-    double nearest_forward_ = 0;
+    double min_forward_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_simplex_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                        const LightFieldGrid& grid) {
-    return std::make_unique<SimplexRenderer>(std::move(scene), grid);
+RendererInfo simplex_renderer() {
+    return {
+        .name = "simplex",
+        .text = "a four-dimensional depth buffer for all hogels of a tile at once",
+        .make = [](std::shared_ptr<const ShadedScene> scene,
+                   const LightFieldGrid& grid) { return std::make_unique<SimplexRenderer>(std::move(scene), grid); },
+        .crosses_plane = false,
+        .depth_buffer_bytes = [](const LightFieldGrid& grid,
+                                 const HogelRange& region) { return buffer_bytes(simplex_buffer(grid, region)); }};
 }
 
 }  // namespace hogel::render::simplex

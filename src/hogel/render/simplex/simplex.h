@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
-#include "hogel/light_field.h"
-#include "hogel/shading.h"
+#include "hogel/renderer.h"
 
 namespace hogel::render::simplex {
 
@@ -14,9 +11,8 @@ namespace hogel::render::simplex {
 /// Throws Error(usage) for a scene that is not wholly behind the hologram plane. What is nearer to the plane than a
 /// millionth of the scene's size is cut off.
 /// Source: [K] 5.3 to 5.7. Differs: front and back faces are both seen, and what a ray sees of a triangle is computed
-/// from the ray and the triangle (oblique_triangle_internal.h), not interpolated between the corners of simplices, so
-/// that values do not depend on the range. Shading is done once per ray, at the end.
-std::unique_ptr<LightFieldSource> make_simplex_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                        const LightFieldGrid& grid);
+/// from the ray and the triangle (oblique_triangle.h), not interpolated between the corners of simplices, so that
+/// values do not depend on the range. Shading is done once per ray, at the end.
+RendererInfo simplex_renderer();
 
 }  // namespace hogel::render::simplex

@@ -13,17 +13,22 @@
 namespace hogel::render::simplex {
 namespace {
 
-class Simplex3dRenderer final : public LightFieldSource {
+class Simplex3dRenderer final : public Renderer {
   public:
-    Simplex3dRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), triangles_(triangles_with_area(*scene_)) {
-        near_ = near_plane(*scene_, "simplex3d");
-        // Only on a side of a hemicube: in front the triangles are cut.
-        if (grid.face() != Face::front) nearest_forward_ = nearest_forward(grid, 0.5 * near_);
+    Simplex3dRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
+        Simplex3dRenderer::set_scene(std::move(scene));
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        near_ = near_plane(*scene, "simplex3d");
+        // On the front the triangles are clipped at the near plane; on a side simplices are clipped before the
+        // division.
+        if (grid_.face() != Face::front) min_forward_ = min_forward_distance(grid_, 0.5 * near_);
+        scene_ = std::move(scene);
+        triangles_ = triangles_with_area(*scene_, std::move(triangles_));
+    }
     HogelRange preferred_tile() const override { return row_tile(grid_); }
 
     void read(LightFieldTile& tile) const override {
@@ -36,7 +41,7 @@ class Simplex3dRenderer final : public LightFieldSource {
                     simplices.clear();
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
                         if (line.sees_front || !scene_->fronts_only)
-                            append_projected_volume(part, line, grid_, tile.range, simplices, nearest_forward_);
+                            append_projected_volume(part, line, grid_, tile.range, simplices, min_forward_);
                     clip_to_view(simplices, grid_);
                     for (const Simplex<3>& simplex : simplices) scan_convert(index, simplex, t, tile.range, buffer);
                 }
@@ -69,14 +74,20 @@ class Simplex3dRenderer final : public LightFieldSource {
     LightFieldGrid grid_;
     std::vector<std::uint32_t> triangles_;
     double near_ = 0;  // ζ
-    double nearest_forward_ = 0;
+    double min_forward_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_simplex3d_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                          const LightFieldGrid& grid) {
-    return std::make_unique<Simplex3dRenderer>(std::move(scene), grid);
+RendererInfo simplex3d_renderer() {
+    return {
+        .name = "simplex3d",
+        .text = "as simplex, but in three dimensions, for one row of hogels after the other",
+        .make = [](std::shared_ptr<const ShadedScene> scene,
+                   const LightFieldGrid& grid) { return std::make_unique<Simplex3dRenderer>(std::move(scene), grid); },
+        .crosses_plane = false,
+        .depth_buffer_bytes = [](const LightFieldGrid& grid,
+                                 const HogelRange& region) { return buffer_bytes(simplex3d_buffer(grid, region)); }};
 }
 
 }  // namespace hogel::render::simplex

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
-#include "hogel/light_field.h"
-#include "hogel/shading.h"
+#include "hogel/renderer.h"
 
 namespace hogel::render::simplex {
 
@@ -14,7 +11,6 @@ namespace hogel::render::simplex {
 /// Throws Error(usage) for a scene that is not wholly behind the hologram plane. What is nearer to the plane than a
 /// millionth of the scene's size is cut off.
 /// Source: [K] 5.8 ("3D"), fig. 5.17c.
-std::unique_ptr<LightFieldSource> make_simplex3d_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                          const LightFieldGrid& grid);
+RendererInfo simplex3d_renderer();
 
 }  // namespace hogel::render::simplex

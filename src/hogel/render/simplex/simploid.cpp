@@ -15,55 +15,64 @@
 namespace hogel::render::simplex {
 namespace {
 
-// A point (x, ζ) in the plane of the rays of one t and one V, with x counted in hogels from the tile's first, and in
-// the same unit the way x goes for a U of one.
-struct StripPoint {
+// A point (x, ζ) in the plane of the rays of one t and one V: x as a column of hogels, counted from the tile's first,
+// and the depth in hogels, by which x shifts for a U of one.
+struct SegmentPoint {
     double x = 0, depth = 0;
 };
 
-// What the rays of one t and one V can see of a triangle: as a rule the segment between the points where two edges
-// cross their plane. In the plane (s, U) each point is a line, and the segment the strip between the two.
-struct ThinStrip {
-    std::array<StripPoint, 5> points;  // on two edges at most, and at three vertices
+// The part of a triangle that the rays of one t and one V can see: as a rule the segment between the points where two
+// edges cross their plane. In the plane (s, U) each point is a line, and the segment the band between two lines.
+struct Segment {
+    std::array<SegmentPoint, 5> points;  // at most two crossings of edges and three vertices
     std::size_t count = 0;
 
-    void include(StripPoint p) { points[count++] = p; }
+    void include(SegmentPoint p) { points[count++] = p; }
 };
 
-// The corners of a triangle for the directions of one V: which row they are seen from, in hogels, and x and ζ.
-struct SlidTriangle {
+// The corners of a triangle projected along the directions of one V: the row that each is seen from, in hogels, and x
+// and ζ.
+struct ProjectedTriangle {
     std::array<double, 3> row;
-    std::array<StripPoint, 3> at;
+    std::array<SegmentPoint, 3> at;
 
-    // Interpolation the places where edges cross the row, and corners within the margin of it.
-    ThinStrip cut(double level) const {
-        ThinStrip strip;
+    // The points where edges cross a row, and corners within the margin of it.
+    Segment slice(double level) const {
+        Segment segment;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = i == 2 ? 0 : i + 1;
-            if (std::abs(row[i] - level) <= scan_margin) strip.include(at[i]);
+            if (std::abs(row[i] - level) <= scan_margin) segment.include(at[i]);
             if ((row[i] < level && level < row[j]) || (row[j] < level && level < row[i])) {
                 const double part = (level - row[i]) / (row[j] - row[i]);
-                strip.include({at[i].x + part * (at[j].x - at[i].x), at[i].depth + part * (at[j].depth - at[i].depth)});
+                segment.include(
+                    {at[i].x + part * (at[j].x - at[i].x), at[i].depth + part * (at[j].depth - at[i].depth)});
             }
         }
-        return strip;
+        return segment;
     }
 };
 
-// In this file t, V, s and U are the slow and fast axes of RowAxes: on the left and right of a hemicube s, U, t and V.
-class SimploidRenderer final : public LightFieldSource {
+// In this file t and V stand for the slow axis of RowAxes, s and U for the fast one: on the left and right of a
+// hemicube they are s, U, t and V.
+class SimploidRenderer final : public Renderer {
   public:
-    SimploidRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
-        : scene_(std::move(scene)), grid_(grid), axes_(grid), triangles_(triangles_with_area(*scene_)) {}
+    SimploidRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid), axes_(grid) {
+        SimploidRenderer::set_scene(std::move(scene));
+    }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
 
+    void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        scene_ = std::move(scene);
+        triangles_ = triangles_with_area(*scene_, std::move(triangles_));
+    }
+
     void read(LightFieldTile& tile) const override {
         const std::size_t rows = axes_.slow_hogels(tile.range), hogels = axes_.fast_hogels(tile.range);
         const std::size_t directions = axes_.fast_directions();
-        // One V at a time, so that what the triangles of a neighbourhood write to stays close together.
-        Array<NearestTriangle, 3> buffer(simplex_strip_buffer(axes_, tile.range));
+        // One V at a time, so that neighbouring triangles write to memory that is close together.
+        Array<NearestTriangle, 3> buffer(simploid_buffer(axes_, tile.range));
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
             std::ranges::fill(buffer.elements(), NearestTriangle{});
             const Slab slab(*this, tile.range, slow);
@@ -86,11 +95,12 @@ class SimploidRenderer final : public LightFieldSource {
             const double pitch = grid_.pitch;
             for (std::size_t k = 0; k < axes_.fast_directions(); ++k) {
                 const auto [t, s, v, u] = axes_.sample(0, 0, slow, k);
-                const Vec3 way = grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v)));
-                slopes_.push_back({way.x / way.z, way.y / way.z});
-                // dx/dζ of the fast axis, and of the slow one, which is the same for all k.
-                fast_slopes_.push_back((axes_.turned() ? slopes_[k].y : slopes_[k].x) * axes_.fast_sign());
-                slow_slope_ = axes_.turned() ? slopes_[k].x : slopes_[k].y;
+                const Vec3 direction =
+                    grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v)));
+                slopes_.push_back({direction.x / direction.z, direction.y / direction.z});
+                // The slope along the fast axis, and along the slow one, which is the same for all k.
+                fast_slopes_.push_back((axes_.transposed() ? slopes_[k].y : slopes_[k].x) * axes_.fast_sign());
+                slow_slope_ = axes_.transposed() ? slopes_[k].x : slopes_[k].y;
             }
             first_row_ = axes_.slow_hogel(range, 0) / pitch;
             first_hogel_ = axes_.fast_hogel(range, 0) / pitch * axes_.fast_sign();
@@ -99,38 +109,38 @@ class SimploidRenderer final : public LightFieldSource {
         }
 
         void scan_convert(std::uint32_t index, Array<NearestTriangle, 3>& buffer) const {
-            const SlidTriangle slid = slide(index);
-            const auto [low, high] = std::minmax({slid.row[0], slid.row[1], slid.row[2]});
+            const ProjectedTriangle triangle = project(index);
+            const auto [low, high] = std::minmax({triangle.row[0], triangle.row[1], triangle.row[2]});
             const Span rows = samples_between(low, high, rows_);
             for (std::size_t row = rows.first; row < rows.end; ++row) {
-                const ThinStrip strip = slid.cut(static_cast<double>(row));
-                if (strip.count > 0) scan_convert(index, strip, row, buffer[row]);
+                const Segment segment = triangle.slice(static_cast<double>(row));
+                if (segment.count > 0) scan_convert(index, segment, row, buffer[row]);
             }
         }
 
       private:
-        SlidTriangle slide(std::uint32_t index) const {
-            SlidTriangle slid;
+        ProjectedTriangle project(std::uint32_t index) const {
+            ProjectedTriangle projected;
             const auto& vertices = scene_.triangles[index].vertices;
             const double row_sign = -axes_.fast_sign();  // t is counted downwards, s to the right
             for (std::size_t i = 0; i < 3; ++i) {
                 const Vec3& p = scene_.positions[vertices[i]];
                 const double depth = -p.z / grid_.pitch;
-                const double fast = (axes_.turned() ? p.y : p.x) / grid_.pitch;
-                const double slow = (axes_.turned() ? p.x : p.y) / grid_.pitch;
-                slid.row[i] = row_sign * (slow - slow_slope_ * depth - first_row_);
-                slid.at[i] = {axes_.fast_sign() * fast - first_hogel_, depth};
+                const double fast = (axes_.transposed() ? p.y : p.x) / grid_.pitch;
+                const double slow = (axes_.transposed() ? p.x : p.y) / grid_.pitch;
+                projected.row[i] = row_sign * (slow - slow_slope_ * depth - first_row_);
+                projected.at[i] = {axes_.fast_sign() * fast - first_hogel_, depth};
             }
-            return slid;
+            return projected;
         }
 
-        void scan_convert(std::uint32_t index, const ThinStrip& strip, std::size_t row,
+        void scan_convert(std::uint32_t index, const Segment& segment, std::size_t row,
                           View<NearestTriangle, 2> buffer) const {
-            const Span columns = columns_of_directions(strip);
+            const Span columns = columns_of_directions(segment);
             for (std::size_t k = columns.first; k < columns.end; ++k) {
                 double low = std::numeric_limits<double>::infinity(), high = -low;
-                for (std::size_t i = 0; i < strip.count; ++i) {
-                    const double s = strip.points[i].x - fast_slopes_[k] * strip.points[i].depth;
+                for (std::size_t i = 0; i < segment.count; ++i) {
+                    const double s = segment.points[i].x - fast_slopes_[k] * segment.points[i].depth;
                     low = std::min(low, s);
                     high = std::max(high, s);
                 }
@@ -145,20 +155,20 @@ class SimploidRenderer final : public LightFieldSource {
             }
         }
 
-        // The directions in which hogels of the tile may see a strip; all where it comes close to the hologram, whose
-        // points have no direction.
-        Span columns_of_directions(const ThinStrip& strip) const {
-            constexpr double least = 1e-3, infinity = std::numeric_limits<double>::infinity();
+        // The directions in which hogels of the tile may see a segment: all if it comes close to the hologram plane,
+        // whose points have no direction.
+        Span columns_of_directions(const Segment& segment) const {
+            constexpr double margin = 1e-3, infinity = std::numeric_limits<double>::infinity();
             double low = infinity, high = -infinity, shallow = infinity, deep = -infinity;
-            for (std::size_t i = 0; i < strip.count; ++i) {
-                const auto [x, depth] = strip.points[i];
+            for (std::size_t i = 0; i < segment.count; ++i) {
+                const auto [x, depth] = segment.points[i];
                 shallow = std::min(shallow, depth);
                 deep = std::max(deep, depth);
                 const double from = x / depth, to = (x - static_cast<double>(hogels_ - 1)) / depth;
                 low = std::min({low, from, to});
                 high = std::max({high, from, to});
             }
-            if ((shallow < least && deep > -least) || fast_slopes_.size() == 1) return {0, fast_slopes_.size()};
+            if ((shallow < margin && deep > -margin) || fast_slopes_.size() == 1) return {0, fast_slopes_.size()};
             const double step = fast_slopes_[1] - fast_slopes_[0];
             return samples_between((low - fast_slopes_[0]) / step, (high - fast_slopes_[0]) / step,
                                    fast_slopes_.size());
@@ -172,7 +182,7 @@ class SimploidRenderer final : public LightFieldSource {
         std::size_t rows_ = 0, hogels_ = 0;
         double first_row_ = 0, first_hogel_ = 0, slow_slope_ = 0;
         struct Slopes {
-            double x, y;  // by depth
+            double x, y;  // dx/dζ and dy/dζ
         };
         std::vector<Slopes> slopes_;
         std::vector<double> fast_slopes_;
@@ -183,11 +193,19 @@ class SimploidRenderer final : public LightFieldSource {
     RowAxes axes_;
     std::vector<std::uint32_t> triangles_;
 };
+
 }  // namespace
 
-std::unique_ptr<LightFieldSource> make_simploid_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                         const LightFieldGrid& grid) {
-    return std::make_unique<SimploidRenderer>(std::move(scene), grid);
+RendererInfo simploid_renderer() {
+    return {
+        .name = "simploid",
+        .text = "as simplex, but in slices of whole simploids, one row of directions after the other",
+        .make = [](std::shared_ptr<const ShadedScene> scene,
+                   const LightFieldGrid& grid) { return std::make_unique<SimploidRenderer>(std::move(scene), grid); },
+        .depth_buffer_bytes =
+            [](const LightFieldGrid& grid, const HogelRange& region) {
+                return buffer_bytes(simploid_buffer(RowAxes(grid), region));
+            }};
 }
 
 }  // namespace hogel::render::simplex

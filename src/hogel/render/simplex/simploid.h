@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
-#include "hogel/light_field.h"
-#include "hogel/shading.h"
+#include "hogel/renderer.h"
 
 namespace hogel::render::simplex {
 
 /// The four-dimensional depth buffer without simplices ([K] 7.2.2, future work there): the simploid that a triangle
-/// sweeps is sliced whole, first at each V, then at each t, and what is left is a strip in the plane (s, U), scan
-/// converted as it is. Gives what `simplex` gives.
-std::unique_ptr<LightFieldSource> make_simploid_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                         const LightFieldGrid& grid);
+/// sweeps out is sliced whole, first at each V, then at each t; each slice is a band in the plane (s, U), which is scan
+/// converted as it is. Gives what `simplex` gives. Memory: 8 bytes for each ray of one V of the tile, besides the tile
+/// itself.
+RendererInfo simploid_renderer();
 
 }  // namespace hogel::render::simplex

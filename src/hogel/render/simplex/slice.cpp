@@ -17,8 +17,8 @@ void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axi
             kept.push_back(simplex);
             continue;
         }
-        // Corner (i, 0) is the i-th corner inside, corner (i, 1 + j) the point on its edge to the j-th corner outside:
-        // an (inside − 1, outside)-simploid.
+        // The part inside is an (inside − 1, outside)-simploid: its corner (i, 0) is the i-th corner inside, its corner
+        // (i, 1 + j) the point on the edge from there to the j-th corner outside.
         const std::size_t in = keep_above ? below : 0, out = keep_above ? 0 : below;
         for (const auto& path : product_paths<N>(inside - 1)) {
             std::array<ProjectedPoint, N>& piece = kept.emplace_back();

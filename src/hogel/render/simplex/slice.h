@@ -9,12 +9,12 @@
 
 namespace hogel::render::simplex {
 
-/// Sorts the corners of a simplex along an axis, and where they are level by their other coordinates: simplices that
-/// share corners have them in the same order, so cuts through shared faces agree to the last bit.
+/// Sorts the corners of a simplex along an axis, and where these are equal by their other coordinates. Simplices that
+/// share corners then have them in the same order, so slices through shared faces agree to the last bit.
 template <std::size_t N>
 void sort_along(std::size_t axis, std::array<ProjectedPoint, N>& corners) {
     std::sort(corners.begin(), corners.end(), [axis](const ProjectedPoint& a, const ProjectedPoint& b) {
-        // A move leaves numbers as they are. NOLINTNEXTLINE(clang-analyzer-cplusplus.Move)
+        // Moved-from arrays of numbers keep their values. NOLINTNEXTLINE(clang-analyzer-cplusplus.Move)
         return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
     });
 }
@@ -29,7 +29,7 @@ inline ProjectedPoint point_between(const ProjectedPoint& a, const ProjectedPoin
 }
 
 /// Calls use(Simplex<N − 1>) for the one to three simplices in which the plane axis = value meets a simplex whose
-/// corners are sorted along that axis: none if no corner lies below the plane, or none on it or above.
+/// corners are sorted along that axis; for none if no corner lies below the plane, or all do.
 /// Source: [K] 5.6.2, fig. 5.19 and 5.20.
 template <std::size_t N, class Use>
 void slice(const std::array<ProjectedPoint, N>& sorted, std::size_t axis, double value, const Use& use) {
@@ -57,8 +57,8 @@ void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, c
         slice(simplex, axis, value, [&](const std::array<ProjectedPoint, N - 1>& piece) { use(value, piece); });
 }
 
-/// Replaces simplices of four or five corners by what is left of them where axis >= bound (keep_above) or axis < bound
-/// (otherwise). Source: [K] 5.6.2, fig. 5.18.
+/// Replaces simplices of four or five corners by their parts where axis >= bound (keep_above) or axis < bound
+/// (otherwise), as simplices. Source: [K] 5.6.2, fig. 5.18.
 template <std::size_t N>
 void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axis, double bound, bool keep_above);
 

@@ -14,17 +14,16 @@ namespace hogel::render::simplex {
 namespace {
 
 // The part of a convex polygon where `side` is not negative. A point between two corners is computed from the negative
-// one to the other, so that both sides of a cut have the same points.
-template <class Point, class Side, class Mix>
-std::vector<Point> cut(const std::vector<Point>& polygon, const Side& side, const Mix& mix) {
+// one to the other, so that both sides of a clip have the same points.
+template <class Point, class Side, class Interpolate>
+std::vector<Point> clip_polygon(const std::vector<Point>& polygon, const Side& side, const Interpolate& interpolate) {
     std::vector<Point> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Point &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
         const double a = side(here), b = side(next);
         if (a >= 0) kept.push_back(here);
         if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
-            // The same arithmetic for a cut and for its reverse, from one end of the edge.
-            kept.push_back(a < b ? mix(here, next, a / (a - b)) : mix(next, here, b / (b - a)));
+            kept.push_back(a < b ? interpolate(here, next, a / (a - b)) : interpolate(next, here, b / (b - a)));
         }
     }
     return kept;
@@ -34,8 +33,8 @@ CameraPoint point_on_line(const CameraPoint& p, const CameraPoint& q, double f) 
     return {p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)};
 }
 
-// Regions go this far, in hogels, beyond the outermost hogels, so that a region of one hogel is more than a point.
-constexpr double rim = 1e-3;
+// Margin of a region around its outermost hogels, in hogels, so that a region of one hogel is more than a point.
+constexpr double margin = 1e-3;
 
 // N·(P − (s, t, 0)): positive for camera points that see the front of a triangle, negative for those that see its back.
 class Facing {
@@ -60,7 +59,7 @@ class Facing {
     const HogelRange& range_;
 };
 
-// A point as a camera sees it, before the division: to the right and up in its picture, the camera's place, forward.
+// A point as a camera sees it, before the division: to the right and up in its picture, the camera's (s, t), forward.
 ProjectedPoint as_seen(const std::array<double, 3>& point, CameraPoint camera, const LightFieldGrid& grid,
                        const HogelRange& range) {
     const double s = grid.s(static_cast<double>(range.s0) + camera.s);
@@ -74,11 +73,11 @@ ProjectedPoint divided(const ProjectedPoint& seen, const LightFieldGrid& grid) {
     return {grid.column(right / forward), grid.row(up / forward), s / forward, t / forward, 1 / forward};
 }
 
-// Cuts simplices of seen points where they come too near, and divides them.
+// Clips simplices of undivided points where they come nearer than `min_forward`, and divides them.
 template <std::size_t N>
-void append_divided(std::vector<std::array<ProjectedPoint, N>>& seen, double nearest, const LightFieldGrid& grid,
+void append_divided(std::vector<std::array<ProjectedPoint, N>>& seen, double min_forward, const LightFieldGrid& grid,
                     std::vector<std::array<ProjectedPoint, N>>& simplices) {
-    if (nearest > 0) clip(seen, axis::q, nearest, true);
+    if (min_forward > 0) clip(seen, axis::q, min_forward, true);
     for (const std::array<ProjectedPoint, N>& simplex : seen) {
         std::array<ProjectedPoint, N>& appended = simplices.emplace_back();
         for (std::size_t i = 0; i < N; ++i) appended[i] = divided(simplex[i], grid);
@@ -114,24 +113,24 @@ double near_plane(const ShadedScene& scene, std::string_view renderer) {
 
 std::vector<DeepTriangle> clip_to_near_plane(const DeepTriangle& triangle, double near) {
     using Point = std::array<double, 3>;
-    const auto mix = [near](const Point& a, const Point& b, double f) {
+    const auto interpolate = [near](const Point& a, const Point& b, double f) {
         return Point{a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), near};
     };
-    const std::vector<Point> kept = cut<Point>(
-        {triangle[0], triangle[1], triangle[2]}, [near](const Point& p) { return p[2] - near; }, mix);
+    const std::vector<Point> kept = clip_polygon<Point>(
+        {triangle[0], triangle[1], triangle[2]}, [near](const Point& p) { return p[2] - near; }, interpolate);
     std::vector<DeepTriangle> triangles;
     for (std::size_t i = 2; i < kept.size(); ++i) triangles.push_back({kept[0], kept[i - 1], kept[i]});
     return triangles;
 }
 
-double nearest_forward(const LightFieldGrid& grid, double near) {
-    double steepest = 0;
+double min_forward_distance(const LightFieldGrid& grid, double near) {
+    double max_depth = 0;  // of a ray one unit forward
     for (const double u : {-1.0, 1.0})
         for (const double v : {-1.0, 1.0})
-            steepest =
-                std::max(steepest,
+            max_depth =
+                std::max(max_depth,
                          grid.direction_of(grid.center_u() + u * grid.half_u(), grid.center_v() + v * grid.half_v()).z);
-    return near / steepest;
+    return near / max_depth;
 }
 
 std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint camera, const LightFieldGrid& grid,
@@ -144,16 +143,17 @@ std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint 
 RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range) {
     const Facing front(triangle, grid, range);
     const auto back = [&](const CameraPoint& p) { return -front(p); };
-    const double right = static_cast<double>(range.ns) - 1 + rim, bottom = static_cast<double>(range.nt) - 1 + rim;
-    const std::vector<CameraPoint> all{{-rim, -rim}, {right, -rim}, {right, bottom}, {-rim, bottom}};
-    return {cut(all, front, point_on_line), cut(all, back, point_on_line)};
+    const double right = static_cast<double>(range.ns) - 1 + margin;
+    const double bottom = static_cast<double>(range.nt) - 1 + margin;
+    const std::vector<CameraPoint> all{{-margin, -margin}, {right, -margin}, {right, bottom}, {-margin, bottom}};
+    return {clip_polygon(all, front, point_on_line), clip_polygon(all, back, point_on_line)};
 }
 
 std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std::size_t row,
                                                const LightFieldGrid& grid, const HogelRange& range) {
     const Facing facing(triangle, grid, range);
-    const CameraPoint first{-rim, static_cast<double>(row)};
-    const CameraPoint last{static_cast<double>(range.ns) - 1 + rim, first.t};
+    const CameraPoint first{-margin, static_cast<double>(row)};
+    const CameraPoint last{static_cast<double>(range.ns) - 1 + margin, first.t};
     const double a = facing(first), b = facing(last);
     if (!(a < 0 && b > 0) && !(a > 0 && b < 0)) return {{first, last, a > 0 || b > 0}};
     const CameraPoint between = point_on_line(first, last, a / (a - b));
@@ -162,7 +162,7 @@ std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std
 
 void append_projected_volume(const DeepTriangle& triangle, const std::vector<CameraPoint>& region,
                              const LightFieldGrid& grid, const HogelRange& range, std::vector<Simplex<4>>& simplices,
-                             double nearest) {
+                             double min_forward) {
     std::vector<Simplex<4>> undivided;
     for (std::size_t i = 2; i < region.size(); ++i) {
         const std::array corners{region[0], region[i - 1], region[i]};
@@ -172,11 +172,11 @@ void append_projected_volume(const DeepTriangle& triangle, const std::vector<Cam
                 simplex[k] = as_seen(triangle[path[k].second], corners[path[k].first], grid, range);
         }
     }
-    append_divided(undivided, nearest, grid, simplices);
+    append_divided(undivided, min_forward, grid, simplices);
 }
 
 void append_projected_volume(const DeepTriangle& triangle, const CameraLine& line, const LightFieldGrid& grid,
-                             const HogelRange& range, std::vector<Simplex<3>>& simplices, double nearest) {
+                             const HogelRange& range, std::vector<Simplex<3>>& simplices, double min_forward) {
     const std::array ends{line.first, line.last};
     std::vector<Simplex<3>> undivided;
     for (const auto& path : product_paths<4>(1)) {
@@ -184,7 +184,7 @@ void append_projected_volume(const DeepTriangle& triangle, const CameraLine& lin
         for (std::size_t k = 0; k < 4; ++k)
             simplex[k] = as_seen(triangle[path[k].second], ends[path[k].first], grid, range);
     }
-    append_divided(undivided, nearest, grid, simplices);
+    append_divided(undivided, min_forward, grid, simplices);
 }
 
 }  // namespace hogel::render::simplex
