@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "hogel/core/random.h"
+#include "hogel/core/test_targets.h"
 
 namespace hogel::codec::format {
 namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(BlockKernels);
 
 float random_value(std::uint32_t place, std::uint32_t seed) {
     return static_cast<float>(core::philox({place, seed, 0, 0}, {3, 4})[0]) * 0x1p-31f - 1;
@@ -42,7 +45,7 @@ struct Inputs {
 // decoder continues from reconstructed samples.
 constexpr std::uint32_t seeds = 20;
 
-TEST(BlockKernels, interpolation_and_mixing_twins_agree) {
+TEST_P(BlockKernels, interpolation_and_mixing_twins_agree) {
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
         const Inputs in(seed);
         BlockSamples fast, plain;
@@ -61,7 +64,7 @@ TEST(BlockKernels, interpolation_and_mixing_twins_agree) {
     }
 }
 
-TEST(BlockKernels, twins_of_sums_and_slopes_agree) {
+TEST_P(BlockKernels, twins_of_sums_and_slopes_agree) {
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
         const Inputs in(seed);
         const float* rows = in.rows.data();
@@ -80,7 +83,7 @@ TEST(BlockKernels, twins_of_sums_and_slopes_agree) {
     }
 }
 
-TEST(BlockKernels, transform_twins_agree) {
+TEST_P(BlockKernels, transform_twins_agree) {
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
         const Inputs in(seed);
         BlockSamples fast, plain;
@@ -96,7 +99,7 @@ TEST(BlockKernels, transform_twins_agree) {
     }
 }
 
-TEST(BlockKernels, partition_twins_agree) {
+TEST_P(BlockKernels, partition_twins_agree) {
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
         const Inputs in(seed);
         EdgeRowCuts edges;
@@ -120,7 +123,7 @@ TEST(BlockKernels, partition_twins_agree) {
     }
 }
 
-TEST(BlockKernels, slopes_are_those_of_a_cubic) {
+TEST_P(BlockKernels, slopes_are_those_of_a_cubic) {
     constexpr std::size_t side = slope_window_side;
     std::vector<float> rows(side * side);
     const auto cubic = [](double x, double y) {
@@ -141,7 +144,7 @@ TEST(BlockKernels, slopes_are_those_of_a_cubic) {
 }
 
 // A single weight of 1 shifts the window by whole samples.
-TEST(BlockKernels, interpolation_with_one_weight_shifts) {
+TEST_P(BlockKernels, interpolation_with_one_weight_shifts) {
     std::vector<float> rows(window_side * window_side);
     for (std::uint32_t k = 0; k < rows.size(); ++k) rows[k] = random_value(k, 7);
     for (std::size_t down = 0; down < taps; ++down)
