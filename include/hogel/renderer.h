@@ -43,8 +43,8 @@ struct RendererInfo {
 Table<RendererInfo>& renderers();
 
 /// A light field of the scene by the renderer of that name. Offers depth per ray. The scene is shared, never copied.
-/// Throws Error(usage) for an unknown name, for a grid uniform in sines where the renderer takes only tangents, and for
-/// a scene that is not wholly behind the hologram plane where the renderer does not cross it.
+/// Throws Error(usage) for an unknown name, for a grid uniform in sines where the renderer takes only perspectives, and
+/// for a scene that is not wholly behind the hologram plane where the renderer does not cross it.
 std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                         const LightFieldGrid& grid);
 
