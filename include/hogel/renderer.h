@@ -25,7 +25,7 @@ class Renderer : public LightFieldSource {
 
 /// A rendering algorithm.
 struct RendererInfo {
-    std::string name;
+    std::string name;  ///< by which make_renderer() finds it
     std::string text;  ///< one line
     /// A light field of the scene, which is shared, never copied. A source that is a Renderer is asked to take the next
     /// scene; any other is made anew for it. Throws Error(usage) for a scene that it cannot render.
@@ -51,8 +51,10 @@ std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<c
 /// Supersampling factors: samples along each side of a hogel, and along each side of the cell around a direction.
 /// Together they make hogel² · direction² samples a ray, on a regular grid.
 struct SamplesPerRay {
-    std::size_t hogel = 1, direction = 1;
+    std::size_t hogel = 1;      ///< along a hogel's side
+    std::size_t direction = 1;  ///< along a side of a direction's cell
 
+    /// Samples a ray.
     std::size_t count() const { return hogel * hogel * direction * direction; }
 };
 

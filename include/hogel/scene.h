@@ -22,12 +22,14 @@ struct Material {
     Rgb emission{0, 0, 0};                            ///< radiance that the surface emits
     std::shared_ptr<const Image> base_color_texture;  ///< linear, repeats; may be null
 
+    /// Whether there is a lobe.
     bool is_glossy() const { return reflectance > 0 || metallic > 0; }
 };
 
 /// A point of a texture: u to the right, v up, (0, 0) at the bottom left of the picture.
 struct TextureCoordinate {
-    float u = 0, v = 0;
+    float u = 0;  ///< 0 to 1 across the picture, which repeats
+    float v = 0;  ///< 0 to 1 up the picture
 };
 
 /// Triangles of one material. The vectors of vertex attributes are empty or as long as `positions`.
@@ -36,33 +38,36 @@ struct Mesh {
     std::vector<Vec3> normals;    ///< unit length
     std::vector<Rgb> colors;      ///< linear, multiplied by the base colour
     std::vector<Rgb> radiance;    ///< given radiance, which replaces all lighting (the texture multiplies it)
-    std::vector<TextureCoordinate> texture_coordinates;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
-    Material material;
-    std::string name;
+    std::vector<TextureCoordinate> texture_coordinates;   ///< of the material's texture
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise from outside
+    Material material;                                    ///< of all triangles
+    std::string name;                                     ///< for messages
 };
 
 /// A light. Point lights fall off with the square of the distance, directional ones do not.
 struct Light {
-    enum class Kind { point, directional } kind = Kind::directional;
-    Vec3 position;   ///< of a point light, metres
-    Vec3 direction;  ///< in which the light of a directional light travels, unit length
-    Rgb intensity;   ///< point: radiant intensity; directional: irradiance at normal incidence
-    bool casts_shadows = true;
+    /// A point light has a position, a directional one a direction.
+    enum class Kind { point, directional };
+    Kind kind = Kind::directional;  ///< which of the members below matter
+    Vec3 position;                  ///< of a point light, metres
+    Vec3 direction;                 ///< in which the light of a directional light travels, unit length
+    Rgb intensity;                  ///< point: radiant intensity; directional: irradiance at normal incidence
+    bool casts_shadows = true;      ///< false: it lights surfaces through others
 };
 
 /// Surfaces, lights, and the radiance of rays that meet nothing.
 struct Scene {
-    std::string name;
-    std::vector<Mesh> meshes;
-    std::vector<Light> lights;
-    Rgb ambient{0, 0, 0};     ///< radiance from all directions, unshadowed
-    Rgb background{0, 0, 0};  ///< radiance of rays that meet nothing
+    std::string name;           ///< for messages and files
+    std::vector<Mesh> meshes;   ///< in any order
+    std::vector<Light> lights;  ///< in any order
+    Rgb ambient{0, 0, 0};       ///< radiance from all directions, unshadowed
+    Rgb background{0, 0, 0};    ///< radiance of rays that meet nothing
 };
 
 /// A box with edges along the axes.
 struct Bounds {
-    Vec3 low, high;
+    Vec3 low;   ///< smallest coordinates
+    Vec3 high;  ///< largest coordinates
 };
 
 /// The box around all vertices that triangles use. Throws Error(bad_input) for a scene without triangles.

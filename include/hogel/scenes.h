@@ -14,7 +14,7 @@ namespace hogel {
 
 /// A scene that is generated instead of read from a file.
 struct SceneInfo {
-    std::string name;
+    std::string name;  ///< by which make_scene() finds it
     std::string text;  ///< one line
     /// The scene for a square hologram with the given side (metres), with which its size and depths scale.
     std::function<Scene(double hologram_size, const Progress& progress)> make;
@@ -35,9 +35,10 @@ Scene import_scene(const std::filesystem::path& path);
 
 /// The size and position of a fitted scene.
 struct Fit {
-    double width = 0, height = 0;  ///< size of the hologram, metres
-    double fill = 0.85;            ///< share of the hologram's width or height that the scene fills, seen head-on
-    double front = 0;  ///< share of the scene's depth that lies in front of the hologram plane: 0 none (it begins at
+    double width = 0;    ///< of the hologram, metres
+    double height = 0;   ///< of the hologram, metres
+    double fill = 0.85;  ///< share of the hologram's width or height that the scene fills, seen head-on
+    double front = 0;    ///< share of the scene's depth that lies in front of the hologram plane: 0 none (it begins at
                        ///< the plane), 0.5 the plane cuts through its middle, 1 all of it; −1: it begins its own depth
                        ///< behind the plane
 };
