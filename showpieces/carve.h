@@ -16,7 +16,7 @@ struct Parameter {
 /// A grid over a parameter plane with polygonal holes cut out, as triangles whose edges follow the holes' outlines.
 struct CarvedGrid {
     std::vector<Parameter> points;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise with a to the right and b up
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise with a to the right and b up
     std::vector<std::array<std::uint32_t, 2>> rims;       ///< edges along the holes, with triangles on their left
 };
 
