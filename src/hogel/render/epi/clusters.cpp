@@ -19,7 +19,8 @@ std::uint64_t every_third_bit(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249;
 }
 
-// Whether a ray across the hologram, or the middle of a side's picture, sees the back of a triangle.
+// Whether the back of a triangle is seen straight through the hologram or, on a side of a hemicube, in the middle of
+// its picture.
 bool faces_away(const ShadedScene& scene, const EpipolarFrame& frame, std::uint32_t triangle) {
     const auto& [a, b, c] = scene.triangles[triangle].vertices;
     const Vec3 first = frame.in_samples(scene.positions[a]);
@@ -27,8 +28,8 @@ bool faces_away(const ShadedScene& scene, const EpipolarFrame& frame, std::uint3
     return to_b.x * to_c.y - to_b.y * to_c.x < 0;
 }
 
-// Triangles along a Morton curve through their middles: neighbours on the curve are neighbours in space. First those
-// that show their fronts, then those that show their backs, so that the two sides of a wall share no cluster.
+// Orders triangles along a Morton curve through their middles, on which neighbours are neighbours in space. Fronts come
+// before backs, so that the two sides of a wall share no cluster.
 std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const EpipolarFrame& frame) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
@@ -43,8 +44,8 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const Epipolar
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const auto [a, b, c] = scene.triangles[i].vertices;
         const Vec3 middle = (scene.positions[a] + scene.positions[b] + scene.positions[c]) / 3;
-        const auto cell = [scale](double along) {
-            return every_third_bit(static_cast<std::uint64_t>(std::max(0.0, scale * along)));
+        const auto cell = [scale](double length) {
+            return every_third_bit(static_cast<std::uint64_t>(std::max(0.0, scale * length)));
         };
         const auto triangle = static_cast<std::uint32_t>(i);
         keyed.emplace_back(std::uint64_t{faces_away(scene, frame, triangle)} << 63 | cell(middle.x - low.x) |
@@ -58,41 +59,41 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const Epipolar
     return order;
 }
 
-// The clusters of triangles in that order are what is left in `order`, those of fronts first, and of either kind the
-// nearest first: whole ones, and the rest of the last at the end.
-// @return how many show fronts
+// Sorts the full clusters of `order`: fronts before backs, and in each group the nearest first. What does not fill a
+// cluster stays at the end.
+// @return the number of clusters that show fronts
 std::size_t sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, const EpipolarFrame& frame) {
-    struct Place {
+    struct Key {
         bool away;
-        double least;
+        double min_z;
         std::size_t cluster;
-        auto operator<=>(const Place&) const = default;
+        auto operator<=>(const Key&) const = default;
     };
-    std::vector<Place> nearest(order.size() / cluster_size);
-    for (std::size_t cluster = 0; cluster < nearest.size(); ++cluster) {
+    std::vector<Key> keys(order.size() / cluster_size);
+    for (std::size_t cluster = 0; cluster < keys.size(); ++cluster) {
         const std::size_t first = cluster * cluster_size;
-        double least = std::numeric_limits<double>::infinity();
+        double min_z = std::numeric_limits<double>::infinity();
         for (std::size_t i = first; i < first + cluster_size; ++i)
             for (const std::uint32_t vertex : scene.triangles[order[i]].vertices)
-                least = std::min(least, frame.in_samples(scene.positions[vertex]).z);
-        nearest[cluster] = {faces_away(scene, frame, order[first]), least, cluster};
+                min_z = std::min(min_z, frame.in_samples(scene.positions[vertex]).z);
+        keys[cluster] = {faces_away(scene, frame, order[first]), min_z, cluster};
     }
-    std::sort(nearest.begin(), nearest.end());
+    std::sort(keys.begin(), keys.end());
     std::vector<std::uint32_t> sorted;
     sorted.reserve(order.size());
     const auto append = [&](std::size_t begin, std::size_t end) {
         sorted.insert(sorted.end(), order.begin() + static_cast<std::ptrdiff_t>(begin),
                       order.begin() + static_cast<std::ptrdiff_t>(end));
     };
-    for (const auto& [away, least, cluster] : nearest) append(cluster * cluster_size, (cluster + 1) * cluster_size);
-    append(nearest.size() * cluster_size, order.size());
+    for (const auto& [away, min_z, cluster] : keys) append(cluster * cluster_size, (cluster + 1) * cluster_size);
+    append(keys.size() * cluster_size, order.size());
     order = std::move(sorted);
-    return static_cast<std::size_t>(std::ranges::count(nearest, false, &Place::away));
+    return static_cast<std::size_t>(std::ranges::count(keys, false, &Key::away));
 }
 
-std::uint16_t steps_from(double low, double high, double place) {
+std::uint16_t steps_from(double low, double high, double value) {
     if (!(low < high)) return 0;
-    return static_cast<std::uint16_t>(std::lround((place - low) / (high - low) * ClusterHeights::steps));
+    return static_cast<std::uint16_t>(std::lround((value - low) / (high - low) * ClusterHeights::steps));
 }
 
 }  // namespace
@@ -125,11 +126,11 @@ TriangleClusters::TriangleClusters(const ShadedScene& scene, const EpipolarFrame
         }
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const std::size_t cluster = i / cluster_size, place = i % cluster_size;
+        const std::size_t cluster = i / cluster_size, slot = i % cluster_size;
         const ClusterBox& box = boxes[cluster];
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            heights[cluster].y[corner][place] = steps_from(box.y_low, box.y_high, corners[i].y[corner]);
-            heights[cluster].z[corner][place] = steps_from(box.z_low, box.z_high, corners[i].z[corner]);
+            heights[cluster].y[corner][slot] = steps_from(box.y_low, box.y_high, corners[i].y[corner]);
+            heights[cluster].z[corner][slot] = steps_from(box.z_low, box.z_high, corners[i].z[corner]);
         }
     }
 }

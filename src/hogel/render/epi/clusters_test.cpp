@@ -6,7 +6,7 @@
 
 #include "hogel/render/epi/clusters.h"
 #include "hogel/render/epi/setup.h"
-#include "hogel/render/test_triangles.h"
+#include "hogel/render/epi/test_triangles.h"
 
 namespace hogel::render::epi {
 namespace {
@@ -32,7 +32,7 @@ TEST(TriangleClusters, hold_every_triangle_once_with_its_corners) {
     }
 }
 
-TEST(TriangleClusters, come_nearest_first_and_lie_in_their_boxes) {
+TEST(TriangleClusters, are_sorted_by_depth_and_lie_in_their_boxes) {
     const EpipolarFrame frame(grid);
     const TriangleClusters clusters(scattered_triangles(1000, 0.1e-3), frame, 3);
     for (std::size_t i = 0; i < 1000; ++i) {
@@ -43,38 +43,38 @@ TEST(TriangleClusters, come_nearest_first_and_lie_in_their_boxes) {
             EXPECT_TRUE(box.x_low <= clusters.corners[i].x[corner] && clusters.corners[i].x[corner] <= box.x_high);
         }
     }
-    // The last is what was left over.
+    // The last cluster holds the remainder and is not sorted.
     for (std::size_t i = 2; i < clusters.boxes.size(); ++i)
         EXPECT_TRUE(i - 1 == clusters.fronts || clusters.boxes[i - 2].z_low <= clusters.boxes[i - 1].z_low) << i;
-    EXPECT_EQ(clusters.filled(0), ~std::uint64_t{0});
-    EXPECT_EQ(clusters.filled(1000 / cluster_size), (std::uint64_t{1} << 1000 % cluster_size) - 1);
+    EXPECT_EQ(clusters.occupied(0), ~std::uint64_t{0});
+    EXPECT_EQ(clusters.occupied(1000 / cluster_size), (std::uint64_t{1} << 1000 % cluster_size) - 1);
 }
 
-// Right in front of a triangle its front is seen where a strip's end 0 is left of end 1.
-TEST(TriangleClusters, show_fronts_first_and_then_backs) {
+// Straight through the hologram a triangle's front is seen where the span's end 0 lies left of end 1.
+TEST(TriangleClusters, come_with_fronts_before_backs) {
     for (const LightFieldGrid& g : hemicube({9, 8, 0.5e-3, 20, 30, Perspective{1, 1}, 3})) {
         const EpipolarFrame frame(g);
         const TriangleClusters clusters(scattered_triangles(1000, 0.4e-3), frame, 3);
         ASSERT_GT(clusters.fronts, 4u);
         ASSERT_LT(clusters.fronts, clusters.boxes.size() - 4);
-        std::size_t strips = 0, mixed = 0;
-        // The kinds meet in the last cluster of fronts, and in the last of all.
+        std::size_t spans = 0, mixed = 0;
+        // Fronts and backs share the last cluster of fronts, and the last of all, which is left out.
         for (std::uint32_t i = 0; i < cluster_size * (clusters.boxes.size() - 1); ++i) {
             const TriangleCorners& own = clusters.corners[i];
             const double middle = (own.y[0] + own.y[1] + own.y[2]) / 3;
-            Strip strip;
-            StripShades shades;
-            set_up_plain(clusters, {&i, 1}, {middle, 0, 0, 0, 1}, &strip, &shades, nullptr);
-            if (strip.x0 == nowhere.x0 || std::abs(strip.x1 - strip.x0) < 1e-3f) continue;
-            mixed += (strip.x0 < strip.x1) != (i < clusters.fronts * cluster_size);
-            ++strips;
+            EpiSpan span;
+            SpanValues values;
+            set_up_spans_plain(clusters, {&i, 1}, {middle, 0, 0, 0, 1}, &span, &values, nullptr);
+            if (span.x0 == empty_span.x0 || std::abs(span.x1 - span.x0) < 1e-3f) continue;
+            mixed += (span.x0 < span.x1) != (i < clusters.fronts * cluster_size);
+            ++spans;
         }
-        EXPECT_GT(strips, 500u);
+        EXPECT_GT(spans, 500u);
         EXPECT_LT(mixed, cluster_size);
     }
 }
 
-TEST(TriangleClusters, hold_heights_to_half_a_step_of_the_box) {
+TEST(TriangleClusters, round_heights_to_the_nearest_step_of_the_box) {
     const TriangleClusters clusters(scattered_triangles(1000, 0.1e-3), EpipolarFrame(grid), 3);
     for (std::size_t i = 0; i < 1000; ++i) {
         const ClusterBox& box = clusters.boxes[i / cluster_size];
@@ -90,7 +90,7 @@ TEST(TriangleClusters, hold_heights_to_half_a_step_of_the_box) {
     }
 }
 
-TEST(TriangleClusters, may_have_no_height) {
+TEST(TriangleClusters, may_be_flat) {
     ShadedScene scene = scattered_triangles(3, 0.1e-3);
     for (Vec3& p : scene.positions) p.y = p.z = 1e-3;
     const TriangleClusters clusters(scene, EpipolarFrame(grid), 3);
@@ -98,14 +98,14 @@ TEST(TriangleClusters, may_have_no_height) {
     EXPECT_EQ(clusters.heights[0].z[2][1], 0);
 }
 
-TEST(TriangleClusters, hold_the_luminance_if_there_is_one_channel) {
+TEST(TriangleClusters, hold_luminance_for_one_channel) {
     const TriangleClusters clusters(scattered_triangles(10, 0.1e-3), EpipolarFrame(grid), 1);
     for (std::size_t i = 0; i < 10; ++i)
         EXPECT_FLOAT_EQ(clusters.corners[i].radiance[1].r, 0.2126f * float(clusters.triangles[i]) + 0.7152f);
 }
 
-// The points of a ray of any face lie in its epipolar plane, and the ray is straight there.
-TEST(EpipolarFrame, counts_in_samples) {
+// A ray of any face lies in its epipolar plane, at its column and direction.
+TEST(EpipolarFrame, holds_each_ray_in_its_plane_column_and_direction) {
     LightFieldGrid aside = grid;
     aside.range().center_u = 0.3;
     aside.range().center_v = -0.2;
@@ -117,16 +117,16 @@ TEST(EpipolarFrame, counts_in_samples) {
         for (std::size_t i = 0; i < frame.axes().fast_hogels(all); ++i)
             for (std::size_t k = 0; k < frame.axes().fast_directions(); ++k) {
                 const auto [t, s, v, u] = frame.axes().sample(2, i, 5, k);
-                const Vec3 way = g.direction_of(g.u(double(u)), g.v(double(v)));
-                const double steps = 3e-3;
-                const Vec3 p =
-                    frame.in_samples({g.s(double(s)) + steps * way.x, g.t(double(t)) + steps * way.y, -steps * way.z});
+                const Vec3 ray = g.direction_of(g.u(double(u)), g.v(double(v)));
+                const double length = 3e-3;
+                const Vec3 p = frame.in_samples(
+                    {g.s(double(s)) + length * ray.x, g.t(double(t)) + length * ray.y, -length * ray.z});
                 const EpipolarFrame::Plane plane = frame.plane(2, 5);
                 const double x = p.x + plane.shift, z = p.z - plane.z0;
                 EXPECT_NEAR(x - (frame.first_direction() + double(k)) * z, frame.first_column() + double(i), 1e-11);
                 EXPECT_NEAR(p.y - plane.slope * p.z, plane.row, 1e-11);
-                EXPECT_NEAR(frame.metres(z), steps, 1e-14);
-                EXPECT_NEAR(plane.deepening, way.z, 1e-14);
+                EXPECT_NEAR(frame.metres(z), length, 1e-14);
+                EXPECT_NEAR(plane.depth_per_forward, ray.z, 1e-14);
             }
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of draw_plain in epi_kernels.cpp, compiled for every instruction set and chosen when first called.
+// The vector twin of draw_spans_plain in kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/draw_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -8,51 +8,52 @@
 
 #include <algorithm>
 
-#include "hogel/render/epi/bounds.h"
 #include "hogel/render/epi/hits.h"
 #include "hogel/render/epi/kernels.h"
+#include "hogel/render/epi/span_bounds.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The directions of a vector in which interleaving makes words of neighbours, and the lanes in their own order.
+// `directions`: an order of directions in the lanes of a vector that makes interleaving write the words of neighbours
+// side by side. `steps`: 0, 1, 2, …
 struct LaneOrder {
-    HWY_ALIGN float in_order[max_lanes], steps[max_lanes];
+    HWY_ALIGN float directions[max_lanes], steps[max_lanes];
 
     LaneOrder() {
         const std::size_t half = hn::Lanes(FloatTag()) / 2;
         for (std::size_t i = 0; i < 2 * half; ++i) {
             const std::size_t direction = i % 4 / 2 * half + i / 4 * 2 + i % 2;
-            in_order[i] = static_cast<float>(direction);
+            directions[i] = static_cast<float>(direction);
             steps[i] = static_cast<float>(i);
         }
     }
 };
 
-// What the loops below need to know of a strip and the plane that it is drawn into.
-struct Drawing {
-    const Strip& strip;
+// A span to draw, and what the loops below need for it.
+struct DrawJob {
+    const EpiSpan& span;
     std::uint32_t index, number;
     const EpipolarPlane& plane;
     Hits& hits;
     Candidates& candidates;
-    const Extent& extent;
+    const PlaneExtent& extent;
     const LaneOrder& lanes;
-    std::uint32_t nearest;  // ordered bits of a depth in front of all samples of the strip
+    std::uint32_t min_depth;  // of SpanBounds
 };
 
-// The columns that see a strip from each of a vector's rows of cells.
-HWY_INLINE void columns_of_rows(const StripLanes& strip, const Extent& extent, std::size_t first_row, float K_end,
+// The columns that see a span in each of a vector of rows of cells.
+HWY_INLINE void columns_of_rows(const SpanLanes& span, const PlaneExtent& extent, std::size_t first_row, float K_end,
                                 Floats& first, Floats& last) {
     const FloatTag d;
-    const Floats one = hn::Set(d, 1.0f), size = hn::Set(d, static_cast<float>(cell_directions));
-    const Floats K_low = hn::Add(hn::Set(d, extent.k_first + static_cast<float>(first_row * cell_directions)),
+    const Floats one = hn::Set(d, 1.0f), size = hn::Set(d, static_cast<float>(directions_per_cell));
+    const Floats K_low = hn::Add(hn::Set(d, extent.k_first + static_cast<float>(first_row * directions_per_cell)),
                                  hn::Mul(hn::Iota(d, 0), size));
     const Floats K_high = hn::Min(hn::Add(K_low, hn::Sub(size, one)), hn::Set(d, K_end));
     // c is monotonic in K, also as it is rounded.
-    const Floats a = strip.c0(K_low), b = strip.c0(K_high), c = strip.c1(K_low), e = strip.c1(K_high);
+    const Floats a = span.c0(K_low), b = span.c0(K_high), c = span.c1(K_low), e = span.c1(K_high);
     const Floats low = hn::Floor(hn::Min(hn::Min(a, b), hn::Min(c, e)));
     const Floats high = hn::Floor(hn::Max(hn::Max(a, b), hn::Max(c, e)));
     first = hn::Max(hn::Set(d, extent.n_first), hn::Add(low, one));
@@ -60,32 +61,32 @@ HWY_INLINE void columns_of_rows(const StripLanes& strip, const Extent& extent, s
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// One direction a lane, and a column at a time, of which the lanes lie side by side: those that are not hits keep what
-// they have, even if they lie beyond the plane's directions. Vectors begin where cells do, or a part of one, and what
-// is hidden is passed over.
-void along_rows(const Drawing& on, float K_begin, float K_end) {
+// Draws one column at a time, with one direction a lane, so that the words of the lanes lie side by side. Lanes without
+// a hit keep what their words hold, even behind the plane's directions. Vectors begin where cells do, or at a part of
+// one, and occluded cells are skipped.
+void draw_along_rows(const DrawJob& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
     const NumberTag du;
     const hn::RepartitionToWide<NumberTag> d64;
-    const StripLanes strip = in_all_lanes(on.strip);
+    const SpanLanes span = in_all_lanes(on.span);
     const std::size_t lanes = hn::Lanes(d), half = lanes / 2;
     const std::size_t plane_columns = on.plane.columns, directions = on.plane.directions;
     std::uint64_t* const plane_words = on.plane.words;
     const bool fronts_only = on.plane.fronts_only;
-    const std::uint32_t* const farthest = on.plane.cells->farthest.data();
-    const auto number = hn::Set(du, on.number), nearest = hn::Set(du, on.nearest);
-    const Floats nothing = hn::BitCast(d, hn::Set(di, -1));
-    const Floats order = hn::Load(d, on.lanes.in_order), last = hn::Set(d, K_end);
+    const std::uint32_t* const max_depths = on.plane.cells->max_depth.data();
+    const auto number = hn::Set(du, on.number), min_depth = hn::Set(du, on.min_depth);
+    const Floats no_hit = hn::BitCast(d, hn::Set(di, -1));
+    const Floats order = hn::Load(d, on.lanes.directions), last = hn::Set(d, K_end);
     const auto k_begin = static_cast<std::size_t>(K_begin - on.extent.k_first);
     const auto k_end = static_cast<std::size_t>(K_end - on.extent.k_first);
-    const std::size_t row_end = k_end / cell_directions + 1;
+    const std::size_t row_end = k_end / directions_per_cell + 1;
     HWY_ALIGN float firsts[max_lanes];
     HWY_ALIGN std::int32_t columns[max_lanes], counts[max_lanes];
-    std::size_t drawn = 0;
-    for (std::size_t group = k_begin / cell_directions; group < row_end; group += lanes) {
+    std::size_t writes = 0;
+    for (std::size_t group = k_begin / directions_per_cell; group < row_end; group += lanes) {
         Floats from, to;
-        columns_of_rows(strip, on.extent, group, K_end, from, to);
+        columns_of_rows(span, on.extent, group, K_end, from, to);
         hn::Store(from, d, firsts);
         hn::Store(hn::ConvertTo(di, hn::Sub(from, hn::Set(d, on.extent.n_first))), di, columns);
         hn::Store(hn::ConvertTo(di, hn::Add(hn::Sub(to, from), hn::Set(d, 1.0f))), di, counts);
@@ -95,20 +96,21 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
             for (std::int32_t count = counts[row - group]; count > 0;
                  count -= static_cast<std::int32_t>(lanes), first += static_cast<float>(lanes), column += lanes) {
                 std::uint64_t open =
-                    bits_of(du, hn::Not(hn::Lt(hn::LoadU(du, farthest + row * plane_columns + column), nearest)));
+                    bits_of(du, hn::Not(hn::Lt(hn::LoadU(du, max_depths + row * plane_columns + column), min_depth)));
                 open &= ~std::uint64_t{0} >> (64 - std::min(count, 32));
                 if (open == 0) continue;
-                drawn += static_cast<std::size_t>(std::popcount(open));
-                for (std::size_t k = row * cell_directions; k < (row + 1) * cell_directions && k <= k_end; k += lanes) {
+                writes += static_cast<std::size_t>(std::popcount(open));
+                for (std::size_t k = row * directions_per_cell; k < (row + 1) * directions_per_cell && k <= k_end;
+                     k += lanes) {
                     const Floats K = hn::Add(hn::Set(d, on.extent.k_first + static_cast<float>(k)), order);
-                    const Floats c0 = strip.c0(K);
-                    const Floats c1 = hn::IfThenElse(hn::Le(K, last), strip.c1(K, c0, fronts_only), c0);
-                    const Floats slope = strip.slope(c0, c1);
+                    const Floats c0 = span.c0(K);
+                    const Floats c1 = hn::IfThenElse(hn::Le(K, last), span.c1(K, c0, fronts_only), c0);
+                    const Floats slope = span.slope(c0, c1);
                     for (std::uint64_t rest = open; rest != 0; rest &= rest - 1) {
                         const auto next = static_cast<std::size_t>(std::countr_zero(rest));
                         const Floats n = hn::Set(d, first + on.lanes.steps[next]);
-                        const Floats z = hn::BitCast(d, ordered_bits_of(strip.depth(n, c0, slope)));
-                        const auto depth = hn::BitCast(du, hn::IfThenElse(StripLanes::covers(n, c0, c1), z, nothing));
+                        const Floats z = hn::BitCast(d, ordered_bits_of(span.depth(n, c0, slope)));
+                        const auto depth = hn::BitCast(du, hn::IfThenElse(SpanLanes::covers(n, c0, c1), z, no_hit));
                         std::uint64_t* words = plane_words + (column + next) * directions + k;
                         const auto low = hn::BitCast(d64, hn::InterleaveLower(du, number, depth));
                         const auto high = hn::BitCast(d64, hn::InterleaveUpper(du, number, depth));
@@ -119,57 +121,59 @@ void along_rows(const Drawing& on, float K_begin, float K_end) {
             }
         }
     }
-    on.plane.cells->drawn += drawn;
+    on.plane.cells->writes += writes;
 }
 #endif
 
-// One direction a lane: all columns between c_0 and c_1 are hits.
-void along_directions(const Drawing& on, float K_begin, float K_end) {
+// Draws one direction a lane: all columns between c_0 and c_1 are hits.
+void draw_along_directions(const DrawJob& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
-    const StripLanes strip = in_all_lanes(on.strip);
+    const SpanLanes span = in_all_lanes(on.span);
     const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
     const Floats none = hn::Set(d, on.extent.n_first - 1), K_last = hn::Set(d, K_end),
                  k_first = hn::Set(d, on.extent.k_first);
     const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
     for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats K = hn::Iota(d, begin);
-        const Floats c0 = strip.c0(K), c1 = strip.c1(K, c0, on.plane.fronts_only), slope = strip.slope(c0, c1);
+        const Floats c0 = span.c0(K), c1 = span.c1(K, c0, on.plane.fronts_only), slope = span.slope(c0, c1);
         const Floats end = hn::IfThenElse(hn::Le(K, K_last), hn::Min(n_last, hn::Floor(hn::Max(c0, c1))), none);
         const Ints k = hn::ConvertTo(di, hn::Sub(K, k_first));
         Floats n = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
         for (FloatMask hit = hn::Le(n, end); !hn::AllFalse(d, hit); hit = hn::Le(n, end)) {
             const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
-            on.hits.add(hit, strip.depth(n, c0, slope), hn::Add(hn::Mul(column, directions), k), on.number);
+            on.hits.add(hit, span.depth(n, c0, slope), hn::Add(hn::Mul(column, directions), k), on.number);
             n = hn::Add(n, one);
         }
     }
 }
 
-// How far along_columns has come: a vector's first column, and how many directions of each of its columns are done.
-struct Progress {
+// Where draw_along_columns goes on: the first column of a vector, and how many directions of each of its columns are
+// done.
+struct ColumnsDone {
     float begin, directions;
 };
 
-// One column a lane: candidates are the directions from K_0 to K_1, the ends' own, and a margin to either side. False
-// where it has to go on when those that wait have been drawn.
-bool along_columns(const Drawing& on, float n_end, float per_z0, float per_z1, float margin, Progress& at) {
+// Draws one column a lane: candidates are the directions between those of the ends, K_0 and K_1, with a margin on
+// either side. Returns false if the queue is full: to be called again when it has been drawn.
+bool draw_along_columns(const DrawJob& on, float n_end, float per_z0, float per_z1, float margin, ColumnsDone& at) {
     const FloatTag d;
     Candidates& candidates = on.candidates;
-    const Floats x0 = hn::Set(d, on.strip.x0), x1 = hn::Set(d, on.strip.x1);
-    const Floats steep0 = hn::Set(d, per_z0), steep1 = hn::Set(d, per_z1);
-    const Floats before = hn::Set(d, on.extent.k_first + margin), beyond = hn::Set(d, on.extent.k_first - margin);
+    const Floats x0 = hn::Set(d, on.span.x0), x1 = hn::Set(d, on.span.x1);
+    const Floats inverse0 = hn::Set(d, per_z0), inverse1 = hn::Set(d, per_z1);
+    const Floats low_offset = hn::Set(d, on.extent.k_first + margin),
+                 high_offset = hn::Set(d, on.extent.k_first - margin);
     const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f), none = hn::Set(d, -1.0f);
     const Floats k_last = hn::Set(d, on.extent.k_last - on.extent.k_first), columns_end = hn::Set(d, n_end);
     std::size_t count = candidates.begin();
     float done = at.directions;
     for (float begin = at.begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d)), done = 0) {
         const Floats n = hn::Iota(d, begin);
-        const Floats K0 = hn::Mul(hn::Sub(x0, n), steep0), K1 = hn::Mul(hn::Sub(x1, n), steep1);
-        const Floats low = hn::Sub(hn::Min(K0, K1), before), high = hn::Sub(hn::Max(K0, K1), beyond);
+        const Floats K0 = hn::Mul(hn::Sub(x0, n), inverse0), K1 = hn::Mul(hn::Sub(x1, n), inverse1);
+        const Floats low = hn::Sub(hn::Min(K0, K1), low_offset), high = hn::Sub(hn::Max(K0, K1), high_offset);
         const Floats end = hn::IfThenElse(hn::Le(n, columns_end), hn::Min(k_last, high), none);
         Floats k = hn::Add(hn::Max(zero, hn::Ceil(low)), hn::Set(d, done));
-        // Most have one or two.
+        // Most columns have one or two.
         count += candidates.add(n, k, end, count);
         for (std::size_t more = 1; more != 0;) {
             k = hn::Add(k, one);
@@ -186,40 +190,40 @@ bool along_columns(const Drawing& on, float n_end, float per_z0, float per_z1, f
     return true;
 }
 
-void Draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
+void DrawSpans(std::span<const EpiSpan> spans, std::size_t first, const EpipolarPlane& plane) {
     const auto n_first = static_cast<float>(plane.first_column);
-    const Extent extent{n_first, n_first + static_cast<float>(plane.columns) - 1, plane.first_direction,
-                        plane.first_direction + static_cast<float>(plane.directions) - 1, plane.fronts_only};
+    const PlaneExtent extent{n_first, n_first + static_cast<float>(plane.columns) - 1, plane.first_direction,
+                             plane.first_direction + static_cast<float>(plane.directions) - 1, plane.fronts_only};
     const LaneOrder order;
     Hits hits(plane);
-    Candidates candidates(plane, strips, first, hits);
+    Candidates candidates(plane, spans, first, hits);
     const std::size_t lanes = hn::Lanes(FloatTag());
-    Bounded bounded;
-    HWY_ALIGN Strip last[max_lanes];
-    for (std::size_t begin = 0; begin < strips.size(); begin += lanes) {
-        const std::size_t count = std::min(lanes, strips.size() - begin);
-        const Strip* some = strips.data() + begin;
+    SpanBounds bounds;
+    HWY_ALIGN EpiSpan last[max_lanes];
+    for (std::size_t begin = 0; begin < spans.size(); begin += lanes) {
+        const std::size_t count = std::min(lanes, spans.size() - begin);
+        const EpiSpan* some = spans.data() + begin;
         if (count < lanes) {
             std::fill(last, last + lanes, *some);
             some = std::copy(some, some + count, last) - count;
         }
-        bound_strips(&some->x0, extent, bounded);
+        bound_spans(&some->x0, extent, bounds);
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = static_cast<std::uint32_t>(begin + i);
-            const Drawing on{some[i], index, static_cast<std::uint32_t>(first) + index,     plane, hits, candidates,
-                             extent,  order, static_cast<std::uint32_t>(bounded.nearest[i])};
-            switch (bounded.way[i]) {
+            const DrawJob on{some[i], index, static_cast<std::uint32_t>(first) + index,      plane, hits, candidates,
+                             extent,  order, static_cast<std::uint32_t>(bounds.min_depth[i])};
+            switch (bounds.order[i]) {
 #if HWY_TARGET != HWY_SCALAR
-                case Bounded::rows:
-                    along_rows(on, bounded.K_begin[i], bounded.K_end[i]);
+                case SpanBounds::rows:
+                    draw_along_rows(on, bounds.K_begin[i], bounds.K_end[i]);
                     break;
 #endif
-                case Bounded::directions:
-                    along_directions(on, bounded.K_begin[i], bounded.K_end[i]);
+                case SpanBounds::directions:
+                    draw_along_directions(on, bounds.K_begin[i], bounds.K_end[i]);
                     break;
-                case Bounded::columns:
-                    for (Progress at{bounded.n_begin[i], 0}; !along_columns(on, bounded.n_end[i], bounded.per_z0[i],
-                                                                            bounded.per_z1[i], bounded.margin[i], at);)
+                case SpanBounds::columns:
+                    for (ColumnsDone at{bounds.n_begin[i], 0}; !draw_along_columns(
+                             on, bounds.n_end[i], bounds.per_z0[i], bounds.per_z1[i], bounds.margin[i], at);)
                         candidates.draw();
                     break;
                 default:
@@ -238,10 +242,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace hogel::render::epi {
 
-HWY_EXPORT(Draw);
+HWY_EXPORT(DrawSpans);
 
-void draw(std::span<const Strip> strips, std::size_t first, const EpipolarPlane& plane) {
-    HWY_DYNAMIC_DISPATCH(Draw)(strips, first, plane);
+void draw_spans(std::span<const EpiSpan> spans, std::size_t first, const EpipolarPlane& plane) {
+    HWY_DYNAMIC_DISPATCH(DrawSpans)(spans, first, plane);
 }
 
 std::vector<std::int64_t> kernel_targets() { return hwy::SupportedAndGeneratedTargets(); }

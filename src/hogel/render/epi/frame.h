@@ -8,13 +8,14 @@
 
 namespace hogel::render::epi {
 
-/// Lengths counted in samples, so that the loops over samples work on small whole numbers. Column i of hogels has the
-/// whole number n = i − ⌊S/2⌋, and a point (x, ζ) is seen by column n in the direction K = U/ΔU if n = x − K z, where
-/// from here on x counts hogels from n = 0 and z = ζ ΔU/d. Directions that are not centred on U = 0 are counted from
-/// their middle, and space is sheared to match. So K is a whole number or one and a half, exact as a float.
+/// Units of an epipolar plane, in which lengths count samples, so that the loops over samples work on small whole
+/// numbers. Column i of S hogels has the whole number n = i − ⌊S/2⌋, and a point (x, ζ) is seen by column n in the
+/// direction K = U/ΔU if n = x − K z, where x counts hogels of pitch d from n = 0 and z = ζ ΔU/d. Directions that are
+/// not centred on U = 0 are counted from their middle, and space is sheared to match. So K is a whole number, or a
+/// whole number and a half, and exact as a float.
 ///
-/// On a side of a hemicube the distance forward takes the place of ζ, and depends on the row of hogels: z of a point
-/// less z of the row. On the left and right rows of hogels are columns (RowAxes), counted from the top as t is.
+/// On a side of a hemicube the distance forward replaces ζ. It depends on the row of hogels: z of a point minus z of
+/// the row. On the left and the right side rows of hogels are columns (RowAxes), counted from the top as t is.
 class EpipolarFrame {
   public:
     explicit EpipolarFrame(const LightFieldGrid& grid)
@@ -36,29 +37,30 @@ class EpipolarFrame {
         const double z = forward * step_ / grid_.pitch;
         return {axes_.fast_sign() * fast / grid_.pitch - offset_ - middle_fast_ * z, slow / grid_.pitch, z};
     }
-    /// A distance forward in metres.
+    /// A distance forward, in metres.
     double metres(double z) const { return z * grid_.pitch / step_; }
 
     /// The epipolar plane of one row of hogels and one of directions: y = row + slope z for points in samples, which
-    /// the hogels of the row see at (x + shift, z − z0). `deepening` is the ζ of a step forward.
+    /// the hogels of the row see at (x + shift, z − z0).
     struct Plane {
-        double row, slope, z0, shift, deepening;
+        double row, slope, z0, shift;
+        double depth_per_forward;  ///< ζ of a point over its distance forward
     };
     Plane plane(std::size_t hogel, std::size_t direction) const {
         const double i = static_cast<double>(hogel), k = static_cast<double>(direction);
         // Exact multiples of a half.
-        const double place = axes_.transposed() ? i + 0.5 - 0.5 * static_cast<double>(grid_.hogels_s)
-                                                : 0.5 * static_cast<double>(grid_.hogels_t) - i - 0.5;
-        const double towards = axes_.transposed() ? k + 0.5 - 0.5 * static_cast<double>(grid_.directions_u)
-                                                  : 0.5 * static_cast<double>(grid_.directions_v) - k - 0.5;
-        const double slope = towards * step_ratio_ + middle_slow_;
-        if (grid_.face() == Face::front) return {place, slope, 0, 0, 1};
-        const Vec3 here = axes_.transposed() ? Vec3{place, 0, 0} : Vec3{0, place, 0};
+        const double row = axes_.transposed() ? i + 0.5 - 0.5 * static_cast<double>(grid_.hogels_s)
+                                              : 0.5 * static_cast<double>(grid_.hogels_t) - i - 0.5;
+        const double middle_k = axes_.transposed() ? k + 0.5 - 0.5 * static_cast<double>(grid_.directions_u)
+                                                   : 0.5 * static_cast<double>(grid_.directions_v) - k - 0.5;
+        const double slope = middle_k * step_ratio_ + middle_slow_;
+        if (grid_.face() == Face::front) return {row, slope, 0, 0, 1};
+        const Vec3 here = axes_.transposed() ? Vec3{row, 0, 0} : Vec3{0, row, 0};
         const double z0 = axes_.seen(here, 0).forward * step_;
-        const double direction_here = axes_.slow_direction(direction);
-        const Vec3 way =
-            axes_.transposed() ? grid_.direction_of(direction_here, 0) : grid_.direction_of(0, direction_here);
-        return {-slope * z0, slope, z0, middle_fast_ * z0, way.z};
+        const double slow_direction = axes_.slow_direction(direction);
+        const Vec3 ray =
+            axes_.transposed() ? grid_.direction_of(slow_direction, 0) : grid_.direction_of(0, slow_direction);
+        return {-slope * z0, slope, z0, middle_fast_ * z0, ray.z};
     }
 
   private:
@@ -67,9 +69,9 @@ class EpipolarFrame {
     LightFieldGrid grid_;
     RowAxes axes_;
     double step_;                       // ΔU; ΔV on the left and right
-    double offset_;                     // x of column n = 0 is where the position's x / d is this
-    double middle_fast_, middle_slow_;  // of the directions, in units of `step_`
-    double step_ratio_;                 // of the slow directions to the fast
+    double offset_;                     // position's x / d at column n = 0
+    double middle_fast_, middle_slow_;  // middle of the directions, in units of `step_`
+    double step_ratio_;                 // step of the slow directions over `step_`
 };
 
 }  // namespace hogel::render::epi

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masks as whole numbers; included after hwy/highway.h, once for every instruction set.
-#if defined(HOGEL_RENDER_LANE_BITS) == defined(HWY_TARGET_TOGGLE)
-#ifdef HOGEL_RENDER_LANE_BITS
-#undef HOGEL_RENDER_LANE_BITS
+// Masks as bits of an integer; included after hwy/highway.h, once for every instruction set.
+#if defined(HOGEL_RENDER_EPI_LANE_BITS) == defined(HWY_TARGET_TOGGLE)
+#ifdef HOGEL_RENDER_EPI_LANE_BITS
+#undef HOGEL_RENDER_EPI_LANE_BITS
 #else
-#define HOGEL_RENDER_LANE_BITS
+#define HOGEL_RENDER_EPI_LANE_BITS
 #endif
 
 #include <hwy/highway.h>
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 
-// Which lanes are true, the first in the lowest bit.
+// Bit i is set where lane i of the mask is.
 template <class D>
 HWY_INLINE std::uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
     std::uint8_t bytes[8] = {};

@@ -11,39 +11,39 @@
 
 namespace hogel::render::epi {
 
-/// An epipolar plane: y = row + slope z, seen at (x + shift, z − z0) (EpipolarFrame).
-struct PlanePlace {
+/// The epipolar plane that cuts triangles: y = row + slope z, seen at (x + shift, z − z0) (EpipolarFrame).
+struct CutPlane {
     double row, slope, shift, z0;
-    double depth;  ///< ζ in metres of a step forward
+    double depth_per_z;  ///< ζ in metres for each unit of z
 };
 
 /// Covers nothing.
-constexpr Strip nowhere{1e30f, 1, 1e30f, 1};
+constexpr EpiSpan empty_span{1e30f, 1, 1e30f, 1};
 
-/// Where a strip lies on its triangle. One corner of the triangle is alone on its side of the plane; end 0 lies between
-/// it and the next corner, end 1 between it and the last (TriangleCut).
-struct StripOrigin {
+/// Where a span lies on its triangle: end 0 on the edge from the lone corner to the next, end 1 on the edge to the last
+/// (TriangleCut).
+struct SpanOrigin {
     float weight0, weight1;  ///< of the lone corner, at the two ends
     std::uint32_t triangle;
     std::uint16_t lone, next;  ///< 0, 1 or 2
 
-    /// Of the triangle's vertices, at this part of the way from end 0 to end 1.
-    std::array<float, 3> weights(float part) const {
+    /// Weights of the triangle's vertices at a position from 0 at end 0 to 1 at end 1.
+    std::array<float, 3> weights(float position) const {
         std::array<float, 3> b;
-        b[lone] = (1 - part) * weight0 + part * weight1;
-        b[next] = (1 - part) * (1 - weight0);
-        b[3 - lone - next] = part * (1 - weight1);
+        b[lone] = (1 - position) * weight0 + position * weight1;
+        b[next] = (1 - position) * (1 - weight0);
+        b[3 - lone - next] = position * (1 - weight1);
         return b;
     }
 };
 
-/// Cuts triangles, given by their places in the clusters, and writes a strip for each. The plane crosses a triangle if
-/// it separates its corners, of which those are below with (y − slope z) − row < 0; others get Strip nowhere.
-/// The twins give the same bits.
-/// @param origins  may be null
-void set_up_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlanePlace& plane,
-                  Strip* strips, StripShades* shades, StripOrigin* origins);
-void set_up(const TriangleClusters& clusters, std::span<const std::uint32_t> places, const PlanePlace& plane,
-            Strip* strips, StripShades* shades, StripOrigin* origins);
+/// Cuts the triangles in these slots of the clusters and writes a span for each. The plane crosses a triangle if it
+/// separates its corners, of which those with (y − slope z) − row < 0 are below; others get `empty_span`. The twins
+/// give the same bits.
+/// @param spans, values, origins  arrays of slots.size(); `origins` may be null
+void set_up_spans_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,
+                        EpiSpan* spans, SpanValues* values, SpanOrigin* origins);
+void set_up_spans(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,
+                  EpiSpan* spans, SpanValues* values, SpanOrigin* origins);
 
 }  // namespace hogel::render::epi

@@ -8,24 +8,23 @@
 #include <memory>
 #include <random>
 
-#include "hogel/render/test_triangles.h"
+#include "hogel/render/epi/test_triangles.h"
 
 namespace hogel::render::epi {
 namespace {
 
-// The vector kernels as built for each instruction set that this processor has.
 class SetUpOnEveryTarget : public KernelTargetTest {};
 INSTANTIATE_TEST_SUITE_P(SetUp, SetUpOnEveryTarget, ::testing::ValuesIn(kernel_targets()));
 
 const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
 
-PlanePlace place_of(const EpipolarFrame& frame, std::size_t t, std::size_t v) {
-    const EpipolarFrame::Plane place = frame.plane(t, v);
-    return {place.row, place.slope, place.shift, place.z0, frame.metres(1)};
+CutPlane cut_plane(const EpipolarFrame& frame, std::size_t t, std::size_t v) {
+    const EpipolarFrame::Plane plane = frame.plane(t, v);
+    return {plane.row, plane.slope, plane.shift, plane.z0, frame.metres(1)};
 }
 
-// One triangle whose corners have these heights above the plane y = 3 + 2 z.
-Strip strip_of(double a, double b, double c) {
+// The span of a triangle whose corners have these heights above the plane y = 3 + 2 z.
+EpiSpan span_of(double a, double b, double c) {
     ShadedScene scene = scattered_triangles(1, 0.1e-3);
     TriangleClusters clusters(scene, EpipolarFrame(grid), 3);
     const double heights[] = {a, b, c};
@@ -34,17 +33,17 @@ Strip strip_of(double a, double b, double c) {
         clusters.corners[0].y[corner] = heights[corner] + 3 + 2 * (corner + 1.0);
         clusters.corners[0].x[corner] = corner % 2;
     }
-    const std::uint32_t place = 0;
-    Strip fast, plain;
-    StripShades shades;
-    set_up(clusters, {&place, 1}, {3, 2, 0, 0, 1}, &fast, &shades, nullptr);
-    set_up_plain(clusters, {&place, 1}, {3, 2, 0, 0, 1}, &plain, &shades, nullptr);
-    EXPECT_EQ(std::memcmp(&fast, &plain, sizeof(Strip)), 0);
+    const std::uint32_t slot = 0;
+    EpiSpan fast, plain;
+    SpanValues values;
+    set_up_spans(clusters, {&slot, 1}, {3, 2, 0, 0, 1}, &fast, &values, nullptr);
+    set_up_spans_plain(clusters, {&slot, 1}, {3, 2, 0, 0, 1}, &plain, &values, nullptr);
+    EXPECT_EQ(std::memcmp(&fast, &plain, sizeof(EpiSpan)), 0);
     return fast;
 }
 
-TEST_P(SetUpOnEveryTarget, a_plane_crosses_triangles_with_corners_on_both_sides_and_a_corner_in_it_is_above) {
-    const auto crossed = [](double a, double b, double c) { return strip_of(a, b, c).x0 != nowhere.x0; };
+TEST_P(SetUpOnEveryTarget, triangles_with_corners_on_both_sides_are_crossed_and_corners_in_the_plane_are_above) {
+    const auto crossed = [](double a, double b, double c) { return span_of(a, b, c).x0 != empty_span.x0; };
     EXPECT_TRUE(crossed(-1, 0, 1));
     EXPECT_TRUE(crossed(0, 0, -1));
     EXPECT_TRUE(crossed(1, -1, 1));
@@ -54,38 +53,38 @@ TEST_P(SetUpOnEveryTarget, a_plane_crosses_triangles_with_corners_on_both_sides_
     EXPECT_FALSE(crossed(0, 0, 0));
 }
 
-TEST_P(SetUpOnEveryTarget, vector_and_plain_strips_are_the_same) {
+TEST_P(SetUpOnEveryTarget, vector_and_plain_twins_agree) {
     const EpipolarFrame frame(grid);
     const TriangleClusters clusters(scattered_triangles(700, 0.4e-3), frame, 3);
-    std::size_t strips = 0;
+    std::size_t spans = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t v = 0; v < grid.directions_v; ++v) {
-            PlanePlace place = place_of(frame, t, v);
-            place.shift = 0.25;
-            place.z0 = 0.1 * double(v);
-            // Those that the plane crosses, and some others.
-            std::vector<std::uint32_t> places;
+            CutPlane plane = cut_plane(frame, t, v);
+            plane.shift = 0.25;
+            plane.z0 = 0.1 * double(v);
+            // Triangles that the plane crosses, and some others.
+            std::vector<std::uint32_t> slots;
             for (std::uint32_t i = 0; i < clusters.corners.size(); ++i) {
                 std::size_t below = 0;
                 for (int corner = 0; corner < 3; ++corner)
-                    below += clusters.corners[i].y[corner] - place.slope * clusters.corners[i].z[corner] < place.row;
-                if (below % 3 != 0 || (i + t + v) % 23 == 0) places.push_back(i);
+                    below += clusters.corners[i].y[corner] - plane.slope * clusters.corners[i].z[corner] < plane.row;
+                if (below % 3 != 0 || (i + t + v) % 23 == 0) slots.push_back(i);
             }
-            const std::size_t count = places.size(), beyond = 3;
-            strips += count;
-            std::vector<Strip> fast(count + beyond), plain(count + beyond);
-            std::vector<StripShades> fast_shades(count + beyond), plain_shades(count + beyond);
-            std::vector<StripOrigin> fast_origins(count), plain_origins(count);
-            set_up(clusters, places, place, fast.data(), fast_shades.data(), fast_origins.data());
-            set_up_plain(clusters, places, place, plain.data(), plain_shades.data(), plain_origins.data());
+            const std::size_t count = slots.size(), padding = 3;
+            spans += count;
+            std::vector<EpiSpan> fast(count + padding), plain(count + padding);
+            std::vector<SpanValues> fast_values(count + padding), plain_values(count + padding);
+            std::vector<SpanOrigin> fast_origins(count), plain_origins(count);
+            set_up_spans(clusters, slots, plane, fast.data(), fast_values.data(), fast_origins.data());
+            set_up_spans_plain(clusters, slots, plane, plain.data(), plain_values.data(), plain_origins.data());
             const auto same = [](const auto& a, const auto& b) {
                 return std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
             };
             ASSERT_TRUE(same(fast, plain)) << t << " " << v;
-            ASSERT_TRUE(same(fast_shades, plain_shades)) << t << " " << v;
+            ASSERT_TRUE(same(fast_values, plain_values)) << t << " " << v;
             ASSERT_TRUE(same(fast_origins, plain_origins)) << t << " " << v;
         }
-    EXPECT_GT(strips, 1000u);
+    EXPECT_GT(spans, 1000u);
 }
 
 }  // namespace

@@ -5,19 +5,19 @@
 
 #include "hogel/render/epi/kernels.h"
 
-namespace hogel::render {
+namespace hogel::render::epi {
 
-/// An epipolar plane for tests, with its words, in which nothing is seen yet.
+/// An empty epipolar plane for tests, with its words and cells.
 struct TestPlane {
     std::vector<std::uint64_t> words;
-    epi::PlaneCells cells;
-    epi::EpipolarPlane plane;
+    DepthCells cells;
+    EpipolarPlane plane;
 
     TestPlane(std::size_t columns, std::size_t directions, std::int32_t first_column)
-        : words(columns * directions + epi::EpipolarPlane::spare, epi::EpipolarPlane::nothing),
+        : words(columns * directions + EpipolarPlane::padding, EpipolarPlane::empty),
           plane{words.data(), &cells, columns, directions, first_column, 0.5f - 0.5f * float(directions)} {
         cells.clear(columns, directions);
     }
 };
 
-}  // namespace hogel::render
+}  // namespace hogel::render::epi

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What epi_shade_simd.cpp and epi_light_simd.cpp do with vectors of samples; included after hwy/highway.h, once for
-// every instruction set.
-#if defined(HOGEL_RENDER_EPI_SAMPLES) == defined(HWY_TARGET_TOGGLE)
-#ifdef HOGEL_RENDER_EPI_SAMPLES
-#undef HOGEL_RENDER_EPI_SAMPLES
+// Vectors of samples, for shade_simd.cpp, shaded_spans_simd.cpp and knots_simd.cpp; included after hwy/highway.h, once
+// for every instruction set.
+#if defined(HOGEL_RENDER_EPI_SHADING_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef HOGEL_RENDER_EPI_SHADING_LANES
+#undef HOGEL_RENDER_EPI_SHADING_LANES
 #else
-#define HOGEL_RENDER_EPI_SAMPLES
+#define HOGEL_RENDER_EPI_SHADING_LANES
 #endif
 
 #include <hwy/cache_control.h>
@@ -33,32 +33,33 @@ using NumberTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Numbers = hn::Vec<NumberTag>;
 
-// Four floats at place(0), place(4), …, one after the other.
-template <class Place>
-HWY_INLINE Floats load_blocks(const Place& place) {
+// Loads four floats from each of address(0), address(4), …, one after the other.
+template <class Address>
+HWY_INLINE Floats load_blocks(const Address& address) {
     const FloatTag d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
-    const auto in_all_blocks = [&](std::size_t i) HWY_ATTR { return hn::LoadDup128(d, place(i)); };
+    const auto in_all_blocks = [&](std::size_t i) HWY_ATTR { return hn::LoadDup128(d, address(i)); };
     if constexpr (lanes == 4)
         return in_all_blocks(0);
     else if constexpr (lanes == 8)
         return hn::OddEvenBlocks(in_all_blocks(4), in_all_blocks(0));
     else {
-        // Half by half: g++ 12 fails inside on blends of blocks that are already in a register.
+        // Half by half, because g++ 12 has an internal error on blends of blocks that are already in a register.
         const hn::Half<FloatTag> dh;
         const auto half = [&](std::size_t i) HWY_ATTR {
-            return hn::OddEvenBlocks(hn::LoadDup128(dh, place(i + 4)), hn::LoadDup128(dh, place(i)));
+            return hn::OddEvenBlocks(hn::LoadDup128(dh, address(i + 4)), hn::LoadDup128(dh, address(i)));
         };
         return hn::Combine(d, half(8), half(0));
     }
 }
 
-// Four floats so far behind each fourth of these places.
-HWY_INLINE Floats load_blocks(const float* const* places, std::size_t behind) {
-    return load_blocks([=](std::size_t i) { return places[i] + behind; });
+// Loads four floats at `offset` from each of bases[0], bases[4], …
+HWY_INLINE Floats load_blocks(const float* const* bases, std::size_t offset) {
+    return load_blocks([=](std::size_t i) { return bases[i] + offset; });
 }
 
-// Four vectors, whose block b holds four floats of sample 4 b + i, become those floats of all samples: and back.
+// Four vectors v[i], whose block b holds four floats of sample 4 b + i, become vectors of one of the floats of all
+// samples; and back.
 HWY_INLINE void transpose(Floats (&v)[4]) {
     const FloatTag d;
     const hn::RepartitionToWide<FloatTag> dw;
@@ -71,24 +72,25 @@ HWY_INLINE void transpose(Floats (&v)[4]) {
     v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, c, e));
 }
 
-// As part_of_strip.
-HWY_INLINE Floats parts_of_strips(Floats n, Floats K, const Floats (&place)[4]) {
+// position_on_span(), a span a lane.
+// @param ends  x0, z0, dx, dz
+HWY_INLINE Floats positions_on_spans(Floats n, Floats K, const Floats (&ends)[4]) {
     const FloatTag d;
-    const auto& [x0, z0, dx, dz] = place;
+    const auto& [x0, z0, dx, dz] = ends;
     const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const Floats part = hn::Div(hn::Add(hn::Sub(n, x0), hn::Mul(K, z0)), hn::Sub(dx, hn::Mul(K, dz)));
-    const Floats positive = hn::IfThenElse(hn::Gt(part, zero), part, zero);
+    const Floats position = hn::Div(hn::Add(hn::Sub(n, x0), hn::Mul(K, z0)), hn::Sub(dx, hn::Mul(K, dz)));
+    const Floats positive = hn::IfThenElse(hn::Gt(position, zero), position, zero);
     return hn::IfThenElse(hn::Lt(positive, one), positive, one);
 }
 
-// Of samples that all show one strip.
-HWY_INLINE Floats parts_of_one(const StripShades& strip, Floats n, Floats K) {
+// position_on_span() of samples that all see one span.
+HWY_INLINE Floats positions_on_one(const SpanValues& span, Floats n, Floats K) {
     const FloatTag d;
-    return parts_of_strips(n, K,
-                           {hn::Set(d, strip.x0), hn::Set(d, strip.z0), hn::Set(d, strip.dx), hn::Set(d, strip.dz)});
+    return positions_on_spans(n, K,
+                              {hn::Set(d, span.x0), hn::Set(d, span.z0), hn::Set(d, span.dx), hn::Set(d, span.dz)});
 }
 
-// The numbers of a vector of words.
+// The spans' numbers in a vector of words.
 HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
     const NumberTag du;
     const hn::RepartitionToWide<NumberTag> d64;
@@ -96,16 +98,16 @@ HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
                           hn::BitCast(du, hn::LoadU(d64, words)));
 }
 
-// Turns all words of a plane into values and empties it. `shade_vector` takes the words of a vector of samples, of
-// which those beyond the plane show nothing, and their column and the first of their directions, and gives their
-// values. If it has a function `begin`, that is told of each column before.
+// Writes the values of all samples of a plane, and empties it. `shade_vector` gets the words of a vector of samples,
+// their column and the first of their directions, and sets their values; words behind the end of a column are 0. If it
+// has a function `begin`, that is called with each column first.
 template <class ShadeVector>
-HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out, const ShadeVector& shade_vector) {
+HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const PlaneOutput& out, const ShadeVector& shade_vector) {
     const FloatTag d;
     const hn::RepartitionToWide<NumberTag> d64;
     const std::size_t lanes = hn::Lanes(d), directions = plane.directions;
-    const bool aligned = out.begins_at_multiples(lanes);
-    const auto nothing = hn::Set(d64, EpipolarPlane::nothing);
+    const bool aligned = out.is_aligned_to(lanes);
+    const auto empty = hn::Set(d64, EpipolarPlane::empty);
     for (std::size_t column = 0; column < plane.columns; ++column) {
         std::uint64_t* words = plane.words + column * directions;
         float* to[4];
@@ -115,9 +117,9 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out
         for (; aligned && k + lanes <= directions; k += lanes, words += lanes) {
             Floats values[4];
             shade_vector(words, column, k, values);
-            hn::StoreU(nothing, d64, words);
-            hn::StoreU(nothing, d64, words + lanes / 2);
-            // Past the caches: nobody reads a sample soon after.
+            hn::StoreU(empty, d64, words);
+            hn::StoreU(empty, d64, words + lanes / 2);
+            // Past the caches, because samples are not read soon after.
             if (to[0]) hn::Stream(values[0], d, to[0] + k);
             if (to[1]) hn::Stream(values[1], d, to[1] + k);
             if (to[2]) hn::Stream(values[2], d, to[2] + k);
@@ -127,7 +129,7 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const ShadedPlane& out
             const std::size_t count = std::min(lanes, directions - k);
             HWY_ALIGN std::uint64_t some_words[hn::MaxLanes(d)] = {};
             std::copy_n(words, count, some_words);
-            std::fill_n(words, count, EpipolarPlane::nothing);
+            std::fill_n(words, count, EpipolarPlane::empty);
             Floats values[4];
             shade_vector(some_words, column, k, values);
             for (int i = 0; i < 4; ++i) {

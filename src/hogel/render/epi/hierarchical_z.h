@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hogel/array.h"
+#include "hogel/render/epi/clusters.h"
+#include "hogel/render/epi/kernels.h"
+
+namespace hogel::render::epi {
+
+/// A cluster's box in single precision, as the rays of an epipolar plane see it.
+struct BoxBounds {
+    float x_low, x_high, z_low, z_high;
+    float margin;             ///< in columns, beyond any rounding of those that see the box
+    std::uint32_t min_depth;  ///< ordered bits of a depth in front of everything in the box
+
+    /// The bounds are those of the box moved by (shift, −z0).
+    BoxBounds(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0);
+};
+
+/// For `rows` rows of a plane's cells (DepthCells) the columns whose samples may see a box.
+struct alignas(64) CellColumns {
+    static constexpr std::size_t rows = 16;
+    static constexpr std::size_t max_plane_columns = 0xffff;
+    std::uint16_t first[rows], count[rows];
+
+    /// How many of these cover all rows of cells of a plane.
+    static std::size_t needed(std::size_t directions) { return (DepthCells::rows(directions) + rows - 1) / rows; }
+};
+
+/// Bounds of a box's footprint.
+struct FootprintBounds {
+    std::uint32_t min_depth;    ///< of BoxBounds
+    std::uint32_t max_columns;  ///< that see the box in one row of cells
+};
+
+/// The cells whose samples may see a box.
+struct BoxFootprint {
+    const CellColumns* columns;  ///< CellColumns::needed() of them
+    FootprintBounds bounds;
+};
+
+/// Finds the cells whose samples may see a box moved by (shift, −z0). The twins give the same.
+/// @param columns  out: CellColumns::needed(plane.directions)
+FootprintBounds find_footprint_plain(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
+                                     CellColumns* columns);
+FootprintBounds find_footprint(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
+                               CellColumns* columns);
+
+/// The footprints of all clusters' boxes. They are the same in all planes of a row of hogels, and each is found when it
+/// is first asked for.
+class BoxFootprints {
+  public:
+    /// Begins a row of hogels.
+    /// @param plane  any plane of the row; has to outlive it
+    void begin_row(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0);
+    BoxFootprint operator[](std::size_t box) {
+        CellColumns* columns = &columns_[box * columns_per_box_];
+        Found& found = found_[box];
+        if (found.row != row_) found = {find_footprint(boxes_[box], *plane_, shift_, z0_, columns), row_};
+        return {columns, found.bounds};
+    }
+    void prefetch(std::size_t box) const {
+        __builtin_prefetch(&columns_[box * columns_per_box_]);
+        __builtin_prefetch(&found_[box]);
+    }
+
+  private:
+    struct Found {
+        FootprintBounds bounds;
+        std::uint32_t row;  // for which they were found
+    };
+
+    std::span<const ClusterBox> boxes_;
+    const EpipolarPlane* plane_ = nullptr;
+    double shift_ = 0, z0_ = 0;
+    std::uint32_t row_ = 0;  // counted from 1
+    std::size_t columns_per_box_ = 0;
+    std::vector<CellColumns, CacheLineAllocator<CellColumns>> columns_;
+    std::vector<Found> found_;
+};
+
+/// Whether every cell of a footprint is nearer than the box, at all of its samples. The twins give the same.
+bool cells_occlude_plain(const EpipolarPlane& plane, const BoxFootprint& box);
+bool cells_occlude(const EpipolarPlane& plane, const BoxFootprint& box);
+
+/// The hierarchical z of an epipolar plane: cells with the farthest depth of their samples (DepthCells), behind which
+/// nothing has to be drawn.
+class HierarchicalZ {
+  public:
+    /// Begins a plane in which nothing is drawn, and clears its cells.
+    void clear(const EpipolarPlane& plane);
+    /// Updates the plane's cells to all that has been drawn.
+    void update(const EpipolarPlane& plane);
+    /// Whether every sample of the plane that may see the box sees something in front of it. Never true of a box that
+    /// holds something visible, or as near as what is seen.
+    bool occludes(BoxFootprints& footprints, std::size_t box, const EpipolarPlane& plane) const {
+        return pays_ && cells_occlude(plane, footprints[box]);
+    }
+
+  private:
+    bool pays_ = false;  // whether enough is covered for tests of boxes to pay
+};
+
+}  // namespace hogel::render::epi

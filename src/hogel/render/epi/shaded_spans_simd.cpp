@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vector twin of shade_between_knots_plain in shaded_spans.cpp, compiled for every instruction set and chosen when
+// first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/render/epi/shaded_spans_simd.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cmath>
+
+#include "hogel/render/epi/shaded_spans.h"
+#include "hogel/render/epi/shading_lanes.h"
+#include "hogel/render/sample_store.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel::render::epi {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+void ShadeBetweenKnots(const EpipolarPlane& plane, std::span<const SpanValues> values, ShadedSpans& spans,
+                       const RadianceSource& source, const PlaneOutput& out) {
+    shade_between_knots_plain(plane, values, spans, source, out);
+}
+#else
+// Shades vectors of samples, column by column. Where the knots of a column's samples lie is computed for all of them
+// before any knot is loaded, because otherwise each vector would wait for it.
+class KnotShading {
+  public:
+    KnotShading(const EpipolarPlane& plane, std::span<const SpanValues> span_values, ShadedSpans& spans,
+                const RadianceSource& source, const PlaneOutput& out, std::uint32_t* offsets, float* fractions)
+        : plane_(plane),
+          span_values_(span_values.data()),
+          spans_(spans),
+          source_(source),
+          colour_(out.values[1] != nullptr),
+          depth_(out.values[3] != nullptr),
+          offsets_(offsets),
+          fractions_(fractions) {}
+
+    // Finds the knots of a column's samples.
+    HWY_INLINE void begin(std::size_t column) const {
+        const FloatTag d;
+        const NumberTag du;
+        const ShadedSpans::Span* spans = spans_.spans();
+        const Floats n = hn::Set(d, static_cast<float>(plane_.first_column) + static_cast<float>(column));
+        const std::uint64_t* words = plane_.words + column * plane_.directions;
+        // The last vector may read words of the next column, or padding.
+        for (std::size_t k = 0; k < plane_.directions; k += hn::Lanes(d), words += hn::Lanes(d)) {
+            const Floats K = hn::Iota(d, plane_.first_direction + static_cast<float>(k));
+            const Numbers numbers = numbers_of(words);
+            const auto first = static_cast<std::uint32_t>(words[0]);
+            Floats ends[4], knots[4];
+            if (!hn::AllTrue(du, hn::Eq(numbers, hn::Set(du, first)))) {
+                const float* from[hn::MaxLanes(FloatTag())];
+                for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) from[i] = &spans[words[i] & 0xffffffff].x0;
+                for (std::size_t i = 0; i < 4; ++i) {
+                    ends[i] = load_blocks(from + i, 0);
+                    knots[i] = load_blocks(from + i, 4);
+                }
+                transpose(ends);
+                transpose(knots);
+            } else {
+                const float* from = &spans[first].x0;
+                for (std::size_t i = 0; i < 4; ++i) {
+                    ends[i] = hn::Set(d, from[i]);
+                    knots[i] = hn::Set(d, from[4 + i]);
+                }
+            }
+            // ShadedSpans::Interval.
+            const auto& [base, intervals, limit, unused] = knots;
+            const Floats at = hn::Mul(positions_on_spans(n, K, ends), intervals);
+            const Floats to_whole = hn::Set(d, shading::LightGrid::to_whole);
+            const Floats rounded = hn::Add(hn::Min(hn::Sub(at, hn::Set(d, 0.5f)), limit), to_whole);
+            hn::Store(hn::Sub(at, hn::Sub(rounded, to_whole)), d, fractions_ + k);
+            hn::Store(hn::ShiftLeft<4>(hn::Add(hn::BitCast(du, base), hn::BitCast(du, rounded))), du, offsets_ + k);
+        }
+    }
+
+    // Shades the samples of these words, the first of them in direction k of a column (shade_vectors).
+    HWY_INLINE void operator()(const std::uint64_t* words, std::size_t column, std::size_t k,
+                               Floats (&values)[4]) const {
+        const FloatTag d;
+        const NumberTag du;
+        interpolate(k, values);
+        // Pending knots have no depth.
+        if (HWY_UNLIKELY(!hn::AllFalse(d, hn::IsNaN(values[3])))) {
+            // A copy, so that values can stay in registers.
+            Floats some[4] = {values[0], values[1], values[2], values[3]};
+            shade_pending(words, column, k, some);
+            for (int i = 0; i < 4; ++i) values[i] = some[i];
+        }
+        if (!depth_) return;
+        const auto background = hn::RebindMask(d, hn::Eq(numbers_of(words), hn::Set(du, EpipolarPlane::background)));
+        const Floats background_depth = hn::Set(d, span_values_[EpipolarPlane::background].value0[3]);
+        values[3] = hn::IfThenElse(background, background_depth, values[3]);
+    }
+
+  private:
+    HWY_INLINE void interpolate(std::size_t k, Floats (&values)[4]) const {
+        const FloatTag d;
+        const NumberTag du;
+        const auto* knots = reinterpret_cast<const char*>(spans_.knots());
+        const std::uint32_t* offsets = offsets_ + k;
+        const Floats fraction = hn::Load(d, fractions_ + k);
+        const auto knot = [knots](std::uint32_t offset, std::size_t i)
+                              HWY_ATTR { return reinterpret_cast<const float*>(knots + offset) + i; };
+        if (hn::AllTrue(du, hn::Eq(hn::Load(du, offsets), hn::Set(du, offsets[0])))) {
+            const float* here = knot(offsets[0], 0);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Floats from = hn::Set(d, here[i]);
+                values[i] = hn::Add(from, hn::Mul(fraction, hn::Sub(hn::Set(d, here[4 + i]), from)));
+            }
+            return;
+        }
+        const auto interpolated = [&](std::size_t i, Floats fractions) HWY_ATTR {
+            const Floats here = load_blocks([=](std::size_t lane) { return knot(offsets[i + lane], 0); }),
+                         next = load_blocks([=](std::size_t lane) { return knot(offsets[i + lane], 4); });
+            return hn::Add(here, hn::Mul(fractions, hn::Sub(next, here)));
+        };
+        values[0] = interpolated(0, hn::Broadcast<0>(fraction));
+        values[1] = interpolated(1, hn::Broadcast<1>(fraction));
+        values[2] = interpolated(2, hn::Broadcast<2>(fraction));
+        values[3] = interpolated(3, hn::Broadcast<3>(fraction));
+        transpose(values);
+    }
+
+    // The lanes that see a pending knot, as bits.
+    static HWY_INLINE std::uint64_t pending_lanes(const Floats (&values)[4]) {
+        return bits_of(FloatTag(), hn::IsNaN(values[3]));
+    }
+
+    // Fills the pending knots of a vector of samples, and evaluates the samples of spans without knots.
+    HWY_NOINLINE void shade_pending(const std::uint64_t* words, std::size_t column, std::size_t k,
+                                    Floats (&values)[4]) const {
+        const FloatTag d;
+        constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
+        static_assert(lanes <= 16);
+        HWY_ALIGN float value[4][lanes];
+        const float n = static_cast<float>(plane_.first_column) + static_cast<float>(column);
+        const auto position_of = [&](std::size_t i) {
+            return position_on_span(span_values_[words[i] & 0xffffffff], n,
+                                    plane_.first_direction + static_cast<float>(k + i));
+        };
+        for (std::uint64_t rest = pending_lanes(values); rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            const std::size_t number = words[i] & 0xffffffff;
+            if (spans_.spans()[number].from == RadianceFrom::cache)
+                fill_knots_around(position_of(i), number, span_values_[number], spans_, source_, colour_);
+        }
+        interpolate(k, values);
+        std::uint64_t rest = pending_lanes(values);
+        if (rest == 0) return;
+        for (int i = 0; i < 4; ++i) hn::Store(values[i], d, value[i]);
+        for (; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            const std::size_t number = words[i] & 0xffffffff;
+            // A lane behind the column's end, where begin() saw the next column.
+            if (number == EpipolarPlane::background) continue;
+            const float position = position_of(i);
+            const Rgb radiance = source_.radiance(number, position, column, k + i);
+            value[0][i] = colour_ ? radiance.r : luminance(radiance);
+            value[1][i] = radiance.g;
+            value[2][i] = radiance.b;
+            value[3][i] = span_values_[number].value0[3] + position * span_values_[number].difference[3];
+        }
+        for (int i = 0; i < 4; ++i) values[i] = hn::Load(d, value[i]);
+    }
+
+    const EpipolarPlane& plane_;
+    const SpanValues* span_values_;
+    ShadedSpans& spans_;
+    const RadianceSource& source_;
+    bool colour_, depth_;
+    // For each sample of a column: the offset of the knot before it, in bytes, and Interval::fraction.
+    std::uint32_t* offsets_;
+    float* fractions_;
+};
+
+void ShadeBetweenKnots(const EpipolarPlane& plane, std::span<const SpanValues> values, ShadedSpans& spans,
+                       const RadianceSource& source, const PlaneOutput& out) {
+    fill_visible_knots({plane.words, plane.columns * plane.directions}, values, spans, source,
+                       out.values[1] != nullptr);
+    thread_local std::vector<std::uint32_t, CacheLineAllocator<std::uint32_t> > offsets;
+    thread_local std::vector<float, CacheLineAllocator<float> > fractions;
+    constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
+    offsets.resize(plane.directions + lanes);
+    fractions.resize(plane.directions + lanes);
+    shade_vectors(plane, out, KnotShading(plane, values, spans, source, out, offsets.data(), fractions.data()));
+}
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel::render::epi
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel::render::epi {
+
+HWY_EXPORT(ShadeBetweenKnots);
+
+void shade_between_knots(const EpipolarPlane& plane, std::span<const SpanValues> values, ShadedSpans& spans,
+                         const RadianceSource& source, const PlaneOutput& out) {
+    HWY_DYNAMIC_DISPATCH(ShadeBetweenKnots)(plane, values, spans, source, out);
+}
+
+}  // namespace hogel::render::epi
+#endif

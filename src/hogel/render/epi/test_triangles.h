@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+
+#include "hogel/render/epi/kernels.h"
+#include "hogel/shading.h"
+
+namespace hogel::render::epi {
+
+/// Triangles for tests, around the middle of the hologram and on both sides of it. Along an axis no corner is farther
+/// than `max_distance` from a triangle's middle; the corners of every third triangle have the same height. Radiances
+/// are (triangle, corner, 0).
+inline ShadedScene scattered_triangles(std::size_t count, double max_distance) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> coordinate(-4e-3, 4e-3), offset(-max_distance, max_distance);
+    ShadedScene scene;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3 middle{coordinate(random), coordinate(random), coordinate(random)};
+        for (int corner = 0; corner < 3; ++corner) {
+            scene.positions.push_back(middle + Vec3{offset(random), i % 3 == 0 ? 0 : offset(random), offset(random)});
+            scene.radiance.push_back({float(i), float(corner), 0});
+        }
+        scene.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, ShadedScene::no_texture, 0});
+    }
+    return scene;
+}
+
+/// Tests of the vector kernels built for one instruction set of this processor (kernel_targets).
+class KernelTargetTest : public ::testing::TestWithParam<std::int64_t> {
+  protected:
+    void SetUp() override { use_kernel_target(GetParam()); }
+    void TearDown() override { use_kernel_target(0); }
+};
+
+}  // namespace hogel::render::epi

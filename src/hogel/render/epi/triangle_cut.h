@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace hogel::render::epi {
+
+/// Where an edge meets a plane, and the weight there of the lone corner (TriangleCut); the edge's other corner has the
+/// rest.
+struct Crossing {
+    double x, z, weight;
+};
+
+/// The segment in which a plane cuts a triangle. Of three corners on two sides of the plane one is alone on its side:
+/// `lone`. End 0 lies on the edge from there to the corner `next`, end 1 on the edge to `last`. `next` is the corner
+/// that makes end 0 the left one as seen from the triangle's front, where its corners run counterclockwise.
+struct TriangleCut {
+    std::uint32_t lone, next, last;
+    Crossing end0, end1;
+};
+
+/// Cuts a triangle whose corners (x, z) have these heights above the plane: one or two of them below 0. An edge is
+/// always cut from its lower end to its upper, so that triangles that share it get the same crossing, to the last bit.
+inline TriangleCut cut_triangle(const std::array<double, 3>& x, const std::array<double, 3>& z,
+                                const std::array<double, 3>& height) {
+    // By tables and selections, because no branch here can be predicted.
+    constexpr std::array<std::uint8_t, 8> alone{0, 0, 1, 2, 2, 1, 0, 0}, after{1, 2, 0}, before{2, 0, 1};
+    const unsigned below = unsigned{height[0] < 0} | unsigned{height[1] < 0} << 1 | unsigned{height[2] < 0} << 2;
+    const bool upwards = (below & (below - 1)) == 0;
+    const std::uint32_t lone = alone[below], next = upwards ? before[lone] : after[lone], last = 3 - lone - next;
+    const auto cross = [&](std::uint32_t other) {
+        const std::uint32_t low = upwards ? lone : other, high = upwards ? other : lone;
+        const double fraction = height[low] / (height[low] - height[high]);
+        return Crossing{x[low] + fraction * (x[high] - x[low]), z[low] + fraction * (z[high] - z[low]),
+                        upwards ? 1 - fraction : fraction};
+    };
+    return {lone, next, last, cross(next), cross(last)};
+}
+
+}  // namespace hogel::render::epi
