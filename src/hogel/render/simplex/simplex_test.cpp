@@ -307,8 +307,8 @@ TEST(Clip, divides_a_simplex_without_gap_or_overlap) {
     EXPECT_EQ(pieces, (std::set<std::size_t>{0, 1, 4, 6}));
 }
 
-// A point of the plane lies in one tetrahedron of the slice exactly if it lies in the simplex, and in one triangle of the
-// slice of the slice.
+// A point of the plane lies in one tetrahedron of the slice exactly if it lies in the simplex, and in one triangle of
+// the slice of the slice.
 TEST(Slice, is_the_intersection_of_simplex_and_plane) {
     std::mt19937 random(5);
     std::set<std::size_t> tetrahedra, triangles;
@@ -316,9 +316,9 @@ TEST(Slice, is_the_intersection_of_simplex_and_plane) {
     int inside_both = 0;
     for (int i = 0; i < 2000; ++i) {
         Simplex<4> simplex = random_simplex(random);
-        const ProjectedPoint p = i % 2 == 0
-                                     ? random_point(random, simplex)
-                                     : ProjectedPoint{coordinate(random), coordinate(random), coordinate(random), coordinate(random), 0};
+        const ProjectedPoint p = i % 2 == 0 ? random_point(random, simplex)
+                                            : ProjectedPoint{coordinate(random), coordinate(random), coordinate(random),
+                                                             coordinate(random), 0};
         const int inside = contains<4>(simplex, p) ? 1 : 0;
         int in_tetrahedra = 0, in_triangles = 0;
         std::size_t tetrahedra_here = 0;
