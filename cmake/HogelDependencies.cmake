@@ -1,25 +1,16 @@
-# Every third-party library, found once. Each is included by one file or one small folder of src/hogel,
-# and by no public header, so a program that uses the installed library needs none of their headers.
+# Every third-party library that the library itself links, found once. Each is included by one folder of src/hogel and by no
+# public header, so a program that uses a shared hogel needs none of them. A static hogel hands them on: its package
+# (hogelConfig.cmake) includes this file too.
 find_package(PkgConfig REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(assimp REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(fmt REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(nlohmann_json REQUIRED)
 # libfftw3f is GPL; any library with the same interface can be put in its place here (see math/fft.cpp).
 pkg_check_modules(fftw3f REQUIRED IMPORTED_TARGET fftw3f)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
-add_library(hwy::hwy ALIAS PkgConfig::hwy)
 # By pkg-config, because Debian's CMake files of OpenImageIO insist on its programs (and so on Qt), and CMake's own
 # search for HDF5 needs a C compiler and links what HDF5 itself links (curl, ssl).
 pkg_check_modules(openimageio REQUIRED IMPORTED_TARGET OpenImageIO)
-add_library(OpenImageIO::OpenImageIO ALIAS PkgConfig::openimageio)
 pkg_search_module(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
-add_library(hdf5::hdf5 ALIAS PkgConfig::hdf5)
-# Only `hogel bench render --peers` uses it; see [peers] of packages.txt.
-find_package(OpenGL QUIET COMPONENTS EGL)
-if(HOGEL_TESTS)
-  find_package(GTest REQUIRED)
-endif()

@@ -7,16 +7,16 @@ usage: check_includes.py TABLE PROJECT_DIR
 
 A module may include itself, what it uses, and what those use; of other modules only what its table row allows, whether the
 header is private (src/hogel/MODULE/...) or public (include/hogel/HEADER.h). A family's folder may not include those that
-FORBIDDEN_IN names. Public headers include public headers alone. A third-party header may be included by the modules named in
-THIRD_PARTY alone, and by no public header. Front ends (apps) include public headers alone.
+FORBIDDEN_IN names. Public headers include public headers alone. A third-party header may be included by the modules, or folders
+of modules, named in THIRD_PARTY alone, and by no public header. Front ends (apps) include public headers alone.
 """
 import pathlib
 import re
 import sys
 
-THIRD_PARTY = {  # first part of the include path -> the modules whose .cpp files may name it; None: any
+THIRD_PARTY = {  # first part of the include path -> the modules or folders that may name it; None: any
     "tbb": {"core"}, "fftw3.h": {"math"}, "OpenImageIO": {"image"}, "assimp": {"scene"}, "embree3": {"trace"},
-    "hdf5.h": {"io"}, "hwy": {"codec", "core", "direct", "hologram", "math", "optics", "render", "shading"}, "fmt": None,
+    "hdf5.h": {"io/hdf5"}, "hwy": {"codec", "core", "direct", "hologram", "math", "optics", "render", "shading"}, "fmt": None,
     "gtest": None,
 }
 FORBIDDEN_IN = {  # folder -> folders that it may not include
@@ -26,7 +26,7 @@ FORBIDDEN_IN = {  # folder -> folders that it may not include
     "render/epi": ("render/simplex", "render/baselines"),
     "render/simplex": ("render/epi", "render/baselines"),
     "render/baselines": ("render/epi", "render/simplex"),
-    "io/hdf5": ("io/arrays",),
+    "io/hdf5": ("io/arrays",), "io/arrays": ("io/hdf5",),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
@@ -86,7 +86,7 @@ def check_module(table, module, root, wrong):
                 if header.startswith(f"hogel/{folder}/"):
                     wrong.append(f"{path}:{number}: {inside} may not include '{header}'")
             owners = THIRD_PARTY.get(header.split("/")[0])
-            if owners is not None and module not in owners:
+            if owners is not None and not owners & {module, inside}:
                 wrong.append(f"{path}:{number}: only {', '.join(sorted(owners))} may include '{header}'")
 
 

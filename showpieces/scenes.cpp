@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/scene/analytic_scenes.h"
 #include "showpieces/showpieces.h"
@@ -42,6 +43,7 @@ Table<SceneInfo>& scenes() {
 }
 
 Scene make_scene(std::string_view name, double hologram_size, const Progress& progress) {
+    const core::StopScope scope(progress);
     const SceneInfo& info = scenes().find(name);
     if (!(hologram_size > 0 && std::isfinite(hologram_size)))
         throw Error(ErrorCode::usage,

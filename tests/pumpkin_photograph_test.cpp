@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole way from a scene to a photograph: what an eye sees in front of the hologram is what geometric optics says.
+// From a scene to a photograph: an eye in front of the hologram sees the picture of geometric optics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,11 +42,10 @@ struct Photographs {
                 cameras.push_back(camera);
             }
         HologramOptions options;
-        options.wavelength = 532_nm;
+        options.channel = {532_nm, 1};
         options.pitch = size / pixels / 32;
-        options.channel = 1;
         options.looks = 16;
-        waves = photograph(*make_hologram(light_field, options), cameras);
+        waves = photograph(*make_hologram(borrow(light_field), options), cameras);
         for (const Image& colour : photograph(borrow(light_field), cameras)) {
             Image green(pixels, pixels, 1);
             for (std::size_t i = 0; i < green.pixels.size(); ++i)
@@ -68,7 +67,7 @@ class PumpkinPhotograph : public ::testing::Test {
 TEST_F(PumpkinPhotograph, differs_from_geometric_optics_by_little_more_than_speckle) {
     for (std::size_t i = 0; i < photographs().cameras.size(); ++i) {
         const ImageComparison comparison = compare(photographs().waves[i], photographs().rays[i], exposure());
-        EXPECT_GT(comparison.psnr, 25) << i;
+        EXPECT_GT(comparison.psnr, 33) << i;  // the figure of the README
         RecordProperty("psnr_" + std::to_string(i), std::to_string(comparison.psnr));
         RecordProperty("ssim_" + std::to_string(i), std::to_string(comparison.ssim));
     }
@@ -141,7 +140,7 @@ double shift_between(const Image& from, const Image& to, std::size_t row) {
     return best + 0.5 * (before - after) / (before - 2 * at + after);
 }
 
-// Interpolation two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in
+// Between two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in
 // waves as in rays, to a fraction of a pixel.
 TEST_F(PumpkinPhotograph, has_the_parallax_that_geometric_optics_says) {
     for (std::size_t row = 60; row + 60 < pixels; row += strip) {

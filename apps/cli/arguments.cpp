@@ -3,17 +3,22 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <charconv>
+#include <cstdint>
 #include <numbers>
+#include <system_error>
 
-#include "defaults.h"
+#include "command_line.h"
 #include "hogel/error.h"
+#include "hogel/pipeline.h"
 #include "hogel/units.h"
 
 namespace hogel::cli {
+
+using namespace literals;
 namespace {
 
-constexpr std::size_t max_count = std::size_t{1} << 24;  // more along one side is a slip of the finger
+constexpr std::size_t max_count = std::size_t{1} << 24;  // more than this along one side is a typing error
 
 std::size_t parse_count(const std::string& text, const std::string& what, const char* hint) {
     const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
@@ -22,6 +27,14 @@ std::size_t parse_count(const std::string& text, const std::string& what, const 
         if (count > 0 && count <= max_count) return count;
     }
     throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a positive whole number{}", what, text, hint));
+}
+
+std::uint64_t parse_whole(const std::string& text, const std::string& what, std::uint64_t max) {
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size() || number > max)
+        throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a whole number from 0 to {}", what, text, max));
+    return number;
 }
 
 Counts parse_counts(const std::string& text, const std::string& what) {
@@ -40,7 +53,7 @@ std::string unit_of(const std::string& last) {
     return number == std::string::npos ? "" : last.substr(number);
 }
 
-// One of the parts: with a unit of its own, or else with the one of the last.
+// A part with its own unit, or else with that of the last part.
 std::string with_unit(const std::string& part, const std::string& unit) {
     return part.find_first_not_of("+-.0123456789") == std::string::npos ? part + unit : part;
 }
@@ -64,76 +77,86 @@ Vec3 parse_point(const std::string& text, const std::string& what) {
     return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
 }
 
-// An option that is read by a function of its text and its name.
-template <class Value, class Parse>
-CLI::Option* add_parsed(CLI::App* command, const std::string& name, Value& value, const std::string& help,
-                        const char* type, const std::string& shown, Parse parse) {
-    return command
-        ->add_option_function<std::string>(
-            name, [&value, name, parse](const std::string& text) { value = parse(text, name); }, help)
-        ->type_name(type)
-        ->default_str(shown);
-}
-
-// Without the space that format_length puts before the unit: as one types it.
+// A length as one types it: without the space that format_length puts before the unit.
 std::string typed(double metres) {
     std::string text = format_length(metres);
     std::erase(text, ' ');
     return text;
 }
 
+std::string degrees(double radians) { return fmt::format("{:.6g}", radians * 180 / std::numbers::pi); }
+
 }  // namespace
 
-CLI::Option* add_length(CLI::App* command, const std::string& name, double& metres, const std::string& help) {
-    return add_parsed(command, name, metres, help, "LENGTH", typed(metres),
-                      [](const std::string& text, const std::string& what) { return parse_length(text, what); });
+Option Command::length(const std::string& name, double& metres, const std::string& help) {
+    return read_option(
+        name, "LENGTH", typed(metres), help,
+        [&metres](const std::string& text, const std::string& what) { metres = parse_length(text, what); });
 }
 
-CLI::Option* add_angle(CLI::App* command, const std::string& name, double& radians, const std::string& help) {
-    return add_parsed(command, name, radians, help, "ANGLE", fmt::format("{:.6g}deg", radians * 180 / std::numbers::pi),
-                      [](const std::string& text, const std::string& what) { return parse_angle(text, what); });
+Option Command::angle(const std::string& name, double& radians, const std::string& help) {
+    return read_option(
+        name, "ANGLE", degrees(radians) + "deg", help,
+        [&radians](const std::string& text, const std::string& what) { radians = parse_angle(text, what); });
 }
 
-CLI::Option* add_angles(CLI::App* command, const std::string& name, Angles& angles, const std::string& help) {
-    const double across = angles.across * 180 / std::numbers::pi, down = angles.down * 180 / std::numbers::pi;
-    const std::string shown =
-        across == down ? fmt::format("{:.6g}deg", across) : fmt::format("{:.6g},{:.6g}deg", across, down);
-    return add_parsed(command, name, angles, help, "ANGLE[,ANGLE]", shown, parse_angles);
+Option Command::angles(const std::string& name, Angles& angles, const std::string& help) {
+    const std::string across = degrees(angles.across), down = degrees(angles.down);
+    return read_option(
+        name, "ANGLE[,ANGLE]", across == down ? across + "deg" : across + "," + down + "deg", help,
+        [&angles](const std::string& text, const std::string& what) { angles = parse_angles(text, what); });
 }
 
-CLI::Option* add_counts(CLI::App* command, const std::string& name, Counts& counts, const std::string& help) {
-    return add_parsed(command, name, counts, help, "WxH", fmt::format("{}x{}", counts.columns, counts.rows),
-                      parse_counts);
+Option Command::counts(const std::string& name, Counts& counts, const std::string& help) {
+    return read_option(
+        name, "WxH", fmt::format("{}x{}", counts.columns, counts.rows), help,
+        [&counts](const std::string& text, const std::string& what) { counts = parse_counts(text, what); });
 }
 
-CLI::Option* add_resolution(CLI::App* command, const std::string& name, Counts& counts, const std::string& help) {
-    return add_parsed(command, name, counts, help, "W|WxH", fmt::format("{}", counts.columns),
-                      [](const std::string& text, const std::string& what) {
-                          Counts read = parse_counts(text, what);
-                          if (text.find('x') == std::string::npos) read.rows = 0;
-                          return read;
-                      });
+Option Command::resolution(const std::string& name, Counts& counts, const std::string& help) {
+    return read_option(name, "W|WxH", fmt::format("{}", counts.columns), help,
+                       [&counts](const std::string& text, const std::string& what) {
+                           counts = parse_counts(text, what);
+                           if (text.find('x') == std::string::npos) counts.rows = 0;
+                       });
 }
 
-CLI::Option* add_point(CLI::App* command, const std::string& name, Vec3& point, const std::string& help) {
-    return add_parsed(command, name, point, help, "X,Y,Z",
-                      fmt::format("{:.6g},{:.6g},{:.6g}mm", point.x * 1e3, point.y * 1e3, point.z * 1e3), parse_point);
+Option Command::point(const std::string& name, Vec3& point, const std::string& help) {
+    const std::string shown = fmt::format("{:.6g},{:.6g},{:.6g}mm", point.x * 1e3, point.y * 1e3, point.z * 1e3);
+    return read_option(name, "X,Y,Z", shown, help,
+                       [&point](const std::string& text, const std::string& what) { point = parse_point(text, what); });
 }
 
-CLI::Option* add_count(CLI::App* command, const std::string& name, std::size_t& count, const std::string& help) {
-    return add_parsed(command, name, count, help, "N", fmt::format("{}", count),
-                      [](const std::string& text, const std::string& what) { return parse_count(text, what, ""); });
+Option Command::count(const std::string& name, std::size_t& count, const std::string& help) {
+    return read_option(
+        name, "N", fmt::format("{}", count), help,
+        [&count](const std::string& text, const std::string& what) { count = parse_count(text, what, ""); });
 }
 
-CLI::Option* add_wavelengths(CLI::App* command, std::vector<double>& wavelengths) {
+Option Command::whole(const std::string& name, std::uint64_t& number, std::uint64_t max, const std::string& help) {
+    return read_option(
+        name, "N", fmt::format("{}", number), help,
+        [&number, max](const std::string& text, const std::string& what) { number = parse_whole(text, what, max); });
+}
+
+Option Command::wavelengths(std::vector<double>& wavelengths) {
     wavelengths = {defaults.red, defaults.green, defaults.blue};
-    return add_parsed(command, "--wavelength", wavelengths,
-                      fmt::format("Wavelength, or rgb for {}, {} and {}", format_length(defaults.red),
-                                  format_length(defaults.green), format_length(defaults.blue)),
-                      "LENGTH|rgb", "rgb", [](const std::string& text, const std::string& what) {
-                          if (text == "rgb") return std::vector{defaults.red, defaults.green, defaults.blue};
-                          return std::vector{parse_length(text, what)};
-                      });
+    return read_option("--wavelength", "LENGTH|rgb", "rgb",
+                       fmt::format("Wavelength, or rgb for {}, {} and {}", format_length(defaults.red),
+                                   format_length(defaults.green), format_length(defaults.blue)),
+                       [&wavelengths](const std::string& text, const std::string& what) {
+                           if (text == "rgb")
+                               wavelengths = {defaults.red, defaults.green, defaults.blue};
+                           else
+                               wavelengths = {parse_length(text, what)};
+                       });
+}
+
+std::optional<double> parse_number(const std::string& text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return {};
+    return number;
 }
 
 std::size_t colour_of(double wavelength) {

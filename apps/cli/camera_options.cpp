@@ -35,37 +35,25 @@ Camera make_camera(const CameraOptions& options, double width, double height, do
 
 }  // namespace
 
-void add_camera_options(CLI::App* command, CameraOptions& options) {
-    const auto group = [](CLI::Option* option) {
-        option->group("Camera");
-        return option;
-    };
-    group(add_point(command, "--eye", options.eye, "Centre of the lens; the hologram is around 0,0,0"));
-    group(add_point(command, "--gaze", options.gaze, "What is in the middle of the picture"));
-    group(add_length(command, "--focus", options.focus,
-                     "Depth in focus: positive behind the hologram, negative in front"));
-    group(add_angles(command, "--focus-tilt", options.focus_tilt,
-                     "Tilt of the plane in focus, as by a tilted film:\nits depth grows to the right, and upwards"));
-    CLI::Option* pupil = group(add_length(command, "--pupil", options.pupil, "Diameter of the lens"));
-    group(command->add_option("--f-number", options.f_number, "The same as a part of the focal length")
-              ->type_name("NUMBER")
-              ->check(CLI::PositiveNumber.description(""))
-              ->excludes(pupil));
-    group(add_length(command, "--focal-length", options.focal_length, "With --f-number"));
-    group(add_angle(command, "--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram"));
-    group(add_resolution(command, "--resolution", options.resolution, "Pixels across, or across and down"));
-    const auto moves = [&](CLI::Option* option, bool& flag) {
-        group(option)->each([&flag](const std::string&) { flag = true; });
-    };
-    moves(add_point(command, "--to-eye", options.last_eye, "The eye of the last frame"), options.moves_eye);
-    moves(add_length(command, "--to-focus", options.last_focus, "The depth in focus of the last frame"),
-          options.moves_focus);
-    group(add_count(command, "--frames", options.frames,
-                    "Pictures on the way, for an output .mp4, .gif, .apng or name####.png"));
-    group(command->add_option("--frame-rate", options.frame_rate, "Frames a second of a film")
-              ->type_name("NUMBER")
-              ->check(CLI::PositiveNumber.description(""))
-              ->capture_default_str());
+void add_camera_options(Command& command, CameraOptions& options) {
+    command.group("Camera");
+    command.point("--eye", options.eye, "Centre of the lens; the hologram is around 0,0,0");
+    command.point("--gaze", options.gaze, "What is in the middle of the picture");
+    command.length("--focus", options.focus, "Depth in focus: positive behind the hologram, negative in front");
+    command.angles("--focus-tilt", options.focus_tilt,
+                   "Tilt of the plane in focus, as by a tilted film:\nits depth grows to the right, and upwards");
+    const Option pupil = command.length("--pupil", options.pupil, "Diameter of the lens");
+    command.number("--f-number", options.f_number, "NUMBER", "The same as a part of the focal length")
+        .no_default()
+        .positive()
+        .excludes(pupil);
+    command.length("--focal-length", options.focal_length, "With --f-number");
+    command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram");
+    command.resolution("--resolution", options.resolution, "Pixels across, or across and down");
+    command.point("--to-eye", options.last_eye, "The eye of the last frame").sets(options.moves_eye);
+    command.length("--to-focus", options.last_focus, "The depth in focus of the last frame").sets(options.moves_focus);
+    command.count("--frames", options.frames, "Pictures on the way, for an output .mp4, .gif, .apng or name####.png");
+    command.number("--frame-rate", options.frame_rate, "NUMBER", "Frames a second of a film").positive();
 }
 
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height) {

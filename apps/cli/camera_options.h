@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "arguments.h"
-#include "defaults.h"
+#include "command_line.h"
 #include "hogel/camera.h"
+#include "hogel/pipeline.h"
 
 namespace hogel::cli {
 
@@ -24,7 +24,7 @@ struct CameraOptions {
     double frame_rate = defaults.frame_rate;
     bool moves_eye = false, moves_focus = false;
 };
-void add_camera_options(CLI::App* command, CameraOptions& options);
+void add_camera_options(Command& command, CameraOptions& options);
 
 /// The cameras of all frames, for a hologram of this size. Throws Error(usage).
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height);

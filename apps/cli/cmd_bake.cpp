@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "hogel/bake.h"
-#include "hogel/scenes.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -16,7 +16,7 @@ struct Options {
     BakeOptions bake{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};
 };
 
-int bake_scene(const Options& options, const Session& session) {
+int bake(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_baked_scene_name(options.output);
@@ -25,8 +25,9 @@ int bake_scene(const Options& options, const Session& session) {
     place.size = options.size;
     BakeOptions bake_options = options.bake;
     bake_options.seed = session.seed;
+    const Scene scene = load_scene(session, options.scene, place);
     Stage stage(session, "baking");
-    const Scene baked = bake_scene(load_scene(session, options.scene, place), bake_options, stage.progress());
+    const Scene baked = hogel::bake_scene(scene, bake_options, stage.progress());
     write_baked_scene(options.output, baked);
     session.say(fmt::format("{}: {} triangles, {}; render it with --as-is", options.output, triangle_count(baked),
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
@@ -35,20 +36,19 @@ int bake_scene(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_bake(CLI::App& app, Session& session) {
+void add_bake(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "bake", "Light a scene for good, reflected light included",
-                                    "  hogel bake church -o church.glb\n"
-                                    "  hogel render church.glb -o church.h5 --as-is --shading given",
-                                    [options, &session] { return bake_scene(*options, session); });
-    command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
-    command->add_option("-o,--output", options->output, "Mesh to write, with the radiance of every vertex: .glb")
-        ->type_name("FILE")
-        ->required();
-    add_count(command, "--rays", options->bake.rays, "From every vertex, for reflected light");
-    add_count(command, "--bounces", options->bake.bounces, "How often light is reflected");
-    add_count(command, "--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
-    add_length(command, "--size", options->size, "Width of the hologram that the scene is fitted to");
+    command.examples(
+        "  hogel bake church -o church.glb\n"
+        "  hogel render church.glb -o church.h5 --as-is --shading given");
+    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
+    command.text("-o,--output", options->output, "FILE", "Mesh to write, with the radiance of every vertex: .glb")
+        .required();
+    command.count("--rays", options->bake.rays, "From every vertex, for reflected light");
+    command.count("--bounces", options->bake.bounces, "How often light is reflected");
+    command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
+    command.length("--size", options->size, "Width of the hologram that the scene is fitted to");
+    command.work([options, &session] { return bake(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "commands.h"
-#include "hogel/hologram/parallax.h"
+#include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -33,22 +34,8 @@ void say_what_was_made(const Options& options, const std::vector<FieldGrid>& gri
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
 }
 
-// Said, not refused: it shows only where things are deep.
-void warn_of_parallax(const Session& session, const LightFieldSource& light_field, double pitch) {
-    const double parallax = hologram::neighbouring_parallax(light_field, pitch);
-    if (parallax <= hologram::max_parallax) return;
-    const LightFieldGrid& grid = light_field.grid();
-    const auto enough = [&](std::size_t count) {
-        return std::ceil(static_cast<double>(count) * parallax / hologram::max_parallax);
-    };
-    session.say(
-        fmt::format("neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap "
-                    "well up to {:.0f}; {}x{} directions would do",
-                    parallax, hologram::max_parallax, enough(grid.directions_u), enough(grid.directions_v)));
-}
-
 // The field of a scene by a method that knows no light fields.
-int straight_from_scene(const Options& options, const SceneMethod& method, const Session& session) {
+int straight_from_scene(const Options& options, const SceneHologramMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
     if (options.render.fronts_only)
         throw Error(ErrorCode::usage, fmt::format("--cull-back-faces: method {} cannot", method.name));
@@ -67,7 +54,7 @@ int straight_from_scene(const Options& options, const SceneMethod& method, const
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
     RenderOptions render = options.render;
     render.cache_spacing = 0;  // in parts of a ray's width, and there are no rays
-    const auto scene = shade_scene(session, load_scene(session, options.input, render), render);
+    const auto scene = light_scene(session, load_scene(session, options.input, render), render);
     const auto sinks = create_hologram(options.output, grids, options.file(session));
     SceneHologramOptions how;
     how.seed = session.seed;
@@ -85,7 +72,7 @@ int straight_from_scene(const Options& options, const SceneMethod& method, const
 
 int hologram(Options options, const Session& session) {
     const InputKind kind = input_kind(options.input);
-    if (const SceneMethod* method = find_scene_method(options.hologram.method)) {
+    if (const SceneHologramMethod* method = scene_hologram_methods().look_up(options.hologram.method)) {
         if (kind == InputKind::scene) return straight_from_scene(options, *method, session);
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is no scene, and method {} works on scenes", options.input, method->name));
@@ -95,49 +82,50 @@ int hologram(Options options, const Session& session) {
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output);
     HologramFileOptions file = options.file(session);
-    std::vector<std::unique_ptr<LightFieldSource>> faces;
-    if (kind == InputKind::scene) {
+    HologramRequest request = options.hologram.request(session, 1);
+    const LightField light_field = [&] {
+        if (kind == InputKind::light_field) {
+            if (options.resume) file.resume = describe_input(options.input);
+            return open_for_holograms(options.input, request, options.hologram.basis.empty());
+        }
+        require_holograms(options.render.request().grids(), request);
         const Scene scene = load_scene(session, options.input, options.render);
         if (options.resume) file.resume = describe_input(options.input, scene);
-        faces = render_faces_on_demand(session, scene, options.render);
-    } else {
-        if (options.resume) file.resume = describe_input(options.input);
-        faces = open_for_hologram(options.input, options.hologram);
+        return prepare_for_reading(session, render_light_field(session, scene, options.render), request.channels.size(),
+                                   needs_depth(request.method));
+    }();
+    require_holograms(light_field.grids(), request);
+    if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
+    const Plan plan = plan_holograms(light_field.grids(), request, file);
+    require_resources(plan, "synthesising the hologram", options.output);
+    session.detail(fmt::format("the hologram takes {} of memory, {} of disk, about {:.0f} s", format_bytes(plan.memory),
+                               format_bytes(plan.disk), plan.seconds));
+    const auto holograms = make_holograms(light_field, request);
+    {
+        Stage stage(session, "hologram");
+        write_holograms(options.output, holograms, file, stage.progress());
     }
-    require_holograms(grids_of(faces), options.hologram);
-    if (kind == InputKind::scene)
-        faces = render_for_reading(session, std::move(faces), options.hologram.wavelengths.size(),
-                                   needs_depth(options.hologram));
-    if (options.hologram.method == "olas") warn_of_parallax(session, *faces.front(), options.hologram.pitch);
-    const auto sources = make_holograms(session, faces, options.hologram, 1);
-
     std::vector<FieldGrid> grids;
-    for (const auto& source : sources) grids.push_back(source->grid());
-    const auto sinks = create_hologram(options.output, grids, file);
-    Stage stage(session, "hologram");
-    for (std::size_t i = 0; i < sources.size(); ++i) copy(*sources[i], *sinks[i], 0, stage.progress(i, sources.size()));
+    for (const auto& hologram : holograms) grids.push_back(hologram->grid());
     say_what_was_made(options, grids, session);
     return 0;
 }
 
 }  // namespace
 
-void add_hologram(CLI::App& app, Session& session) {
+void add_hologram(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "hologram", "Turn a light field or a scene into a hologram",
-                                    "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
-                                    "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm",
-                                    [options, &session] { return hologram(*options, session); });
-    command->add_option("input", options->input, "Light field, mesh file or built-in scene")
-        ->type_name("X.h5|SCENE")
-        ->required();
-    command->add_option("-o,--output", options->output, "Hologram to write, HDF5")->type_name("FILE")->required();
-    command->add_flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
+    command.examples(
+        "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
+        "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm");
+    command.positional("input", options->input, "X.h5|SCENE", "Light field, mesh file or built-in scene");
+    command.text("-o,--output", options->output, "FILE", "Hologram to write, HDF5").required();
+    command.flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);
-    add_hologram_options(command, options->hologram);
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    command.work([options, &session] { return hologram(*options, session); });
 }
 
 }  // namespace hogel::cli

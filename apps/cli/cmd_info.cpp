@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "hogel/files.h"
@@ -65,30 +65,42 @@ FileSummary summarize_any(const std::string& path) {
                 fmt::format("{}: is neither a light field, a hologram, a picture nor a mesh", path));
 }
 
-int info(const std::string& path, bool as_json) {
+// A fact that a file holds as text: true or false where it is one of these.
+ResultValue value_of(const std::string& text) {
+    if (text == "yes" || text == "no") return text == "yes";
+    return text;
+}
+
+ResultValue value_of(double number) {
+    constexpr double exact = 9007199254740992;  // 2⁵³: up to here a double holds every whole number
+    if (std::abs(number) <= exact && number == std::trunc(number)) return static_cast<std::int64_t>(number);
+    return number;
+}
+
+int info(const std::string& path, const Session& session) {
     const FileSummary summary = summarize_any(path);
-    if (as_json) {
-        nlohmann::ordered_json json;
-        for (const auto& [name, value] : summary.text) json[name] = value;
-        for (const auto& [name, value] : summary.numbers) json[name] = value;
-        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    } else {
-        for (const auto& [name, value] : summary.text) fmt::print("{:<24} {}\n", name, value);
-        for (const auto& [name, value] : summary.numbers) fmt::print("{:<24} {:.9g}\n", name, value);
+    Result result;
+    std::string words;
+    for (const auto& [name, value] : summary.text) {
+        result.emplace_back(name, value_of(value));
+        words += fmt::format("{:<24} {}\n", name, value);
     }
+    for (const auto& [name, value] : summary.numbers) {
+        result.emplace_back(name, value_of(value));
+        words += fmt::format("{:<24} {:.9g}\n", name, value);
+    }
+    session.result(result, words);
     return 0;
 }
 
 }  // namespace
 
-void add_info(CLI::App& app, Session& session) {
+void add_info(Command& command, Session& session) {
     auto path = std::make_shared<std::string>();
-    auto as_json = std::make_shared<bool>(false);
-    CLI::App* command =
-        add_command(app, session, "info", "Say what a file is and what made it, in SI units",
-                    "  hogel info pumpkin.h5\n  hogel info hologram.h5 --json", [=] { return info(*path, *as_json); });
-    command->add_option("file", *path, "Light field, hologram, picture or mesh")->type_name("FILE")->required();
-    command->add_flag("--json", *as_json, "As a JSON object");
+    command.examples("  hogel info pumpkin.h5\n  hogel info hologram.h5 --json");
+    command.positional("file", *path, "FILE", "Light field, hologram, picture or mesh");
+    add_json_flag(command, session);
+    command.work([path, &session] { return info(*path, session); });
 }
 
 }  // namespace hogel::cli

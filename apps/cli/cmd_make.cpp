@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "commands.h"
-#include "hogel/core/parallel.h"
-#include "hogel/photograph.h"
-#include "hogel/ray_photograph.h"
+#include "hogel/pipeline.h"
+#include "hogel/resources.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "report.h"
@@ -25,7 +25,7 @@ struct Options {
     std::size_t resolution = defaults.resolution;
     std::size_t looks = 0;  // none given: enough_looks
     std::size_t pupil_samples = defaults.pupil_samples;
-    bool store_hologram = false;
+    bool store_hologram = false, force = false;
 };
 
 struct Focus {
@@ -74,18 +74,6 @@ std::vector<PhotographPair> plan_photographs(const Options& options, const Scene
     return pairs;
 }
 
-// As many looks as make speckle as fine as the usual camera's usual number does. A wide pupil sees finer speckle, of
-// which the pixels average more by themselves.
-std::size_t enough_looks(const Camera& camera) {
-    const auto cells_in_pixel = [](const Camera& any) {
-        const double cell = resolution_cell(any, defaults.green);
-        return std::max(1.0, any.picture.pitch_x * any.picture.pitch_y / (cell * cell));
-    };
-    const double usual = cells_in_pixel(camera_for(defaults.size, defaults.size, defaults.resolution));
-    const double looks = static_cast<double>(defaults.looks) * usual / cells_in_pixel(camera);
-    return static_cast<std::size_t>(std::clamp(std::ceil(looks), 1.0, static_cast<double>(defaults.looks)));
-}
-
 // Runs a stage of the work, tells how long it took, and keeps the time for the report.
 template <class Work>
 void timed(const Session& session, Report& report, const std::string& name, Work work) {
@@ -93,14 +81,6 @@ void timed(const Session& session, Report& report, const std::string& name, Work
     work(stage);
     report.stages.emplace_back(name, stage.seconds());
     session.say(fmt::format("{:<24} {:8.1f} s", name, stage.seconds()));
-}
-
-void store(const std::vector<std::unique_ptr<FieldSource>>& holograms, const std::filesystem::path& path,
-           const Metadata& metadata, Stage& stage) {
-    std::vector<FieldGrid> grids;
-    for (const auto& hologram : holograms) grids.push_back(hologram->grid());
-    const auto sinks = create_hologram(path, grids, {.metadata = metadata});
-    for (std::size_t i = 0; i < sinks.size(); ++i) copy(*holograms[i], *sinks[i], 0, stage.progress(i, sinks.size()));
 }
 
 void write_pictures(const std::filesystem::path& folder, const Report& report) {
@@ -114,13 +94,21 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
     }
 }
 
+// Says what the work will take, or that it would not fit.
+void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
+                const Session& session) {
+    const Plan plan = plan_photographs(std::span(&grid, 1), request, cameras);
+    require_resources(plan, "photographing the hologram");
+    session.detail(fmt::format("photographs take {}; about {:.0f} s", format_bytes(plan.memory), plan.seconds));
+}
+
 int make(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     Report report;
     report.scene = options.scene;
     report.algorithm = options.render.algorithm;
-    report.light_field = options.render.grid();
+    report.light_field = options.render.request().grid;
     report.pupil_samples = options.pupil_samples;
     report.threads = thread_count();
     report.run = describe_run(session);
@@ -131,30 +119,32 @@ int make(const Options& options, const Session& session) {
     report.looks = options.looks > 0 ? options.looks : enough_looks(report.pairs.front().camera);
     std::vector<Camera> cameras;
     for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
-    require_holograms(std::span(&report.light_field, 1), options.hologram, cameras);
+    const HologramRequest request = options.hologram.request(session, report.looks);
+    require_holograms(std::span(&report.light_field, 1), request, cameras);
+    state_plan(report.light_field, request, cameras, session);
 
-    const OutputFolder folder(options.output);
+    const OutputFolder folder(options.output, options.force);
     const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
 
     timed(session, report, "light field", [&](Stage& stage) {
-        const auto renderer = render_on_demand(session, scene, options.render);
-        const auto sink = create_light_field(light_field_file, report.light_field, {.metadata = report.run});
-        copy(*renderer, *sink, stage.progress());
+        const LightField rendered = render_light_field(session, scene, options.render);
+        write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
     });
     report.light_field_bytes = static_cast<double>(std::filesystem::file_size(light_field_file));
-    const std::unique_ptr<LightFieldSource> light_field = open_light_field(light_field_file);
-    const auto holograms = make_holograms(session, std::span(&light_field, 1), options.hologram, report.looks);
+    const LightField light_field = open_light_field(light_field_file);
+    const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
     timed(session, report, "photographs by rays", [&](Stage& stage) {
-        std::vector<Image> pictures = photograph(*light_field, cameras, options.pupil_samples, stage.progress());
+        std::vector<Image> pictures = photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].geometric = std::move(pictures[i]);
     });
     if (options.store_hologram)
-        timed(session, report, "hologram file",
-              [&](Stage& stage) { store(holograms, folder.path() / "hologram.h5", report.run, stage); });
+        timed(session, report, "hologram file", [&](Stage& stage) {
+            write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = report.run}, stage.progress());
+        });
     timed(session, report, "photographs by waves", [&](Stage& stage) {
-        std::vector<Image> pictures = photograph_colours(stage, holograms, cameras);
+        std::vector<Image> pictures = photograph_colours(holograms, cameras, {}, stage.progress());
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
     });
 
@@ -170,31 +160,30 @@ int make(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_make(CLI::App& app, Session& session) {
+void add_make(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
     options->hologram.wavelengths = {defaults.red, defaults.green, defaults.blue};
-    CLI::App* command = add_command(app, session, "make", "From a scene to photographs of its hologram, with a report",
-                                    "  hogel make pumpkin -o pumpkin\n"
-                                    "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4",
-                                    [options, &session] { return make(*options, session); });
-    command->add_option("scene", options->scene, "Mesh file or built-in scene")->type_name("SCENE")->required();
-    command->add_option("-o,--output", options->output, "Folder for everything that is made")
-        ->type_name("DIR")
-        ->required();
-    command->add_flag("--store-hologram", options->store_hologram,
-                      "Keep hologram.h5 too; otherwise it streams through and is never stored");
-    const auto hologram = [](CLI::Option* option) { option->group("Hologram"); };
-    const auto camera = [](CLI::Option* option) { option->group("Camera"); };
-    hologram(add_length(command, "--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel"));
-    camera(add_length(command, "--eye-distance", options->eye_distance, "Of the lens from the hologram's plane"));
-    camera(add_length(command, "--pupil", options->pupil, "Diameter of the lens"));
-    camera(add_count(command, "--resolution", options->resolution, "Pixels across a photograph"));
-    camera(add_count(command, "--looks", options->looks,
-                     "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
-               ->default_str(fmt::format("up to {}", defaults.looks)));
-    camera(
-        add_count(command, "--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays"));
+    command.examples(
+        "  hogel make pumpkin -o pumpkin\n"
+        "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4");
+    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
+    command.text("-o,--output", options->output, "DIR", "Folder for everything that is made").required();
+    add_force_flag(command, options->force);
+    command.flag("--store-hologram", options->store_hologram,
+                 "Keep hologram.h5 too; otherwise it streams through and is never stored");
+    command.group("Hologram");
+    command.length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
+    command.group("Camera");
+    command.length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
+    command.length("--pupil", options->pupil, "Diameter of the lens");
+    command.count("--resolution", options->resolution, "Pixels across a photograph");
+    command
+        .count("--looks", options->looks,
+               "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
+        .default_text(fmt::format("up to {}", defaults.looks));
+    command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays");
     add_render_options(command, options->render);
+    command.work([options, &session] { return make(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -7,8 +7,7 @@
 #include "commands.h"
 #include "display.h"
 #include "fields.h"
-#include "hogel/photograph.h"
-#include "hogel/ray_photograph.h"
+#include "hogel/pipeline.h"
 #include "inputs.h"
 #include "movie.h"
 #include "outputs.h"
@@ -25,42 +24,44 @@ struct Options {
     std::size_t looks = defaults.looks;
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string exposure = "auto", display = "intensity";
-    std::string camera{defaults.camera};
+    std::string camera = "narrow";
     bool geometric = false, wave = false;
 
     double film_distance = 0;
 
     // The full camera may put beside the picture what does not fit into memory.
-    std::optional<FullCameraOptions> full() const {
+    std::optional<PlaneWaveCameraOptions> full() const {
         if (camera != "full") return {};
-        return FullCameraOptions{
+        return PlaneWaveCameraOptions{
             {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
             film_distance};
     }
 };
 
 double parse_exposure(const std::string& text) {
-    double exposure = 0;
-    if (!CLI::detail::lexical_cast(text, exposure) || !(exposure > 0 && exposure < 1e12))
+    const std::optional<double> exposure = parse_number(text);
+    if (!exposure || !(*exposure > 0 && *exposure < 1e12))
         throw Error(ErrorCode::usage, fmt::format("--exposure: '{}' is neither auto nor a positive number", text));
-    return exposure;
+    return *exposure;
 }
 
+using Fields = std::vector<std::shared_ptr<const FieldSource>>;
+
 // What the film shows of the light: its intensity, or its phase.
-std::vector<Image> develop(Stage& stage, std::span<const std::unique_ptr<FieldSource>> fields,
-                           std::span<const Camera> cameras, const Options& options) {
-    if (options.display != "phase") return photograph_colours(stage, fields, cameras, options.full());
+std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
+                           const Options& options) {
+    if (options.display != "phase") return photograph_colours(fields, cameras, options.full(), stage.progress());
     if (fields.size() != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("--display phase: a phase is that of one wavelength, but there are {}", fields.size()));
     std::vector<Image> pictures;
-    for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras, stage.progress(), *options.full()))
+    for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras, *options.full(), stage.progress()))
         pictures.push_back(phases(wave));
     return pictures;
 }
 
 std::vector<Image> photographs_of_hologram(const Options& options, const Session& session) {
-    const HologramFile file = open_fields(options.input, options.field, session.command, options.hologram.pitch,
+    const HologramFile file = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
                                           options.hologram.wavelengths);
     if (file.fields.size() != 1 && file.fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
@@ -83,21 +84,18 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
 
 std::vector<Image> photographs_of_light_field(const Options& options, const Session& session, InputKind kind,
                                               bool geometric) {
-    auto faces = open_or_render_faces(session, options.input, options.render);
-    const LightFieldGrid grid = faces.front()->grid();
-    const std::vector<Camera> cameras = make_cameras(options.view, grid.pitch * static_cast<double>(grid.hogels_s),
-                                                     grid.pitch * static_cast<double>(grid.hogels_t));
+    LightField light_field = open_or_render(session, options.input, options.render);
+    const std::vector<Camera> cameras =
+        make_cameras(options.view, light_field.grid().width(), light_field.grid().height());
     if (geometric) {
         Stage stage(session, "geometric photograph");
-        std::vector<const LightFieldSource*> sources;
-        for (const auto& face : faces) sources.push_back(face.get());
-        return photograph(sources, cameras, options.pupil_samples, stage.progress());
+        return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
     }
-    require_holograms(grids_of(faces), options.hologram, cameras);
+    const HologramRequest request = options.hologram.request(session, options.looks);
+    require_holograms(light_field.grids(), request, cameras);
     if (kind == InputKind::scene)
-        faces = render_for_reading(session, std::move(faces), options.hologram.wavelengths.size(),
-                                   needs_depth(options.hologram));
-    const auto holograms = make_holograms(session, faces, options.hologram, options.looks);
+        light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
+    const auto holograms = make_holograms(light_field, request);
     Stage stage(session, "wave photograph");
     return develop(stage, holograms, cameras, options);
 }
@@ -112,7 +110,7 @@ int photo(const Options& options, const Session& session) {
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
-    if (geometric && options.camera != defaults.camera)
+    if (geometric && options.camera != "narrow")
         throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
     if (options.film_distance != 0 && options.camera != "full")
         throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");
@@ -145,63 +143,46 @@ int photo(const Options& options, const Session& session) {
     return 0;
 }
 
-void add_photo_options(CLI::App* command, Options& options) {
-    const auto group = [](CLI::Option* option) { option->group("Camera"); };
-    group(add_count(command, "--looks,--average", options.looks,
-                    "Photographs averaged against speckle, unless of a hologram file"));
-    group(command->add_option("--exposure", options.exposure, "What linear values are multiplied by in PNG, or auto")
-              ->type_name("NUMBER|auto")
-              ->capture_default_str());
-    group(command
-              ->add_option("--display", options.display,
-                           "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
-                           "through the middle of "
-                           "the lens, from -pi to pi")
-              ->type_name("intensity|log|phase")
-              ->check(CLI::IsMember({"intensity", "log", "phase"}).description(""))
-              ->capture_default_str());
-    group(command
-              ->add_option("--camera", options.camera,
-                           "How waves are photographed:\nnarrow: the band that enters the lens, tile by tile"
-                           "\nfull: plane waves to the lens and back, exact and slow")
-              ->type_name("narrow|full")
-              ->check(CLI::IsMember({"narrow", "full"}).description(""))
-              ->capture_default_str());
-    group(add_length(command, "--film-distance", options.film_distance,
-                     "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens"));
-    CLI::Option* geometric =
-        command->add_flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
-    group(geometric);
-    group(command->add_flag("--wave", options.wave, "By waves, through the hologram (default for a scene)")
-              ->excludes(geometric));
-    group(
-        add_count(command, "--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph"));
+void add_photo_options(Command& command, Options& options) {
+    command.group("Camera");
+    command.count("--looks,--average", options.looks,
+                  "Photographs averaged against speckle, unless of a hologram file");
+    command.text("--exposure", options.exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto");
+    command.choice("--display", options.display, {"intensity", "log", "phase"}, "intensity|log|phase",
+                   "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
+                   "through the middle of the lens, from -pi to pi");
+    command.choice("--camera", options.camera, {"narrow", "full"}, "narrow|full",
+                   "How waves are photographed:\nnarrow: the band that enters the lens, tile by tile"
+                   "\nfull: plane waves to the lens and back, exact and slow");
+    command.length("--film-distance", options.film_distance,
+                   "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens");
+    const Option geometric =
+        command.flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
+    command.flag("--wave", options.wave, "By waves, through the hologram (default for a scene)").excludes(geometric);
+    command.count("--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph");
 }
 
 }  // namespace
 
-void add_photo(CLI::App& app, Session& session) {
+void add_photo(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "photo", "Photograph a hologram, a light field or a scene",
-                                    "  hogel photo hologram.h5 -o left.png --eye -30,0,300mm --focus 5mm\n"
-                                    "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
-                                    "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
-                                    "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
-                                    "  hogel photo phase.png -o p.png --values phase --pitch 8um --wavelength 532nm",
-                                    [options, &session] { return photo(*options, session); });
-    command
-        ->add_option("input", options->input, "Hologram, light field, mesh file, built-in scene, .npy, .mat or picture")
-        ->type_name("F.h5|X.h5|SCENE")
-        ->required();
-    command->add_option("-o,--output", options->output, "Picture to write: .png, .tif (sRGB) or .exr (linear)")
-        ->type_name("FILE")
-        ->required();
+    command.examples(
+        "  hogel photo hologram.h5 -o left.png --eye -30,0,300mm --focus 5mm\n"
+        "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
+        "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
+        "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
+        "  hogel photo phase.png -o p.png --values phase --pitch 8um --wavelength 532nm");
+    command.positional("input", options->input, "F.h5|X.h5|SCENE",
+                       "Hologram, light field, mesh file, built-in scene, .npy, .mat or picture");
+    command.text("-o,--output", options->output, "FILE", "Picture to write: .png, .tif (sRGB) or .exr (linear)")
+        .required();
     add_camera_options(command, options->view);
     add_photo_options(command, *options);
     add_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
     add_field_options(command, options->field);
+    command.work([options, &session] { return photo(*options, session); });
 }
 
 }  // namespace hogel::cli

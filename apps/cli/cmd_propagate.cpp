@@ -6,8 +6,9 @@
 #include "commands.h"
 #include "display.h"
 #include "fields.h"
-#include "hogel/optics/spectrum.h"
+#include "hogel/pipeline.h"
 #include "hogel/propagate.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -53,7 +54,7 @@ int propagate_fields(const Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output);
     require_writable(options.output);
     const HologramFile file =
-        open_fields(options.input, options.field, session.command, options.pitch, options.wavelengths);
+        open_fields(options.input, options.field, *session.command, options.pitch, options.wavelengths);
     if (kind == OutputKind::array) require_one_wavelength(file, options.output);
     if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(file, "--display phase");
     if (kind == OutputKind::picture && file.fields.size() != 1 && file.fields.size() != 3)
@@ -66,7 +67,7 @@ int propagate_fields(const Options& options, const Session& session) {
     for (const auto& field : file.fields) grids.push_back(field->grid());
     Stage stage(session, "propagation");
     const auto colour = [&](std::size_t c, FieldSink& sink) {
-        hogel::propagate(*file.fields[c], options.distance, sink, 0, scratch, stage.progress(c, grids.size()));
+        hogel::propagate(*file.fields[c], options.distance, sink, {0, scratch}, stage.progress(c, grids.size()));
     };
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::hologram) {
@@ -98,31 +99,24 @@ int propagate_fields(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_propagate(CLI::App& app, Session& session) {
+void add_propagate(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        add_command(app, session, "propagate", "The field of a hologram on another plane, as a picture or an array",
-                    "  hogel propagate hologram.h5 -o face.png --distance -4mm\n"
-                    "  hogel propagate hologram.h5 -o nearer.h5 --distance 20mm\n"
-                    "  hogel propagate slm.npy -o there.npy --distance 0.2m --pitch 8um --wavelength 532nm",
-                    [options, &session] { return propagate_fields(*options, session); });
-    command->add_option("input", options->input, "Hologram, or another program's field")
-        ->type_name("F.h5|F.npy|F.mat|P.png")
-        ->required();
-    command->add_option("-o,--output", options->output, "Hologram (.h5), array (.npy) or picture (.png, .tif, .exr)")
-        ->type_name("FILE")
-        ->required();
-    add_length(command, "--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
-        ->required();
-    command
-        ->add_option("--display", options->display,
-                     "What a picture shows; log: four decades, phase: black at -pi to white at pi")
-        ->type_name("intensity|amplitude|log|phase")
-        ->check(CLI::IsMember({"intensity", "amplitude", "log", "phase"}).description(""))
-        ->capture_default_str();
-    add_length(command, "--pitch", options->pitch, "Of another program's samples");
-    add_wavelengths(command, options->wavelengths);
+    command.examples(
+        "  hogel propagate hologram.h5 -o face.png --distance -4mm\n"
+        "  hogel propagate hologram.h5 -o nearer.h5 --distance 20mm\n"
+        "  hogel propagate slm.npy -o there.npy --distance 0.2m --pitch 8um --wavelength 532nm");
+    command.positional("input", options->input, "F.h5|F.npy|F.mat|P.png", "Hologram, or another program's field");
+    command.text("-o,--output", options->output, "FILE", "Hologram (.h5), array (.npy) or picture (.png, .tif, .exr)")
+        .required();
+    command.length("--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
+        .required();
+    command.choice("--display", options->display, {"intensity", "amplitude", "log", "phase"},
+                   "intensity|amplitude|log|phase",
+                   "What a picture shows; log: four decades, phase: black at -pi to white at pi");
+    command.length("--pitch", options->pitch, "Of another program's samples");
+    command.wavelengths(options->wavelengths);
     add_field_options(command, options->field);
+    command.work([options, &session] { return propagate_fields(*options, session); });
 }
 
 }  // namespace hogel::cli

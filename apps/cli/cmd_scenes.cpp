@@ -7,11 +7,25 @@
 
 namespace hogel::cli {
 
-void add_scenes(CLI::App& app, Session& session) {
-    add_command(app, session, "scenes", "List the built-in scenes", "  hogel scenes", [] {
-        for (const SceneInfo& scene : scenes().rows()) fmt::print("{:<16} {}\n", scene.name, scene.text);
-        return 0;
-    });
+namespace {
+
+int list_scenes(const Session& session) {
+    ResultList list;
+    std::string words;
+    for (const SceneInfo& scene : scenes().rows()) {
+        list.push_back(Result{{"name", scene.name}, {"text", scene.text}});
+        words += fmt::format("{:<16} {}\n", scene.name, scene.text);
+    }
+    session.result({{"scenes", list}}, words);
+    return 0;
+}
+
+}  // namespace
+
+void add_scenes(Command& command, Session& session) {
+    command.examples("  hogel scenes");
+    add_json_flag(command, session);
+    command.work([&session] { return list_scenes(session); });
 }
 
 }  // namespace hogel::cli

@@ -6,6 +6,8 @@
 #include "commands.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -25,7 +27,7 @@ Modulator modulator_of(const Options& options) {
     if (options.device.empty() == !described)
         throw Error(ErrorCode::usage,
                     "name a modulator with --device, or describe one with --pixels and --pixel-pitch");
-    if (!described) return find_modulator(options.device);
+    if (!described) return modulators().find(options.device);
     if (options.levels > 256) throw Error(ErrorCode::usage, "--levels: 2 to 256 were expected");
     return {"", options.pixels.columns, options.pixels.rows, options.pixel_pitch,
             static_cast<unsigned>(options.levels)};
@@ -33,7 +35,7 @@ Modulator modulator_of(const Options& options) {
 
 int slm(const Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
-    pattern_options.encoding = encodings().at(options.encoding);
+    pattern_options.encoding = encodings().find(options.encoding).encoding;
     pattern_options.modulator = modulator_of(options);
     pattern_options.seed = session.seed;
     require_raw_pixels_name(options.output);
@@ -56,7 +58,7 @@ int slm(const Options& options, const Session& session) {
             levels.data()[i * colours + c] = pattern.levels.data()[i];
         const std::string name = format_length(file.fields[c]->grid().wavelength);
         std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
-        if (is_phase_only(pattern_options.encoding))
+        if (encodings().find(options.encoding).phase_only)
             line += fmt::format(", of its light field {:.2f} %", 100 * pattern.light_field_efficiency);
         if (pattern.reference_angle != 0)
             line += fmt::format(", the hologram's order at {:.3f} degrees",
@@ -72,50 +74,42 @@ int slm(const Options& options, const Session& session) {
 
 }  // namespace
 
-void add_slm(CLI::App& app, Session& session) {
+void add_slm(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(app, session, "slm", "Encode a hologram as a pattern for a light modulator",
-                                    "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um "
-                                    "--fov 2.5deg --wavelength 532nm\n"
-                                    "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase",
-                                    [options, &session] { return slm(*options, session); });
-    command->add_option("input", options->input, "Hologram")->type_name("F.h5")->required();
-    command->add_option("-o,--output", options->output, "Pattern to write: .png, .bmp or .tif, 8 bits as they are")
-        ->type_name("FILE")
-        ->required();
-    const auto group = [](CLI::Option* option) { option->group("Pattern"); };
-    group(command
-              ->add_option("--encoding", options->encoding,
-                           "phase: the field's phase alone\n"
-                           "double-phase: the modulus as the difference of two phases\n"
-                           "gerchberg-saxton: phases iterated to show the field's local spectra\n"
-                           "gradient: phases by stochastic gradient descent towards local spectra anywhere\n"
-                           "intensity: |F + R|² with a reference beam R\n"
-                           "bipolar: 2 Re(F R*), raised to be positive\n"
-                           "burckhardt, lee: three or four real components, in columns by turns\n"
-                           "binary: where Re(F R*) is positive")
-              ->type_name("NAME")
-              ->check(CLI::IsMember(encodings()).description(""))
-              ->capture_default_str());
-    group(add_angle(command, "--reference", options->pattern.reference_angle,
-                    "Angle of the reference beam; 0: between the least and the most that will do"));
-    group(command
-              ->add_option("--clip", options->pattern.clip,
-                           "Share of the samples whose modulus may be cut to the largest")
-              ->type_name("0..1")
-              ->capture_default_str());
-    group(add_count(command, "--window", options->pattern.window, "Iterated phases: pixels of a hogel's side"));
-    group(
-        add_count(command, "--iterations", options->pattern.iterations, "Gerchberg-Saxton, gradient: how many steps"));
+    command.examples(
+        "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um "
+        "--fov 2.5deg --wavelength 532nm\n"
+        "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase");
+    command.positional("input", options->input, "F.h5", "Hologram");
+    command.text("-o,--output", options->output, "FILE", "Pattern to write: .png, .bmp or .tif, 8 bits as they are")
+        .required();
+    const std::vector<std::string> names = encodings().names();
+    command.group("Pattern");
+    command.choice("--encoding", options->encoding, names, "NAME",
+                   "phase: the field's phase alone\n"
+                   "double-phase: the modulus as the difference of two phases\n"
+                   "gerchberg-saxton: phases iterated to show the field's local spectra\n"
+                   "gradient: phases by stochastic gradient descent towards local spectra anywhere\n"
+                   "intensity: |F + R|² with a reference beam R\n"
+                   "bipolar: 2 Re(F R*), raised to be positive\n"
+                   "burckhardt, lee: three or four real components, in columns by turns\n"
+                   "binary: where Re(F R*) is positive");
+    command.angle("--reference", options->pattern.reference_angle,
+                  "Angle of the reference beam; 0: between the least and the most that will do");
+    command.number("--clip", options->pattern.clip, "0..1",
+                   "Share of the samples whose modulus may be cut to the largest");
+    command.count("--window", options->pattern.window, "Iterated phases: pixels of a hogel's side");
+    command.count("--iterations", options->pattern.iterations, "Gerchberg-Saxton, gradient: how many steps");
     std::string devices = "Modulator:";
-    for (const Modulator& modulator : modulators())
+    for (const Modulator& modulator : modulators().rows())
         devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
                                format_length(modulator.pitch), modulator.levels);
-    const auto device = [](CLI::Option* option) { option->group("Modulator"); };
-    device(command->add_option("--device", options->device, devices)->type_name("NAME"));
-    device(add_counts(command, "--pixels", options->pixels, "Any other: pixels across and down"));
-    device(add_length(command, "--pixel-pitch", options->pixel_pitch, "Distance of its pixels"));
-    device(add_count(command, "--levels", options->levels, "Levels of its pixels"));
+    command.group("Modulator");
+    command.text("--device", options->device, "NAME", devices);
+    command.counts("--pixels", options->pixels, "Any other: pixels across and down");
+    command.length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels");
+    command.count("--levels", options->levels, "Levels of its pixels");
+    command.work([options, &session] { return slm(*options, session); });
 }
 
 }  // namespace hogel::cli

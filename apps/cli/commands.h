@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
+#include "command_line.h"
 #include "session.h"
 
 namespace hogel::cli {
 
-// One file a command: cmd_<name>.cpp.
-void add_make(CLI::App& app, Session& session);
-void add_bake(CLI::App& app, Session& session);
-void add_render(CLI::App& app, Session& session);
-void add_hologram(CLI::App& app, Session& session);
-void add_slm(CLI::App& app, Session& session);
-void add_print(CLI::App& app, Session& session);
-void add_photo(CLI::App& app, Session& session);
-void add_propagate(CLI::App& app, Session& session);
-void add_compress(CLI::App& app, Session& session);
-void add_decompress(CLI::App& app, Session& session);
-void add_compare(CLI::App& app, Session& session);
-void add_bench(CLI::App& app, Session& session);
-void add_info(CLI::App& app, Session& session);
-void add_scenes(CLI::App& app, Session& session);
+/// All commands, in the order in which the help shows them.
+std::span<const CommandInfo> commands();
 
-// The commands of `hogel bench`.
-void add_bench_render(CLI::App& bench, Session& session);
-void add_bench_codec(CLI::App& bench, Session& session);
+// One file a command: cmd_<name>.cpp. Each declares the options of its command and its work.
+void add_make(Command& command, Session& session);
+void add_bake(Command& command, Session& session);
+void add_render(Command& command, Session& session);
+void add_hologram(Command& command, Session& session);
+void add_slm(Command& command, Session& session);
+void add_print(Command& command, Session& session);
+void add_photo(Command& command, Session& session);
+void add_propagate(Command& command, Session& session);
+void add_compress(Command& command, Session& session);
+void add_decompress(Command& command, Session& session);
+void add_compare(Command& command, Session& session);
+void add_info(Command& command, Session& session);
+void add_scenes(Command& command, Session& session);
 
 }  // namespace hogel::cli

@@ -6,27 +6,14 @@
 #include "hogel/error.h"
 
 namespace hogel::cli {
-namespace {
-
-constexpr const char* group = "Fields of other programs";
-
-}  // namespace
-
-void add_field_options(CLI::App* command, FieldOptions& options) {
-    command
-        ->add_option(
-            "--values", options.values,
-            "What real numbers are, in arrays and pictures:\nphase: radians, or whole numbers that divide a turn")
-        ->type_name("amplitude|phase")
-        ->check(CLI::IsMember({"amplitude", "phase"}).description(""))
-        ->group(group);
-    command->add_option("--imaginary", options.imaginary, "Picture of imaginary parts; the input has the real ones")
-        ->type_name("P.exr")
-        ->group(group);
-    command->add_option("--variable", options.variable, "Array of a MAT file that has several")
-        ->type_name("NAME")
-        ->group(group);
-    command->add_flag("--conjugate", options.conjugate, "Its waves go as e^(+iwt)")->group(group);
+void add_field_options(Command& command, FieldOptions& options) {
+    command.group("Fields of other programs");
+    command.choice(
+        "--values", options.values, {"amplitude", "phase"}, "amplitude|phase",
+        "What real numbers are, in arrays and pictures:\nphase: radians, or whole numbers that divide a turn");
+    command.text("--imaginary", options.imaginary, "P.exr", "Picture of imaginary parts; the input has the real ones");
+    command.text("--variable", options.variable, "NAME", "Array of a MAT file that has several");
+    command.flag("--conjugate", options.conjugate, "Its waves go as e^(+iwt)");
 }
 
 bool is_external(const std::string& name, const FieldOptions& options) {
@@ -36,10 +23,9 @@ bool is_external(const std::string& name, const FieldOptions& options) {
     return (!options.values.empty() || !options.imaginary.empty()) && file_kind(name) == FileKind::picture;
 }
 
-HologramFile open_fields(const std::string& name, const FieldOptions& options, const CLI::App* command, double pitch,
+HologramFile open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
                          const std::vector<double>& wavelengths) {
-    const bool pitch_given = command->get_option("--pitch")->count() > 0,
-               wavelength_given = command->get_option("--wavelength")->count() > 0;
+    const bool pitch_given = command.given("--pitch"), wavelength_given = command.given("--wavelength");
     if (!is_external(name, options)) {
         if (pitch_given || wavelength_given)
             throw Error(ErrorCode::usage, fmt::format("{}: {} comes from the file itself", name,
@@ -52,9 +38,9 @@ HologramFile open_fields(const std::string& name, const FieldOptions& options, c
     ExternalField what;
     what.pitch_x = what.pitch_y = pitch;
     what.wavelength = wavelengths.front();
-    what.values = options.values == "phase"       ? ExternalField::RayValues::phase
-                  : options.values == "amplitude" ? ExternalField::RayValues::amplitude
-                                                  : ExternalField::RayValues::complex;
+    what.values = options.values == "phase"       ? ExternalField::Values::phase
+                  : options.values == "amplitude" ? ExternalField::Values::amplitude
+                                                  : ExternalField::Values::complex;
     what.imaginary = options.imaginary;
     what.variable = options.variable;
     what.conjugate = options.conjugate;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "command_line.h"
 #include "hogel/files.h"
 #include "session.h"
 
@@ -11,14 +12,14 @@ struct FieldOptions {
     std::string values, imaginary, variable;
     bool conjugate = false;
 };
-void add_field_options(CLI::App* command, FieldOptions& options);
+void add_field_options(Command& command, FieldOptions& options);
 
 /// Whether a name is that of another program's field: an array, or a picture that was said to be one.
 bool is_external(const std::string& name, const FieldOptions& options);
 
 /// A hologram, or another program's field with the --pitch and the one --wavelength that `command` was given. Throws
 /// Error(usage) where they are missing, or given for a hologram, which has its own.
-HologramFile open_fields(const std::string& name, const FieldOptions& options, const CLI::App* command, double pitch,
+HologramFile open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
                          const std::vector<double>& wavelengths);
 
 }  // namespace hogel::cli

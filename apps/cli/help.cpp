@@ -5,6 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <vector>
+
+#include "command_line.h"
+#include "hogel/table.h"
 
 namespace hogel::cli {
 namespace {
@@ -15,12 +19,29 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
+// The dashes that an option is written with, and its name: "-o" or "--output".
+std::string written_name(const CLI::Option& option) {
+    return option.get_snames().empty() ? "--" + option.get_lnames().front() : "-" + option.get_snames().front();
+}
+
+// A mistyped option "--hogel" or "--hogel=4x4", in words.
+std::string explain_unknown_option(const CLI::App& app, const std::string& word) {
+    const std::string option = word.substr(0, word.find('='));
+    std::vector<std::string> known;
+    for (const CLI::Option* each : app.get_options())
+        for (const std::string& name : each->get_lnames()) known.push_back(name);
+    const std::size_t name = option.find_first_not_of('-');
+    const std::string nearest = name == std::string::npos ? "" : nearest_word(option.substr(name), known);
+    return fmt::format("{} has no option {}{}", app.get_name(), option,
+                       nearest.empty() ? "" : fmt::format(" (did you mean --{}?)", nearest));
+}
+
 }  // namespace
 
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
     if (mode != CLI::AppFormatMode::Normal) return make_expanded(app);
     std::vector<std::string> groups = app->get_groups();
-    std::ranges::stable_partition(groups, [](const std::string& group) { return group != last_group; });
+    std::ranges::stable_partition(groups, [](const std::string& group) { return group != Command::last_group; });
     std::string text = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
     for (const std::string& group : groups) {
         const auto options = app->get_options(
@@ -37,16 +58,19 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
         if (option->get_positional()) usage += " " + option->get_type_name();
     for (const CLI::Option* option : app->get_options())
         if (!option->get_positional() && option->get_required())
-            usage += fmt::format(" -{} {}", option->get_snames().front(), option->get_type_name());
+            usage += fmt::format(" {} {}", written_name(*option), option->get_type_name());
     return usage + " [OPTIONS]\n";
 }
 
 std::string HelpFormatter::make_positionals(const CLI::App* app) const {
     std::string text;
-    for (const CLI::Option* option : app->get_options())
-        if (option->get_positional())
-            text +=
-                fmt::format("  {:<{}}{}\n", option->get_type_name(), get_column_width() - 2, option->get_description());
+    const std::size_t width = get_column_width() - 2;
+    for (const CLI::Option* option : app->get_options()) {
+        if (!option->get_positional()) continue;
+        std::string type = option->get_type_name();
+        if (type.size() >= width) type += "\n" + std::string(width + 2, ' ');
+        text += fmt::format("  {:<{}}{}\n", type, width, option->get_description());
+    }
     return text.empty() ? text : "\n" + text;
 }
 
@@ -63,19 +87,27 @@ std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
     return fmt::format("{} [{}]{}", words.substr(0, line), shown, words.substr(line));
 }
 
+std::string explain_unknown_command(const CLI::App& app, const std::string& word) {
+    const std::vector<std::string> names = command_names(app);
+    const std::string nearest = nearest_word(word, names);
+    return fmt::format("there is no command '{}'{}; expected one of {}", word,
+                       nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), fmt::join(names, ", "));
+}
+
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<std::string> rest = app.remaining(true);
     const auto chosen = app.get_subcommands();
     if (chosen.empty()) {
-        const std::string problem =
-            rest.empty() ? "no command given" : fmt::format("there is no command '{}'", rest.front());
-        return fmt::format("{}; expected one of {}", problem, fmt::join(command_names(app), ", "));
+        if (rest.empty())
+            return fmt::format("no command given; expected one of {}", fmt::join(command_names(app), ", "));
+        if (!rest.front().starts_with('-')) return explain_unknown_command(app, rest.front());
+        return explain_unknown_option(app, rest.front()) + "; see 'hogel --help'";
     }
-    const std::string name = chosen.front()->get_name();
+    const CLI::App& command = *chosen.front();
     const auto unknown = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
     const std::string problem =
-        unknown != rest.end() ? fmt::format("{} has no option {}", name, *unknown) : std::string(error.what());
-    return fmt::format("{}; see 'hogel {} --help'", problem, name);
+        unknown != rest.end() ? explain_unknown_option(command, *unknown) : std::string(error.what());
+    return fmt::format("{}; see 'hogel {} --help'", problem, command.get_name());
 }
 
 }  // namespace hogel::cli

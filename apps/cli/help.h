@@ -10,9 +10,6 @@ namespace hogel::cli {
 /// end, and defaults in brackets after the words.
 class HelpFormatter final : public CLI::Formatter {
   public:
-    /// The group of options that is shown last.
-    static constexpr const char* last_group = "General";
-
     HelpFormatter() { column_width(24); }
     std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
     std::string make_usage(const CLI::App* app, std::string name) const override;
@@ -23,5 +20,7 @@ class HelpFormatter final : public CLI::Formatter {
 
 /// What is wrong with a command line, in one line, and where to read on.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
+/// There is no such command: which one may have been meant, and which ones exist.
+std::string explain_unknown_command(const CLI::App& app, const std::string& word);
 
 }  // namespace hogel::cli

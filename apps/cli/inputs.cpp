@@ -6,60 +6,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
+#include <string>
 
-#include "hogel/bake.h"
-#include "hogel/compress.h"
-#include "hogel/light_field.h"
-#include "hogel/photograph.h"
-#include "hogel/render/cache_spacing.h"
-#include "hogel/renderer.h"
+#include "hogel/error.h"
 #include "hogel/scene_hologram.h"
-#include "hogel/scenes.h"
-#include "hogel/shading.h"
-#include "hogel/shading/radiance_cache.h"
-#include "hogel/transform/transform.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
 namespace {
 
-// A light field up to this size is kept in memory rather than rendered again each time that it is read.
-constexpr double kept_bytes = 2e9;
-// Of a larger one rows of hogels are kept up to this, while the squares that they hold are read.
-constexpr double kept_tile_bytes = 1e9;
+// What the user may call a method that makes a hologram of a light field, what lobes average, and phases.
+const std::vector<std::string> method_names{"fourier", "basis", "olas"};
+const std::vector<std::string> average_names{"radiance", "amplitude"};
+const std::vector<std::string> phase_names{"random", "fixed", "designed", "phase-added", "phase-added-exact"};
 
-bool is_builtin(const std::string& name) { return scenes().look_up(name) != nullptr; }
+constexpr const char* light_field_group = "Light field of a scene";
 
-// What the user calls a method or its phases, and the library's word for it.
-const std::map<std::string, Method> methods{
-    {"fourier", Method::fourier}, {"basis", Method::basis}, {"olas", Method::overlap_add}};
-const std::map<std::string, LobeAverage> averages{{"radiance", LobeAverage::radiance},
-                                                  {"amplitude", LobeAverage::amplitude}};
-const std::map<std::string, Phases> phases{{"random", Phases::random},
-                                           {"fixed", Phases::fixed},
-                                           {"designed", Phases::designed},
-                                           {"phase-added", Phases::phase_added},
-                                           {"phase-added-exact", Phases::phase_added_exact}};
-
-Phases phases_of(const HologramChoices& options) {
-    if (!options.phase.empty()) return phases.at(options.phase);
-    return methods.at(options.method) == Method::basis ? Phases::fixed : Phases::random;
-}
-
-HologramOptions stereogram_options(const LightFieldGrid& light_field, const HologramChoices& options,
-                                   double wavelength) {
-    HologramOptions stereogram;
-    stereogram.wavelength = wavelength;
-    stereogram.pitch = options.pitch;
-    stereogram.channel = light_field.channels == 1 ? 0 : colour_of(wavelength);
-    stereogram.method = methods.at(options.method);
-    stereogram.phases = phases_of(options);
-    stereogram.average = averages.at(options.average);
-    stereogram.transform = options.basis.empty() ? std::string(defaults.basis) : options.basis;
-    stereogram.tolerance = options.tolerance;
-    stereogram.line_pitch = options.lines;
-    return stereogram;
+void add_hologram_options(Command& command, HologramChoices& options, const std::vector<std::string>& names,
+                          const std::string& method_help) {
+    command.group("Hologram");
+    command.wavelengths(options.wavelengths);
+    command.length("--pitch", options.pitch, "Distance of samples, rounded to divide a hogel");
+    command.length("--line-pitch", options.lines,
+                   "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions");
+    command.choice("--method", options.method, names, "NAME",
+                   "fourier: one transform a hogel\n"
+                   "basis: a sum of basis fringes a hogel\n"
+                   "olas: overlapping windows, for hogels of a few samples; needs depth" +
+                       method_help);
+    command.choice("--phase", options.phase, phase_names, "NAME",
+                   "Phases of each hogel's directions\n"
+                   "random: independent everywhere (default)\n"
+                   "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
+                   "designed: the same in all hogels, for a fringe of flat modulus\n"
+                   "phase-added: of spherical waves from what rays meet; needs depth\n"
+                   "phase-added-exact: the same, each ray with its own frequency");
+    command.choice("--lobes", options.average, average_names, "radiance|amplitude",
+                   "What a hogel's lobes take from the directions that they light: their mean radiance, or "
+                   "(always with basis) mean amplitude");
+    command.text("--basis", options.basis, "NAME",
+                 fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
+                             "direction), {} (default: the file's, or {})",
+                             fmt::join(transform_names(), ", "), defaults.basis));
+    command
+        .number("--tolerance", options.tolerance, "0..1",
+                "Share of a hogel's amplitude that left-out basis fringes may carry")
+        .range(0, 1);
 }
 
 }  // namespace
@@ -86,329 +78,165 @@ LightFieldGrid RenderOptions::grid() const {
     return grid;
 }
 
-std::vector<LightFieldGrid> RenderOptions::grids() const {
-    return hemicube ? hogel::hemicube(grid()) : std::vector{grid()};
+LightFieldRequest RenderOptions::request() const {
+    LightFieldRequest request;
+    request.renderer = algorithm;
+    request.shading.model = shading;
+    request.shading.shadow_map = shadow_map;
+    request.cache_spacing = cache_spacing;
+    request.grid = grid();
+    request.hemicube = hemicube;
+    request.samples = {samples.columns, samples.rows};
+    request.cull_back_faces = fronts_only;
+    request.fit = !as_is;
+    request.front = front;
+    return request;
 }
 
-void add_render_options(CLI::App* command, RenderOptions& options) {
-    const auto group = [](CLI::Option* option) { option->group("Light field of a scene"); };
+HologramMethod HologramChoices::hologram_method() const {
+    const auto refuse = [&](const char* expected) {
+        throw Error(ErrorCode::usage, fmt::format("--phase {}: {}", phase, expected));
+    };
+    if (phase.starts_with("phase-added")) {
+        if (method != "fourier") refuse("belongs to --method fourier, with one plane wave a ray");
+        if (lines > 0) refuse("is not for --line-pitch; expected random, fixed or designed");
+        return PhaseAdded{phase == "phase-added-exact"};
+    }
+    if (lines > 0 && method != "fourier")
+        throw Error(ErrorCode::usage, fmt::format("--line-pitch: belongs to --method fourier, not {}", method));
+    const Phases phases = phase == "random"     ? Phases::random
+                          : phase == "fixed"    ? Phases::fixed
+                          : phase == "designed" ? Phases::designed
+                          : method == "basis"   ? Phases::fixed
+                                                : Phases::random;
+    const LobeAverage lobes = average == "amplitude" ? LobeAverage::amplitude : LobeAverage::radiance;
+    if (method == "basis") {
+        if (phases == Phases::random)
+            refuse("basis fringes have the same phases in all hogels; expected fixed or designed");
+        return Basis{.transform = basis.empty() ? std::string(defaults.basis) : basis,
+                     .tolerance = tolerance,
+                     .phases = phases == Phases::designed ? SharedPhases::designed : SharedPhases::fixed};
+    }
+    if (method == "olas") {
+        if (phases == Phases::designed) refuse("is not for --method olas; expected random or fixed");
+        return OverlapAdd{phases == Phases::fixed ? PointPhases::fixed : PointPhases::random};
+    }
+    if (lines > 0) return Lines{.line_pitch = lines, .phases = phases, .average = lobes};
+    return Fourier{.phases = phases, .average = lobes};
+}
+
+HologramRequest HologramChoices::request(const Session& session, std::size_t looks) const {
+    HologramRequest request;
+    request.channels.clear();
+    for (const double wavelength : wavelengths) request.channels.push_back({wavelength, colour_of(wavelength)});
+    request.pitch = pitch;
+    request.method = hologram_method();
+    request.looks = looks;
+    request.seed = session.seed;
+    return request;
+}
+
+void add_render_options(Command& command, RenderOptions& options) {
+    command.group(light_field_group);
     std::string algorithms;
     for (const RendererInfo& renderer : renderers().rows())
         algorithms += fmt::format("\n{}: {}", renderer.name, renderer.text);
-    group(command->add_option("--algorithm", options.algorithm, "Renderer:" + algorithms)
-              ->type_name("NAME")
-              ->capture_default_str());
+    command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms);
     std::string shadings;
     for (const ShadingInfo& shading : shading_models().rows())
         shadings += fmt::format("\n{}: {}", shading.name, shading.text);
-    group(command->add_option("--shading", options.shading, "Where light is worked out:" + shadings)
-              ->type_name("NAME")
-              ->capture_default_str());
-    group(add_count(command, "--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map"));
-    group(command
-              ->add_option("--cache-spacing", options.cache_spacing,
-                           "Of the points of a surface at which light is worked out, in parts of the width of a ray "
-                           "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
-              ->type_name("F")
-              ->check(CLI::Range(0.0, 16.0).description(""))
-              ->capture_default_str());
-    group(command->add_flag("--cull-back-faces", options.fronts_only,
-                            "Show triangles from their front alone, where their corners go round counterclockwise"));
-    group(add_counts(command, "--hogels", options.hogels, "Hogels across and down"));
-    group(add_counts(command, "--directions", options.directions, "Directions across and down in each hogel"));
-    group(add_counts(command, "--samples", options.samples,
-                     "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
-                     "makes 16"));
-    group(add_length(command, "--size", options.size, "Width of the hologram"));
-    group(add_angles(command, "--fov", options.field_of_view, "Field of view, the full angle; or across and down"));
-    group(add_angles(command, "--toward", options.toward,
-                     "Where the middle of the view looks behind the hologram: angles to the right and up"));
-    group(command
-              ->add_option("--front", options.front,
-                           "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all; -0.1: it "
-                           "begins a tenth of its depth behind it")
-              ->type_name("F")
-              ->check(CLI::Range(-100.0, 1.0).description(""))
-              ->capture_default_str());
-    CLI::Option* as_is = command->add_flag("--as-is", options.as_is,
-                                           "Take a mesh file where it is, its numbers as metres, z towards the viewer");
-    group(as_is);
-    group(command
-              ->add_flag_function(
-                  "--fit", [](std::int64_t) {}, "Scale and move a mesh file to fill the hologram (default)")
-              ->excludes(as_is));
-}
-
-void add_hemicube_option(CLI::App* command, RenderOptions& options) {
+    command.text("--shading", options.shading, "NAME", "Where light is worked out:" + shadings);
+    command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map");
     command
-        ->add_flag(
-            "--hemicube", options.hemicube,
-            "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides")
-        ->group("Light field of a scene")
-        ->excludes("--fov")
-        ->excludes("--toward");
+        .number("--cache-spacing", options.cache_spacing, "F",
+                "Of the points of a surface at which light is worked out, in parts of the width of a ray "
+                "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
+        .range(0, 16);
+    command.flag("--cull-back-faces", options.fronts_only,
+                 "Show triangles from their front alone, where their corners go round counterclockwise");
+    command.counts("--hogels", options.hogels, "Hogels across and down");
+    command.counts("--directions", options.directions, "Directions across and down in each hogel");
+    command.counts("--samples", options.samples,
+                   "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
+                   "makes 16");
+    command.length("--size", options.size, "Width of the hologram");
+    command.angles("--fov", options.field_of_view, "Field of view, the full angle; or across and down");
+    command.angles("--toward", options.toward,
+                   "Where the middle of the view looks behind the hologram: angles to the right and up");
+    command
+        .number("--front", options.front, "F",
+                "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all; -0.1: it "
+                "begins a tenth of its depth behind it")
+        .range(-100, 1);
+    const Option as_is = command.flag("--as-is", options.as_is,
+                                      "Take a mesh file where it is, its numbers as metres, z towards the viewer");
+    command.flag("--fit", "Scale and move a mesh file to fill the hologram (default)").excludes(as_is);
 }
 
-void add_frequencies_option(CLI::App* command, RenderOptions& options) {
-    add_length(command, "--frequencies", options.frequencies,
-               "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
-               "with --algorithm raytrace")
-        ->group("Light field of a scene")
-        ->excludes("--hemicube")
-        ->excludes("--directions")
-        ->excludes("--toward");
+void add_hemicube_option(Command& command, RenderOptions& options) {
+    command.group(light_field_group);
+    command
+        .flag("--hemicube", options.hemicube,
+              "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides")
+        .excludes("--fov")
+        .excludes("--toward");
 }
 
-void add_hologram_options(CLI::App* command, HologramChoices& options) {
-    const auto group = [](CLI::Option* option) { option->group("Hologram"); };
-    group(add_wavelengths(command, options.wavelengths));
-    group(add_length(command, "--pitch", options.pitch, "Distance of samples, rounded to divide a hogel"));
-    group(add_length(command, "--line-pitch", options.lines,
-                     "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions"));
-    group(command
-              ->add_option("--method", options.method,
-                           "fourier: one transform a hogel\n"
-                           "basis: a sum of basis fringes a hogel\n"
-                           "olas: overlapping windows, for hogels of a few samples; needs depth")
-              ->type_name("NAME")
-              ->check(CLI::IsMember(methods).description(""))
-              ->capture_default_str());
-    group(command
-              ->add_option("--phase", options.phase,
-                           "Phases of each hogel's directions\n"
-                           "random: independent everywhere (default)\n"
-                           "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
-                           "designed: the same in all hogels, for a fringe of flat modulus\n"
-                           "phase-added: of spherical waves from what rays meet; needs depth\n"
-                           "phase-added-exact: the same, each ray with its own frequency")
-              ->type_name("NAME")
-              ->check(CLI::IsMember(phases).description("")));
-    group(command
-              ->add_option("--lobes", options.average,
-                           "What a hogel's lobes take from the directions that they light: their mean radiance, or "
-                           "(always with basis) mean amplitude")
-              ->type_name("radiance|amplitude")
-              ->check(CLI::IsMember(averages).description(""))
-              ->capture_default_str());
-    group(command
-              ->add_option("--basis", options.basis,
-                           fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
-                                       "direction), {} (default: the file's, or {})",
-                                       fmt::join(transform::transform_names(), ", "), defaults.basis))
-              ->type_name("NAME"));
-    group(command
-              ->add_option("--tolerance", options.tolerance,
-                           "Share of a hogel's amplitude that left-out basis fringes may carry")
-              ->type_name("0..1")
-              ->check(CLI::Range(0.0, 1.0).description(""))
-              ->capture_default_str());
+void add_frequencies_option(Command& command, RenderOptions& options) {
+    command.group(light_field_group);
+    command
+        .length(
+            "--frequencies", options.frequencies,
+            "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
+            "with --algorithm raytrace")
+        .excludes("--hemicube")
+        .excludes("--directions")
+        .excludes("--toward");
 }
 
-void add_scene_hologram_options(CLI::App* command, HologramChoices& options) {
-    std::string names;
-    std::vector<std::string> known;
-    for (const auto& [name, method] : methods) known.push_back(name);
-    for (const SceneMethod& method : scene_methods()) {
-        known.emplace_back(method.name);
-        names += fmt::format("\n{}: {}", method.name, method.description);
+void add_hologram_options(Command& command, HologramChoices& options) {
+    add_hologram_options(command, options, method_names, "");
+}
+
+void add_scene_hologram_options(Command& command, HologramChoices& options) {
+    std::vector<std::string> names = method_names;
+    std::string help = "\nWithout a light field, from a scene:";
+    for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
+        names.emplace_back(method.name);
+        help += fmt::format("\n{}: {}", method.name, method.text);
     }
-    CLI::Option* method = command->get_option("--method");
-    method->description(method->get_description() + "\nWithout a light field, from a scene:" + names);
-    CLI::Validator* check = method->get_validator();
-    *check = CLI::IsMember(known).description("");
-    const auto group = [](CLI::Option* option) { option->group("Hologram"); };
-    group(add_length(command, "--spacing", options.spacing,
-                     "Of points on surfaces and along edges; height of hpo lines"));
-    group(add_count(command, "--planes", options.planes, "Depth planes of fresnel and planes"));
-}
-
-InputKind input_kind(const std::string& name) {
-    if (is_builtin(name)) return InputKind::scene;
-    if (!std::filesystem::exists(name)) {
-        if (name.find_first_of("./") != std::string::npos)
-            throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
-        make_scene(name, defaults.size);  // knows the names that exist, and says so
-    }
-    switch (file_kind(name)) {
-        case FileKind::light_field:
-            return InputKind::light_field;
-        case FileKind::hologram:
-            return InputKind::hologram;
-        case FileKind::mesh:
-            return InputKind::scene;
-        case FileKind::picture:
-            throw Error(ErrorCode::bad_input,
-                        fmt::format("{}: is a picture; expected a scene, a light field or a hologram", name));
-        case FileKind::unknown:
-            break;
-    }
-    throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
+    add_hologram_options(command, options, names, help);
+    command.length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines");
+    command.count("--planes", options.planes, "Depth planes of fresnel and planes");
 }
 
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options) {
-    if (is_builtin(name)) {
-        Stage stage(session, "scene");
-        return make_scene(name, options.size, stage.progress());
-    }
-    Scene scene = import_scene(name);
-    if (!options.as_is) {
-        Fit fit;
-        fit.width = options.size;
-        fit.height =
-            options.size * static_cast<double>(options.hogels.rows) / static_cast<double>(options.hogels.columns);
-        fit.front = options.front;
-        fit_scene(scene, fit);
-    }
-    if (scene.lights.empty()) add_default_lights(scene);
-    return scene;
+    Stage stage(session, "scene");
+    return hogel::load_scene(name, options.request(), stage.progress());
 }
 
-std::shared_ptr<const ShadedScene> shade_scene(const Session& session, const Scene& scene,
+std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
                                                const RenderOptions& options) {
-    ShadingOptions shading;
-    shading.model = options.shading;
-    shading.shadow_map = options.shadow_map;
-    if (const double bytes = shadow_map_bytes(scene, shading); bytes > 0)
+    const LightFieldRequest request = options.request();
+    if (const double bytes = shadow_map_bytes(scene, request.shading); bytes > 0)
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     Stage stage(session, "lighting");
-    auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, shading, stage.progress()));
-    shaded->fronts_only = options.fronts_only;
-    if (options.cache_spacing > 0)
-        shading::add_radiance_cache(
-            *shaded,
-            render::cache_spacing(*shaded, finer(options.grid(), options.samples_per_ray()), options.cache_spacing));
-    if (const auto& cache = shaded->radiance_cache)
-        session.detail(fmt::format("light on surfaces: at most {}; no room for that of {} of {} triangles",
-                                   format_bytes(cache->bytes()), cache->triangles_without_room(),
-                                   shaded->triangles.size()));
-    return shaded;
+    return hogel::light_scene(scene, request, stage.progress());
 }
 
-std::unique_ptr<LightFieldSource> render_on_demand(const Session& session, const Scene& scene,
-                                                   const RenderOptions& options) {
-    return make_renderer(options.algorithm, shade_scene(session, scene, options), options.grid(),
-                         options.samples_per_ray());
+LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options) {
+    return hogel::render_light_field(light_scene(session, scene, options), options.request());
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> render_faces_on_demand(const Session& session, const Scene& scene,
-                                                                      const RenderOptions& options) {
-    const std::shared_ptr<const ShadedScene> shaded = shade_scene(session, scene, options);
-    std::vector<std::unique_ptr<LightFieldSource>> faces;
-    for (const LightFieldGrid& grid : options.grids())
-        faces.push_back(make_renderer(options.algorithm, shaded, grid, options.samples_per_ray()));
-    return faces;
-}
-
-std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
-                                                 const RenderOptions& options) {
+LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
-    return render_on_demand(session, load_scene(session, name, options), options);
+    return render_light_field(session, load_scene(session, name, options), options);
 }
 
-std::vector<std::unique_ptr<LightFieldSource>> open_for_hologram(const std::string& name, HologramChoices& hologram) {
-    if (methods.at(hologram.method) == Method::basis && is_stream(name)) {
-        const StreamInfo info = read_stream_info(name);
-        const codec::CodingMethod& stored = info.method;
-        if (stored.coder == "fringes" && !info.mapping.changes() &&
-            (hologram.basis.empty() || hologram.basis == stored.transform)) {
-            hologram.basis = stored.transform;
-            hologram.coefficients = true;
-            std::vector<std::unique_ptr<LightFieldSource>> coefficients;
-            coefficients.push_back(open_coefficients(name));
-            return coefficients;
-        }
-    }
-    return open_light_field_faces(name);
-}
-
-std::vector<std::unique_ptr<LightFieldSource>> open_or_render_faces(const Session& session, const std::string& name,
-                                                                    const RenderOptions& options) {
-    if (input_kind(name) == InputKind::light_field) return open_light_field_faces(name);
-    return render_faces_on_demand(session, load_scene(session, name, options), options);
-}
-
-bool needs_depth(const HologramChoices& options) {
-    HologramOptions stereogram;
-    stereogram.method = methods.at(options.method);
-    stereogram.phases = phases_of(options);
-    return needs_depth(stereogram);
-}
-
-std::vector<std::unique_ptr<LightFieldSource>> render_for_reading(const Session& session,
-                                                                  std::vector<std::unique_ptr<LightFieldSource>> faces,
-                                                                  std::size_t times, bool with_depth) {
-    double samples = 0;
-    for (const auto& face : faces) samples += face->grid().samples();
-    if (times == 1 || samples * sizeof(float) > kept_bytes) {
-        for (auto& face : faces)
-            face = cached_tiles(std::move(face), kept_tile_bytes / static_cast<double>(faces.size()), with_depth);
-        return faces;
-    }
+LightField prepare_for_reading(const Session& session, const LightField& light_field, std::size_t times,
+                               bool with_depth) {
     Stage stage(session, "rendering");
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        auto light_field = std::make_unique<LightFieldBuffer>(faces[i]->grid(), with_depth);
-        copy(*faces[i], *light_field, stage.progress(i, faces.size()));
-        faces[i] = std::move(light_field);
-    }
-    return faces;
-}
-
-std::vector<LightFieldGrid> grids_of(std::span<const std::unique_ptr<LightFieldSource>> faces) {
-    std::vector<LightFieldGrid> grids;
-    for (const auto& face : faces) grids.push_back(face->grid());
-    return grids;
-}
-
-void require_holograms(std::span<const LightFieldGrid> faces, const HologramChoices& options,
-                       std::span<const Camera> cameras) {
-    // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
-    const double shortest = *std::ranges::min_element(options.wavelengths);
-    const FieldGrid hologram = hologram_grid(faces, stereogram_options(faces.front(), options, shortest));
-    require_photographs(hologram, cameras);
-    for (const Camera& camera : cameras) require_light_towards(hologram, camera);
-}
-
-std::vector<std::unique_ptr<FieldSource>> make_holograms(const Session& session,
-                                                         std::span<const std::unique_ptr<LightFieldSource>> faces,
-                                                         const HologramChoices& options, std::size_t looks) {
-    std::vector<const LightFieldSource*> sources;
-    for (const auto& face : faces) sources.push_back(face.get());
-    std::vector<std::unique_ptr<FieldSource>> holograms;
-    for (const double wavelength : options.wavelengths) {
-        HologramOptions stereogram = stereogram_options(faces.front()->grid(), options, wavelength);
-        stereogram.looks = looks;
-        stereogram.seed = session.seed;
-        holograms.push_back(options.coefficients ? make_hologram_of_coefficients(*sources.front(), stereogram)
-                                                 : make_hologram(sources, stereogram));
-    }
-    return holograms;
-}
-
-std::vector<Image> photograph_colours(Stage& stage, std::span<const std::unique_ptr<FieldSource>> holograms,
-                                      std::span<const Camera> cameras, const std::optional<FullCameraOptions>& full) {
-    const std::size_t colours = holograms.size();
-    std::vector<Image> pictures(cameras.size());
-    for (std::size_t c = 0; c < colours; ++c) {
-        const Progress progress = stage.progress(c, colours);
-        const std::vector<Image> seen = full ? photograph_fully(*holograms[c], cameras, progress, *full)
-                                             : photograph(*holograms[c], cameras, progress);
-        for (std::size_t i = 0; i < cameras.size(); ++i) {
-            if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
-            for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
-                pictures[i].pixels.data()[pixel * colours + c] = seen[i].pixels.data()[pixel];
-        }
-    }
-    return pictures;
-}
-
-Camera camera_for(double width, double height, std::size_t resolution) {
-    const double pixel = width / static_cast<double>(resolution);
-    const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(height / pixel)));
-    Camera camera;
-    camera.eye = {0, 0, defaults.eye_distance};
-    camera.pupil = defaults.pupil;
-    camera.picture = {resolution, rows, pixel, pixel, 0, 0};
-    return camera;
+    return hogel::prepare_for_reading(light_field, times, with_depth, stage.progress());
 }
 
 }  // namespace hogel::cli

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <new>
 
 #include "commands.h"
-#include "help.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
-#include "hogel/version.h"
+#include "hogel/resources.h"
+#include "interrupts.h"
 #include "session.h"
 
 namespace {
@@ -20,61 +22,38 @@ using namespace hogel::cli;
 // Every failure is one line on stderr.
 int fail(ErrorCode code, std::string message) {
     std::replace(message.begin(), message.end(), '\n', ' ');
-    fmt::print(stderr, "hogel: {}\n", message);
+    write_error_stream(fmt::format("hogel: {}\n", message));
     return static_cast<int>(code);
 }
 
-void build(CLI::App& app, Session& session) {
-    app.formatter(std::make_shared<HelpFormatter>());
-    app.set_version_flag("--version", "hogel " HOGEL_VERSION, "Print the version and exit");
-    app.set_help_flag("-h,--help", "Print this help and exit");
-    app.require_subcommand(1);
-    app.footer(
-        "Lengths and angles have units: 16mm, 1.6um, 633nm, 20deg.\n"
-        "SCENE is a mesh file (glTF, OBJ, PLY, STL and more) or the name of a built-in scene;\n"
-        "depths are positive behind the hologram and negative in front of it.\n"
-        "'hogel COMMAND --help' explains a command. Begin with:\n"
-        "  hogel make pumpkin -o pumpkin");
-    add_make(app, session);
-    add_render(app, session);
-    add_hologram(app, session);
-    add_slm(app, session);
-    add_print(app, session);
-    add_photo(app, session);
-    add_propagate(app, session);
-    add_compress(app, session);
-    add_decompress(app, session);
-    add_compare(app, session);
-    add_bench(app, session);
-    add_info(app, session);
-    add_bake(app, session);
-    add_scenes(app, session);
+// A standard stream that the caller closed is opened again as one that fails, so that no output file gets its number
+// and with it the words that are meant for the stream.
+void open_closed_streams() {
+    for (const int stream : {0, 1, 2})
+        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
 }
 
-int run(int argc, char** argv) {
-    CLI::App app{"hogel: full-parallax holographic stereograms, from scene to photograph", "hogel"};
-    Session session;
-    build(app, session);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return error.get_exit_code() == 0 ? app.exit(error) : fail(ErrorCode::usage, explain(app, error));
-    }
+int run(int argc, char** argv, Session& session) {
+    CommandLine line(commands(), session);
+    session.command = line.parse(argc, argv);
+    if (session.command == nullptr) return 0;
     const ThreadLimit limit(session.threads);
-    return session.run();
+    return session.command->run();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    catch_interrupts();
+    open_closed_streams();
+    Session session;
+    const Interrupts interrupts(session.stop);
     int status = 0;
     try {
-        status = run(argc, argv);
+        status = run(argc, argv, session);
     } catch (const Error& error) {
-        if (interrupted_by() != 0) {
+        if (interrupts.signal() != 0) {
             fail(ErrorCode::cancelled, "stopped");
-            return 128 + interrupted_by();
+            return 128 + interrupts.signal();
         }
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {

@@ -2,42 +2,43 @@
 #include "outputs.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
-
-#include "hogel/core/output_file.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;
+namespace {
 
-void require_writable(const fs::path& file) {
-    const core::OutputFile output(file);  // complains about a missing folder, or a folder in the file's place
-    if (access(output.temporary().parent_path().c_str(), W_OK) != 0)
-        throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
+// Whether `hogel make` or `hogel print` writes files of this name.
+bool is_output_of_a_run(const std::string& name) {
+    for (const char* whole : {"report.json", "report.html", "lightfield.h5", "hologram.h5"})
+        if (name == whole) return true;
+    for (const char* beginning : {"photo_", "hogel_", "row_"})
+        if (name.starts_with(beginning) && (name.ends_with(".png") || name.ends_with(".exr"))) return true;
+    return false;
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-    core::write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+void refuse_outputs_of_another_run(const fs::path& folder) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (is_output_of_a_run(name))
+            throw Error(ErrorCode::cannot_write,
+                        fmt::format("{}: holds {} of another run; name another folder, or add --force to write over it",
+                                    folder.string(), name));
+    }
 }
 
-void add_resume_flag(CLI::App* command, bool& resume) {
-    command->add_flag("--resume", resume,
-                      "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
+}  // namespace
+
+void add_force_flag(Command& command, bool& force) {
+    command.flag("--force", force, "Write into a folder that holds the outputs of another run, over them");
 }
 
-std::string describe_input(const std::string& name) {
-    std::error_code none;
-    const auto size = fs::file_size(name, none);
-    if (none) return name;
-    const auto date = fs::last_write_time(name, none).time_since_epoch();
-    return fmt::format("{}, {} bytes, {} ns", name, size, std::chrono::nanoseconds(date).count());
-}
-
-std::string describe_input(const std::string& name, const Scene& scene) {
-    return fmt::format("{} showing {:08x}", name, checksum(scene));
+void add_resume_flag(Command& command, bool& resume) {
+    command.flag("--resume", resume,
+                 "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
 }
 
 void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result) {
@@ -49,12 +50,13 @@ void say_what_was_compressed(const Session& session, const std::string& file, co
                                 format_bytes(static_cast<double>(result.depth_bytes)), result.depth_error));
 }
 
-OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
+OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
     std::error_code error;
     created_ = fs::create_directories(path_, error);
     if (error || !fs::is_directory(path_))
         throw Error(ErrorCode::cannot_write, fmt::format("{}: cannot create this folder: {}", path_.string(),
                                                          error ? error.message() : "a file has its name"));
+    if (!force) refuse_outputs_of_another_run(path_);
     require_writable(path_ / "report.html");
 }
 

@@ -2,37 +2,24 @@
 #include "session.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <string_view>
 
-#include "help.h"
+#include "command_line.h"
+#include "hogel/error.h"
 #include "hogel/version.h"
 
 namespace hogel::cli {
 namespace {
 
-volatile sig_atomic_t signal_seen = 0;
-volatile time_t seen_at = 0;
-
-// Wrappers such as timeout(1) send a signal twice at once, to the program and to its group; that counts as one. A
-// second one later means it.
-extern "C" void note_signal(int signal) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    if (signal_seen == 0) {
-        seen_at = now.tv_sec;
-        signal_seen = signal;
-    } else if (now.tv_sec > seen_at + 1) {
-        _exit(128 + signal);
-    }
-}
+constexpr std::uint64_t max_threads = 4096;
 
 std::string clock_text(double seconds) {
     const auto s = static_cast<long>(std::lround(std::min(seconds, 359999.0)));
@@ -49,68 +36,52 @@ std::size_t terminal_width() {
 }  // namespace
 
 void Session::say(const std::string& line) const {
-    if (!quiet) fmt::print(stderr, "{}\n", line);
+    if (!quiet) write_error_stream(line + "\n");
 }
 
 void Session::detail(const std::string& line) const {
-    if (verbose && !quiet) fmt::print(stderr, "{}\n", line);
+    if (verbose) say(line);
 }
 
-CLI::App* add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
-                      const std::string& examples, std::function<int()> run) {
-    CLI::App* command = app.add_subcommand(name, description);
-    command->group("Commands");
-    command->footer("Examples:\n" + examples);
-    command->add_flag("-q,--quiet", session.quiet, "Say nothing but errors")->group(HelpFormatter::last_group);
-    command->add_flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage")
-        ->group(HelpFormatter::last_group);
-    command->add_option("--threads", session.threads, "Threads to use; 0: as many as there are cores")
-        ->type_name("N")
-        ->capture_default_str()
-        ->group(HelpFormatter::last_group);
-    command->add_option("--seed", session.seed, "Seed of the random phases; equal seeds give equal bytes")
-        ->type_name("N")
-        ->capture_default_str()
-        ->group(HelpFormatter::last_group);
-    command->get_option("--help")->group(HelpFormatter::last_group);
-    command->callback([&session, command, run = std::move(run)] {
-        session.command = command;
-        session.run = run;
-    });
-    return command;
+void Session::result(const Result& result, const std::string& words) const {
+    const std::string text = json ? to_json(result) + "\n" : words;
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
+        throw Error(ErrorCode::cannot_write, "cannot write to the standard output");
+}
+
+void add_common_options(Command& command, Session& session) {
+    command.group(Command::last_group);
+    command.flag("-q,--quiet", session.quiet, "Say nothing but errors");
+    command.flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage");
+    command.whole("--threads", session.threads, max_threads, "Threads to use; 0: as many as there are cores");
+    command.whole("--seed", session.seed, std::numeric_limits<std::uint64_t>::max(),
+                  "Seed of the random phases; equal seeds give equal bytes");
+    command.group(Command::default_group);
+}
+
+void add_json_flag(Command& command, Session& session) {
+    command.flag("--json", session.json, "The result as a JSON object, on the standard output");
 }
 
 Metadata describe_run(const Session& session) {
-    Metadata metadata{{"software", "hogel " HOGEL_VERSION}, {"command", "hogel " + session.command->get_name()}};
-    for (const CLI::Option* option : session.command->get_options()) {
-        const std::string name = option->get_single_name();
-        // How many threads worked, how often, and how much was said does not touch the result: equal input, equal
-        // bytes.
-        constexpr std::array<std::string_view, 7> silent{"help",   "quiet",  "verbose", "threads",
-                                                         "output", "resume", "region"};
-        if (std::ranges::find(silent, name) != silent.end()) continue;
-        const bool is_flag = option->get_expected_min() == 0;
-        std::string value = option->count() > 0 ? CLI::detail::join(option->results(), " ") : option->get_default_str();
-        if (is_flag) value = option->count() > 0 ? "yes" : "no";
-        if (!value.empty()) metadata.emplace_back("option " + name, value);
-    }
+    // Equal input gives equal bytes: what does not touch the result is left out, such as how many threads worked and
+    // how much was said.
+    constexpr std::array<std::string_view, 9> silent{"help",   "quiet",  "verbose", "threads", "output",
+                                                     "resume", "region", "json",    "force"};
+    Metadata metadata{{"software", "hogel " HOGEL_VERSION}, {"command", "hogel " + session.command->name()}};
+    for (const auto& [name, value] : session.command->values())
+        if (!value.empty() && std::ranges::find(silent, name) == silent.end())
+            metadata.emplace_back("option " + name, value);
     return metadata;
 }
 
-void catch_interrupts() {
-    struct sigaction action {};
-    action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+void write_error_stream(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stderr) != text.size()) std::clearerr(stderr);
 }
-
-int interrupted_by() { return signal_seen; }
 
 Stage::Stage(const Session& session, std::string name)
     : session_(session), name_(std::move(name)), on_terminal_(!session.quiet && isatty(STDERR_FILENO) != 0) {
-    if (interrupted_by() != 0) throw Error(ErrorCode::cancelled, "stopped on request");
+    if (session.stop.stop_requested()) throw Error(ErrorCode::cancelled, "stopped on request");
 }
 
 Stage::~Stage() {
@@ -119,10 +90,11 @@ Stage::~Stage() {
 }
 
 Progress Stage::progress(std::size_t i, std::size_t n) {
-    return [this, i, n](double fraction) {
-        if (on_terminal_) draw((static_cast<double>(i) + fraction) / static_cast<double>(n));
-        return interrupted_by() == 0;
-    };
+    if (!on_terminal_) return Progress(session_.stop.get_token());
+    return Progress(session_.stop.get_token(), [this, i, n](double fraction) {
+        draw((static_cast<double>(i) + fraction) / static_cast<double>(n));
+        return true;
+    });
 }
 
 double Stage::seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
@@ -143,12 +115,11 @@ void Stage::draw(double fraction) {
         const auto done = static_cast<std::size_t>(fraction * static_cast<double>(cells));
         bar = fmt::format("  [{}{}]", std::string(done, '#'), std::string(cells - done, '.'));
     }
-    fmt::print(stderr, "\r\033[K{}{}", words, bar);
-    std::fflush(stderr);
+    write_error_stream("\r\033[K" + words + bar);
 }
 
 void Stage::erase() {
-    if (visible_) fmt::print(stderr, "\r\033[K");
+    if (visible_) write_error_stream("\r\033[K");
     visible_ = false;
 }
 

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
 template <std::size_t Rank>
@@ -20,12 +22,12 @@ constexpr std::size_t count(const Shape<Rank>& shape) {
     return n;
 }
 
-/// Memory at a multiple of a cache line; large blocks in pages as large as the system has, of which the processor need
-/// not look up many. Throws std::bad_alloc.
-void* allocate_lines(std::size_t bytes);
-void free_lines(void* memory);
+/// Memory aligned to a cache line; large blocks in huge pages where the system grants them, because each page that is
+/// touched costs a look-up in the processor's page table. Throws std::bad_alloc.
+HOGEL_API void* allocate_lines(std::size_t bytes);
+HOGEL_API void free_lines(void* memory);
 
-/// Allocates at multiples of a cache line, so that vector code and FFT plans may rely on it for whole arrays.
+/// Allocates at multiples of a cache line, on which vector code and FFT plans rely.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
@@ -38,7 +40,7 @@ struct CacheLineAllocator {
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
-/// A dense row-major array that somebody else owns; the last index runs fastest. Cheap to copy.
+/// A reference to a dense row-major array that is owned elsewhere; the last index runs fastest. Cheap to copy.
 template <class T, std::size_t Rank>
 class View {
   public:
@@ -78,7 +80,7 @@ class View {
     Shape<Rank> shape_{};
 };
 
-/// A dense row-major array that owns its elements, value-initialised, aligned to a cache line.
+/// A dense row-major array that owns its elements; they are value-initialised and aligned to a cache line.
 template <class T, std::size_t Rank>
 class Array {
   public:

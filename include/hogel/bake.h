@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "hogel/export.h"
 #include "hogel/progress.h"
 #include "hogel/scene.h"
 
@@ -28,6 +29,6 @@ struct BakeOptions {
 /// The same bytes for any number of threads. Cost: vertices × rays × (1 + bounces/8) rays, and a shadow ray a light for
 /// each vertex of the cut triangles. Throws what shade_scene() throws, and Error(usage) for zero rays or a tessellation
 /// of zero.
-Scene bake_scene(const Scene& scene, const BakeOptions& options = {}, const Progress& progress = {});
+HOGEL_API Scene bake_scene(const Scene& scene, const BakeOptions& options = {}, const Progress& progress = {});
 
 }  // namespace hogel

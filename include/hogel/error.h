@@ -4,20 +4,22 @@
 #include <stdexcept>
 #include <string>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
-/// What went wrong, in a form that a program can act on. The value is the exit status of the command line.
+/// What kind of failure an Error is, for programs to act on. The value is the exit status of the command line.
 enum class ErrorCode {
     usage = 2,         ///< the request makes no sense: wrong unit, contradicting or impossible options
     bad_input = 3,     ///< a file or a scene is missing, damaged, or not what it claims to be
     cannot_write = 4,  ///< an output cannot be created, or the disk is full
     not_built_in = 5,  ///< this build lacks the feature
-    cancelled = 6,     ///< the caller's progress callback asked to stop
-    internal = 70,     ///< a broken promise inside the library: a bug
+    cancelled = 6,     ///< the caller asked to stop, by its Progress
+    internal = 70,     ///< a condition that the library itself should have ensured: a bug
 };
 
 /// The one exception type of the library. `what()` is a single line: what, where, what was expected.
-class Error : public std::runtime_error {
+class HOGEL_API Error : public std::runtime_error {
   public:
     Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
     ErrorCode code() const noexcept { return code_; }

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "hogel/array.h"
+#include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
 
@@ -21,41 +22,41 @@ struct FieldGrid {
 
 /// Throws Error(code) naming `what` and the member that is wrong: no samples, a pitch or a wavelength that is not
 /// positive and finite, more samples than can be addressed.
-void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
+HOGEL_API void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Throws Error(usage) when a region is empty or leaves the grid, or an array for it does not have its shape.
-void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array);
+HOGEL_API void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array);
 
-/// Where fields come from: memory, a file, or a synthesis on demand. A source may offer several looks: statistically
+/// A source of fields: memory, a file, or a synthesis on demand. A source may offer several looks: statistically
 /// independent fields (other random phases) of the same object, whose photographs are averaged against speckle.
 /// read() may be called from several threads at once and gives the same value for a sample whatever the region.
-class FieldSource {
+class HOGEL_API FieldSource {
   public:
     virtual ~FieldSource() = default;
     virtual const FieldGrid& grid() const = 0;
     virtual std::size_t looks() const { return 1; }
-    /// Regions that start at multiples of this many samples and span multiples of it cost no work twice.
+    /// Regions that start at multiples of this many samples and span multiples of it are read without repeated work.
     virtual std::size_t alignment() const { return 1; }
     /// Fills out[y][x] (shape: region height × width) with look number `look` of the samples of the region.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
 };
 
-/// Where fields go. write() may be called from several threads at once, each sample once.
-class FieldSink {
+/// A destination of fields. write() may be called from several threads at once, each sample once.
+class HOGEL_API FieldSink {
   public:
     virtual ~FieldSink() = default;
     virtual void write(const Region& region, View<const std::complex<float>, 2> values) = 0;
-    /// All samples where they lie, [y][x], if the field is whole in memory: they may be put there instead of written.
-    /// Otherwise no elements.
+    /// The storage of all samples, [y][x], if the field is whole in memory: a writer may fill it instead of calling
+    /// write(). Otherwise no elements.
     virtual View<std::complex<float>, 2> in_memory() { return {}; }
-    /// Whether the sink goes on with earlier work in which this very region was written; then it counts as written now.
+    /// Whether the sink continues an interrupted run in which this very region was written; then it counts as written.
     virtual bool has_already(const Region&) { return false; }
     /// Called once after the last region; a file appears under its own name only now.
     virtual void finish() {}
 };
 
 /// A field that is whole in memory: source and sink.
-class Field final : public FieldSource, public FieldSink {
+class HOGEL_API Field final : public FieldSource, public FieldSink {
   public:
     explicit Field(const FieldGrid& grid);
     const FieldGrid& grid() const override { return grid_; }
@@ -70,6 +71,6 @@ class Field final : public FieldSource, public FieldSink {
 };
 
 /// Streams one look of a field from a source to a sink region by region on all threads. Calls finish().
-void copy(const FieldSource& source, FieldSink& sink, std::size_t look = 0, const Progress& progress = {});
+HOGEL_API void copy(const FieldSource& source, FieldSink& sink, std::size_t look = 0, const Progress& progress = {});
 
 }  // namespace hogel

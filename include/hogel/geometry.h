@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+
 namespace hogel {
 
 /// A point or a direction in the frame of docs/notation.md: x right, y up, z towards the viewer; metres.
@@ -35,14 +36,14 @@ struct Rgb {
     friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// The samples of a plane parallel to the hologram, as a picture seen by the viewer: column 0 at the left, row 0 at the
-/// top. Count, pitch and position travel together.
+/// Where samples lie on a plane parallel to the hologram, arranged as a picture seen by the viewer: column 0 at the
+/// left, row 0 at the top.
 struct Grid {
     std::size_t width = 0;   ///< samples in x
     std::size_t height = 0;  ///< samples in y
     double pitch_x = 0;      ///< metres between columns
     double pitch_y = 0;      ///< metres between rows
-    double center_x = 0;     ///< where the middle of the array lies, metres
+    double center_x = 0;     ///< of the middle of all samples, metres
     double center_y = 0;
 
     double x(double column) const { return center_x + (column + 0.5 - 0.5 * static_cast<double>(width)) * pitch_x; }
@@ -55,7 +56,7 @@ struct Grid {
     friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// A rectangle of samples of a Grid.
+/// A rectangle of the samples of a Grid.
 struct Region {
     std::size_t x0 = 0, y0 = 0;  ///< first column and row
     std::size_t width = 0, height = 0;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hogel/array.h"
+#include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
 namespace hogel {
@@ -90,12 +91,12 @@ struct Frequencies : DirectionRange {
 /// A perspective that spans a full angle (radians), around the axis that is `toward` from the perpendicular. Throws
 /// Error(usage) for an angle outside 0 … π, and for one that reaches π/2 from the perpendicular while `toward` is not
 /// 0.
-Perspective field_of_view(double across, double down, double toward_right = 0, double toward_up = 0);
+HOGEL_API Perspective field_of_view(double across, double down, double toward_right = 0, double toward_up = 0);
 inline Perspective field_of_view(double angle) { return field_of_view(angle, angle); }
 
 /// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, section 1). A ray crosses the hologram plane at the
 /// centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Which rays a hogel has, `view` says.
-struct LightFieldGrid {
+struct HOGEL_API LightFieldGrid {
     std::size_t hogels_s = 0, hogels_t = 0;          ///< S columns, T rows of hogels
     double pitch = 0;                                ///< d, metres between hogels
     std::size_t directions_u = 0, directions_v = 0;  ///< n_U, n_V samples of direction
@@ -141,19 +142,19 @@ struct LightFieldGrid {
 
 /// Throws Error(code) naming `what` and the member that is wrong: nothing to sample, not finite, not positive, or more
 /// samples than can be addressed.
-void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
+HOGEL_API void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Throws Error(code) where directions are uniform in sines, which `what` cannot do.
-void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
+HOGEL_API void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Whether two light fields have the same hogels in the same places, and as many channels.
-bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
+HOGEL_API bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
 
 /// The five faces of a hemicube around the hogels of `grid`, front first: all directions with ζ > 0, the front |U|, |V|
 /// <= 1 with the directions of `grid`, the sides with as many along the front's edges and half as many away from it.
 /// Of one row of directions a hemisquare, for horizontal parallax only: the front and its sides left and right, each
 /// with the row V = 0. Throws Error(usage) unless the numbers of directions are even, or that of rows one.
-std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid);
+HOGEL_API std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid);
 
 /// A rectangle of hogels with all their directions: the unit of work.
 struct HogelRange {
@@ -166,7 +167,7 @@ struct HogelRange {
 
 /// The values of a range of hogels. `radiance` has shape [c][nt][ns][n_V][n_U]; `depth` (ζ in metres, +infinity where
 /// the ray meets nothing) has shape [nt][ns][n_V][n_U], or no elements where nobody asked for it.
-struct LightFieldTile {
+struct HOGEL_API LightFieldTile {
     HogelRange range;
     Array<float, 5> radiance;
     Array<float, 4> depth;
@@ -176,18 +177,19 @@ struct LightFieldTile {
 };
 
 /// Throws Error(usage) when a tile's range is empty or leaves the grid, or its arrays do not have the range's shapes.
-void validate(const LightFieldTile& tile, const LightFieldGrid& grid);
+HOGEL_API void validate(const LightFieldTile& tile, const LightFieldGrid& grid);
 
 /// The size of tile that suits most sources: as many hogels as about 16 MiB of samples hold, 1×1 at least.
-HogelRange default_tile(const LightFieldGrid& grid);
+HOGEL_API HogelRange default_tile(const LightFieldGrid& grid);
 
 /// Copies the hogels that two tiles have in common, with depth where both have it: of `from` the directions from row
 /// first_v and column first_u on, as many as `to` has.
-void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t first_v = 0, std::size_t first_u = 0);
+HOGEL_API void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t first_v = 0,
+                           std::size_t first_u = 0);
 
 /// Where light fields come from: memory, a file, a decoder, a renderer working on demand. read() may be called from
 /// several threads at once and gives the same values for a hogel whatever the range it is asked for in.
-class LightFieldSource {
+class HOGEL_API LightFieldSource {
   public:
     virtual ~LightFieldSource() = default;
     virtual const LightFieldGrid& grid() const = 0;
@@ -201,7 +203,7 @@ class LightFieldSource {
 };
 
 /// Where light fields go. write() may be called from several threads at once, each hogel once.
-class LightFieldSink {
+class HOGEL_API LightFieldSink {
   public:
     virtual ~LightFieldSink() = default;
     virtual void write(const LightFieldTile& tile) = 0;
@@ -214,7 +216,7 @@ class LightFieldSink {
 };
 
 /// A light field that is whole in memory: source and sink.
-class LightFieldBuffer final : public LightFieldSource, public LightFieldSink {
+class HOGEL_API LightFieldBuffer final : public LightFieldSource, public LightFieldSink {
   public:
     explicit LightFieldBuffer(const LightFieldGrid& grid, bool with_depth = false);
     const LightFieldGrid& grid() const override { return grid_; }
@@ -233,7 +235,7 @@ class LightFieldBuffer final : public LightFieldSource, public LightFieldSink {
 
 /// A light field: a front, or all three or five faces of a hemicube with the front first. A value: copies share the
 /// sources, which live as long as anybody holds the light field or something made of it.
-class LightField {
+class HOGEL_API LightField {
   public:
     using Source = std::shared_ptr<const LightFieldSource>;
 
@@ -270,20 +272,20 @@ class LightField {
 };
 
 /// A light field of a source that somebody else owns, and that must outlive all that is made of it.
-LightField borrow(const LightFieldSource& front);
-LightField borrow(std::span<const LightFieldSource* const> faces);
+HOGEL_API LightField borrow(const LightFieldSource& front);
+HOGEL_API LightField borrow(std::span<const LightFieldSource* const> faces);
 
 /// Throws Error(usage) where grids are not those of one light field: see LightField.
-void require_faces(std::span<const LightFieldGrid> faces);
+HOGEL_API void require_faces(std::span<const LightFieldGrid> faces);
 
 /// Streams a face of a light field from a source to a sink in the source's preferred tiles on all threads; memory: a
 /// tile a thread. Calls finish().
-void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
+HOGEL_API void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
 
 /// The same light field, for readers whose tiles suit the sources badly, such as narrow ones of a renderer that is fast
 /// in long rows: it is read in tiles that suit, and those used last are kept, `bytes` of them at most. Where the tiles
 /// that a reader asks for would not fit, it reads from the source itself. Depths are kept if `with_depth`, else read
 /// from the source.
-LightField cached_tiles(const LightField& light_field, double bytes, bool with_depth = false);
+HOGEL_API LightField cached_tiles(const LightField& light_field, double bytes, bool with_depth = false);
 
 }  // namespace hogel

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/progress.h"
+#include "hogel/table.h"
 
 namespace hogel {
 
@@ -21,13 +22,10 @@ struct Modulator {
     friend bool operator==(const Modulator&, const Modulator&) = default;
 };
 
-/// Common modulators by name. Sources: their makers' data sheets.
-const std::vector<Modulator>& modulators();
+/// Common modulators by name, from their makers' data sheets, and those that a program adds.
+HOGEL_API Table<Modulator>& modulators();
 
-/// Throws Error(usage) listing the names that exist.
-const Modulator& find_modulator(const std::string& name);
-
-/// How a complex field becomes what a modulator shows: phases 0..2π, or transmitted amplitudes 0..1.
+/// How a complex field becomes the values that a modulator shows: phases 0..2π, or transmitted amplitudes 0..1.
 enum class Encoding {
     phase,             ///< phase: the field's own, its modulus forgotten (kinoform)
     double_phase,      ///< phase: the modulus as two phases φ ± acos|F| on a checkerboard (Hsueh and Sawchuk 1978)
@@ -35,44 +33,55 @@ enum class Encoding {
     gradient,    ///< phase: stochastic gradient descent towards the field's local spectra, wherever they are taken
     intensity,   ///< amplitude: |F + R|² with a plane reference wave R
     bipolar,     ///< amplitude: 2 Re(F R*), raised to be positive
-    burckhardt,  ///< amplitude: three real components, 120° apart, in columns by turns (Burckhardt 1970)
-    lee,         ///< amplitude: four real components, 90° apart, in columns by turns (Lee 1970)
-    binary,      ///< amplitude: one where Re(F R*) > 0, nought elsewhere
+    burckhardt,  ///< amplitude: three real components, 120° apart, in successive columns (Burckhardt 1970)
+    lee,         ///< amplitude: four real components, 90° apart, in successive columns (Lee 1970)
+    binary,      ///< amplitude: one where Re(F R*) > 0, zero elsewhere
 };
 
-/// All encodings by name.
-const std::map<std::string, Encoding>& encodings();
+HOGEL_API bool is_phase_only(Encoding encoding);
 
-bool is_phase_only(Encoding encoding);
+struct EncodingInfo {
+    std::string name;
+    std::string text;  ///< one line
+    Encoding encoding;
+    bool phase_only = false;  ///< for a modulator of phases; otherwise of amplitudes
+};
+
+/// All encodings by name: phase, double-phase, gerchberg-saxton, gradient, intensity, bipolar, burckhardt, lee, binary.
+HOGEL_API Table<EncodingInfo>& encodings();
 
 struct PatternOptions {
     Encoding encoding = Encoding::phase;
     Modulator modulator;
-    double reference_angle =
-        0;  ///< radians in the plane of x and z, for the encodings with R; 0: in the middle of what will do
+    /// Of R, radians in the plane of x and z, for the encodings with R; 0: the middle of the angles that keep the
+    /// orders apart.
+    double reference_angle = 0;
     double clip = 0.001;          ///< share of the samples whose modulus may be cut to the largest that is shown
     std::size_t window = 32;      ///< side in pixels of the squares whose spectra iterated phases keep: a hogel
     std::size_t iterations = 40;  ///< of Gerchberg–Saxton, or steps of the descent
     std::uint64_t seed = 1;       ///< of the descent, which draws where its squares lie
 };
 
-/// What a modulator shows for one wavelength.
+/// The values of a modulator's pixels for one wavelength.
 struct Pattern {
-    Array<float, 2> values;         ///< turns of phase [0, 1), or amplitudes [0, 1], before rounding to levels; [y][x]
+    Array<float, 2> values;         ///< cycles of phase [0, 1), or amplitudes [0, 1], before rounding to levels; [y][x]
     Array<std::uint8_t, 2> levels;  ///< 0 .. 255, in steps of the modulator's levels: for phases 256 would be 2π
     double efficiency = 0;  ///< share of the light on the modulator that goes into the wave F, as rounded to levels
     /// Phases: the share of the light on the modulator that makes the moduli of the field's local spectra, in squares
-    /// of the window's side. What only a light field is judged by: the phases between directions are free.
+    /// of the window's side. It is the measure for a light field, where the phases between directions are free.
     double light_field_efficiency = 0;
-    double reference_angle = 0;  ///< of R, or of the order that the columns by turns diffract into; 0 without
+    double reference_angle = 0;  ///< of R, or of the order that successive columns diffract into; 0 without
 };
 
-/// Encodes a field for a modulator: its middle part, or all with a dark border. The whole modulator is in memory.
+/// Encodes look 0 of a field for a modulator: its middle part, or all with a dark border. The whole modulator is in
+/// memory.
 /// Throws Error(usage) where pitches differ, and where a reference wave cannot keep its orders apart, naming the angle
 /// or the pitch that would do.
-Pattern encode_pattern(const FieldSource& field, const PatternOptions& options, const Progress& progress = {});
+HOGEL_API Pattern encode_pattern(const FieldSource& field, const PatternOptions& options,
+                                 const Progress& progress = {});
 
-/// The complex transmission of a pattern: e^{2πi v} or v of its rounded levels. What a laser on the modulator becomes.
-Array<std::complex<float>, 2> transmission(const Pattern& pattern, Encoding encoding);
+/// The complex transmission of a pattern, e^{2πi v} or v of its rounded levels: the field of a uniform laser beam
+/// behind the modulator.
+HOGEL_API Array<std::complex<float>, 2> transmission(const Pattern& pattern, Encoding encoding);
 
 }  // namespace hogel

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/progress.h"
 #include "hogel/resources.h"
 
 namespace hogel {
 
-/// A field on a parallel plane, on the same grid. It is given room around it and keeps all directions that could bring
-/// light from one end of the grid to the other; those that go farther fade out, and do not come in again.
-/// Throws Error(usage) for a distance that is not finite.
-Field propagate(const FieldSource& field, double distance, std::size_t look = 0);
+struct PropagateOptions {
+    std::size_t look = 0;                  ///< of the field
+    ScratchOptions scratch{SIZE_MAX, {}};  ///< for the arrays of the work; by default they are in memory
+};
 
-/// The same from a source to a sink, with what does not fit into memory in a file.
-void propagate(const FieldSource& field, double distance, FieldSink& sink, std::size_t look,
-               const ScratchOptions& scratch, const Progress& progress = {});
+/// The field on a parallel plane `distance` metres farther along +z, on the same grid, whole in memory. By the angular
+/// spectrum, [K] 6.1.1, with room around the field: the result has all directions that bring light from one end of the
+/// grid to the other; steeper ones fade out and do not wrap around. Throws Error(usage) for a distance that is not
+/// finite.
+HOGEL_API Field propagate(const FieldSource& field, double distance, const PropagateOptions& options = {},
+                          const Progress& progress = {});
+
+/// Writes the propagated field to a sink, which need not be in memory. Calls finish().
+HOGEL_API void propagate(const FieldSource& field, double distance, FieldSink& sink,
+                         const PropagateOptions& options = {}, const Progress& progress = {});
 
 }  // namespace hogel

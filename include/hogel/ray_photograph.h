@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hogel/camera.h"
+#include "hogel/export.h"
 #include "hogel/image.h"
 #include "hogel/light_field.h"
 
@@ -20,7 +21,7 @@ struct RayPhotographOptions {
 /// a ray is looked up in the first face that has its direction.
 /// Memory: one picture a camera and a tile of hogels. Cost: pupil samples × (hogels + pixels) a camera.
 /// Throws Error(usage) for a camera that makes no sense, and for a tilted plane in focus.
-std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
-                              const RayPhotographOptions& options = {}, const Progress& progress = {});
+HOGEL_API std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
+                                        const RayPhotographOptions& options = {}, const Progress& progress = {});
 
 }  // namespace hogel

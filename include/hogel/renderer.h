@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "hogel/export.h"
 #include "hogel/light_field.h"
 #include "hogel/shading.h"
 #include "hogel/table.h"
@@ -14,7 +15,7 @@
 namespace hogel {
 
 /// A light field that is rendered from a scene when it is read, and that can go on with another scene.
-class Renderer : public LightFieldSource {
+class HOGEL_API Renderer : public LightFieldSource {
   public:
     /// Renders this scene from now on: another one, or the same object with new contents. The light field is that of a
     /// new renderer, to the last bit; memory of the last scene is used again where it suffices. Call it while no other
@@ -40,13 +41,13 @@ struct RendererInfo {
 };
 
 /// The renderers by name.
-Table<RendererInfo>& renderers();
+HOGEL_API Table<RendererInfo>& renderers();
 
 /// A light field of the scene by the renderer of that name. Offers depth per ray. The scene is shared, never copied.
 /// Throws Error(usage) for an unknown name, for a grid uniform in sines where the renderer takes only perspectives, and
 /// for a scene that is not wholly behind the hologram plane where the renderer does not cross it.
-std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
-                                        const LightFieldGrid& grid);
+HOGEL_API std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
+                                                  const LightFieldGrid& grid);
 
 /// Supersampling factors: samples along each side of a hogel, and along each side of the cell around a direction.
 /// Together they make hogel² · direction² samples a ray, on a regular grid.
@@ -60,17 +61,17 @@ struct SamplesPerRay {
 
 /// The sampling whose cells divide those of `grid`. Throws Error(usage) for factors that are not 1 to 64, and for more
 /// samples than can be addressed.
-LightFieldGrid finer(const LightFieldGrid& grid, const SamplesPerRay& samples);
+HOGEL_API LightFieldGrid finer(const LightFieldGrid& grid, const SamplesPerRay& samples);
 
 /// A light field filtered by a box as wide as a sample's cell in s, t, U and V: each value is the mean of those of
 /// `fine`, which has the grid `finer(grid, samples)`. The depth of a ray is the smallest in its cell: it belongs to
 /// something that the ray shows, which a mean need not, and things in front keep their outline. Memory of a tile:
 /// `fine` in the tile that it prefers, or all samples of one hogel. Throws Error(usage) where `fine` has another grid.
-std::unique_ptr<LightFieldSource> average(std::shared_ptr<const LightFieldSource> fine, const LightFieldGrid& grid,
-                                          const SamplesPerRay& samples);
+HOGEL_API std::unique_ptr<LightFieldSource> average(std::shared_ptr<const LightFieldSource> fine,
+                                                    const LightFieldGrid& grid, const SamplesPerRay& samples);
 
 /// As make_renderer() above, with several samples a ray (see average()).
-std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
-                                        const LightFieldGrid& grid, const SamplesPerRay& samples);
+HOGEL_API std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
+                                                  const LightFieldGrid& grid, const SamplesPerRay& samples);
 
 }  // namespace hogel

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
-/// Limits the whole process to a number of threads while it lives; 0 means all that the machine has.
-class ThreadLimit {
+/// Limits the parallel loops of the whole process to a number of threads while it lives; 0: no limit.
+class HOGEL_API ThreadLimit {
   public:
     explicit ThreadLimit(std::size_t threads);
     ~ThreadLimit();
@@ -20,13 +22,13 @@ class ThreadLimit {
     std::unique_ptr<Limit> limit_;
 };
 
-/// How many threads parallel loops use at present.
-std::size_t thread_count();
+/// How many threads parallel loops use at present: those of the machine, or fewer by a ThreadLimit.
+HOGEL_API std::size_t thread_count();
 
-/// Where arrays that may not fit into memory are kept.
+/// Where to keep large arrays that may not fit into memory.
 struct ScratchOptions {
-    std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this lies in a file
-    std::filesystem::path folder;               ///< in which the file is made; empty: nowhere, such an array is refused
+    std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this is kept in a file
+    std::filesystem::path folder;               ///< of that file; where it is empty, such an array is an Error(usage)
 };
 
 }  // namespace hogel

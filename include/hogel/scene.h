@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/image.h"
 
@@ -71,20 +72,20 @@ struct Bounds {
 };
 
 /// The box around all vertices that triangles use. Throws Error(bad_input) for a scene without triangles.
-Bounds bounds(const Scene& scene);
+HOGEL_API Bounds bounds(const Scene& scene);
 
 /// The number of triangles of all meshes.
-std::size_t triangle_count(const Scene& scene);
+HOGEL_API std::size_t triangle_count(const Scene& scene);
 
 /// A checksum of everything visible: surfaces, materials, the pixels of textures, lights. Names do not matter.
-std::uint32_t checksum(const Scene& scene);
+HOGEL_API std::uint32_t checksum(const Scene& scene);
 
 /// Gives every mesh without normals smooth ones: area-weighted means over the triangles that share a vertex position.
 /// Vertices are split where faces meet at more than `crease` radians.
-void add_missing_normals(Scene& scene, double crease);
+HOGEL_API void add_missing_normals(Scene& scene, double crease);
 
 /// Throws Error(bad_input), which names the mesh, the element and what was expected, for an index out of range, a
 /// coordinate that is not finite, an attribute list of the wrong length, and a scene without triangles.
-void validate(const Scene& scene);
+HOGEL_API void validate(const Scene& scene);
 
 }  // namespace hogel

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-#include <string_view>
+#include <cstdint>
+#include <functional>
+#include <string>
 
+#include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/progress.h"
 #include "hogel/shading.h"
+#include "hogel/table.h"
 
 namespace hogel {
 
@@ -17,21 +20,20 @@ struct SceneHologramOptions {
     std::size_t planes = 16;  ///< methods of depth planes: how many
 };
 
-/// A way from a scene straight to the field on the hologram's plane, by Kartch's chapter 3: references and baselines
-/// for stereograms. The field is normalised like a stereogram's (docs/notation.md, section 3), so a photograph of it
-/// shows radiance. Whole in memory. All threads; the same bytes for any number of them.
-/// Throws Error(usage) for what the method cannot do, with what would do.
-struct SceneMethod {
-    std::string_view name;
-    std::string_view description;  ///< one line
-    Field (*make)(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
-                  const Progress& progress);
+/// A method that computes the field on the hologram's plane from a scene, without a light field, after [K] chapter 3:
+/// references and baselines for stereograms. The field is normalised like a stereogram's (docs/notation.md, section 3),
+/// so a photograph of it shows radiance. make() returns it whole in memory, works on all threads, and gives the same
+/// bytes for any number of them. It throws Error(usage) for a scene or grid that the method cannot take, and names one
+/// that would do.
+struct SceneHologramMethod {
+    std::string name;
+    std::string text;  ///< one line
+    std::function<Field(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
+                        const Progress& progress)>
+        make;
 };
 
-/// All of them.
-std::span<const SceneMethod> scene_methods();
-
-/// The one of that name, or null.
-const SceneMethod* find_scene_method(std::string_view name);
+/// All methods by name, and those that a program adds.
+HOGEL_API Table<SceneHologramMethod>& scene_hologram_methods();
 
 }  // namespace hogel

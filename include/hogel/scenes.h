@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "hogel/export.h"
 #include "hogel/progress.h"
 #include "hogel/scene.h"
 #include "hogel/table.h"
@@ -21,17 +22,17 @@ struct SceneInfo {
 };
 
 /// The built-in scenes by name.
-Table<SceneInfo>& scenes();
+HOGEL_API Table<SceneInfo>& scenes();
 
 /// Makes the scene of that name. Throws Error(usage) for an unknown name and for a size that is not positive.
-Scene make_scene(std::string_view name, double hologram_size, const Progress& progress = {});
+HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Progress& progress = {});
 
 /// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
 /// colours and base-colour textures, glTF's metallic-roughness materials, with all node transforms applied, in the
 /// file's own units and axes. The colour of an unlit material becomes given radiance. Missing normals are added. Files
 /// outside the mesh's own folder are not opened. The scene has no lights: see add_default_lights(). Throws
 /// Error(bad_input) with one line: the file, and what is missing, damaged or out of range.
-Scene import_scene(const std::filesystem::path& path);
+HOGEL_API Scene import_scene(const std::filesystem::path& path);
 
 /// The size and position of a fitted scene.
 struct Fit {
@@ -46,19 +47,19 @@ struct Fit {
 /// Scales a scene uniformly and moves it so that it is centred on the hologram, at the depth that `fit` says. Lights
 /// move along; the intensities of point lights scale with the square of the length, which keeps irradiances. Throws
 /// Error(usage) for sizes that are not positive, and Error(bad_input) for a scene without width and height.
-void fit_scene(Scene& scene, const Fit& fit);
+HOGEL_API void fit_scene(Scene& scene, const Fit& fit);
 
 /// Adds a key light from the upper left in front, a weaker fill light from the right and a little ambient light, for
 /// scenes without lights. Both are directional, hence independent of the scene's size.
-void add_default_lights(Scene& scene);
+HOGEL_API void add_default_lights(Scene& scene);
 
 /// Writes a scene with given radiance as a binary glTF file (.glb), in metres and in the world frame. The radiance of a
 /// vertex is its colour (linear 32-bit floats, which may exceed 1), the materials are unlit (KHR_materials_unlit), and
 /// a texture that multiplies the radiance is embedded as PNG. import_scene() reads it back. Throws Error(bad_input) for
 /// a mesh without radiance, Error(usage) for a name that does not end in .glb, Error(cannot_write).
-void write_baked_scene(const std::filesystem::path& path, const Scene& scene);
+HOGEL_API void write_baked_scene(const std::filesystem::path& path, const Scene& scene);
 
 /// Throws Error(usage) for a name that write_baked_scene() would refuse: a check before the scene is baked.
-void require_baked_scene_name(const std::filesystem::path& path);
+HOGEL_API void require_baked_scene_name(const std::filesystem::path& path);
 
 }  // namespace hogel

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "hogel/export.h"
 #include "hogel/progress.h"
 #include "hogel/scene.h"
 #include "hogel/table.h"
@@ -44,7 +45,7 @@ struct ShadingInfo {
 ///   direct    at each sample, with shadow maps, and the glossy lobe
 ///   shadowed  at the vertices without shadows and interpolated; shadow maps at each sample; matt
 ///   given     each vertex brings its radiance
-Table<ShadingInfo>& shading_models();
+HOGEL_API Table<ShadingInfo>& shading_models();
 
 /// How shade_scene() evaluates light.
 struct ShadingOptions {
@@ -55,26 +56,27 @@ struct ShadingOptions {
 };
 
 /// Bytes that the shadow maps of a scene take: 0 where the model has none. Throws Error(usage) for an unknown model.
-double shadow_map_bytes(const Scene& scene, const ShadingOptions& options);
+HOGEL_API double shadow_map_bytes(const Scene& scene, const ShadingOptions& options);
 
 /// Makes a scene ready to be rendered. Meshes with given radiance show that in every model. Throws what
 /// validate(Scene) throws; Error(bad_input) for a mesh without normals where there are lights, and, for `given`, for
 /// one without radiance; Error(usage) for an unknown model, and where the shadow maps would take more memory than
 /// allowed.
-ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options = {}, const Progress& progress = {});
+HOGEL_API ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options = {},
+                                  const Progress& progress = {});
 
 /// The same into `shaded`, whose memory is used again: shading a scene that has changed but not grown allocates little.
 /// A picture behind the same pointer as before is taken as unchanged. `shaded.fronts_only` keeps its value; the
 /// radiance cache is dropped. Where it throws, `shaded` may only be destroyed, assigned or shaded again.
-void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedScene& shaded,
-                      const Progress& progress = {});
+HOGEL_API void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedScene& shaded,
+                                const Progress& progress = {});
 
 /// Shading by `vertex` with point sampled textures. Shadow rays start a ten-thousandth of the scene's diagonal above
 /// the surface.
-ShadedScene shade_scene_vertices(const Scene& scene);
+HOGEL_API ShadedScene shade_scene_vertices(const Scene& scene);
 
 /// A picture on a surface, repeated in both directions, with coarser versions of itself for distant views.
-class Texture {
+class HOGEL_API Texture {
   public:
     /// Point sampled unless `filtered`: then levels of half the size, each the mean of the one before, down to a single
     /// texel, are made (a third more memory).
@@ -104,7 +106,7 @@ struct ViewSample {
 /// viewer, so that samples do not depend on the order or the tile in which they are read. It has two steps: the light
 /// that falls on a point, which is costly and the same for all rays that see the point; and the radiance that one ray
 /// sees of it.
-class SampleLighting {
+class HOGEL_API SampleLighting {
   public:
     /// The numbers that describe the light on a point.
     struct Size {
@@ -165,6 +167,7 @@ struct ShadedScene {
 };
 
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).
-Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2, const ViewSample& view = {});
+HOGEL_API Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2,
+                          const ViewSample& view = {});
 
 }  // namespace hogel

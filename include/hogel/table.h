@@ -9,20 +9,25 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
-/// The one of `words` that a mistyped word was meant to be: the nearest by insertions, deletions, replacements and
-/// swaps of letters, if it is near enough to be meant; otherwise an empty text.
-std::string nearest_word(std::string_view word, std::span<const std::string> words);
+/// The word that a mistyped one was probably meant to be: the nearest by insertions, deletions, replacements and swaps
+/// of letters, of which there may be one for every three letters (and one at least); otherwise the first that begins
+/// with its three or more letters; otherwise an empty text. The first of several that are equally near.
+HOGEL_API std::string nearest_word(std::string_view word, std::span<const std::string> words);
 
-/// Throws Error(usage): there is no such `kind` ("renderer"); which one may have been meant, and which ones exist.
-[[noreturn]] void throw_unknown(std::string_view kind, std::string_view name, std::span<const std::string> known);
+/// Throws Error(usage): there is no `kind` ("renderer") of that name. The message says which one may have been meant,
+/// and which ones exist.
+[[noreturn]] HOGEL_API void throw_unknown(std::string_view kind, std::string_view name,
+                                          std::span<const std::string> known);
 
-/// Throws Error(usage): the name is in the table already.
-[[noreturn]] void throw_known(std::string_view kind, std::string_view name);
+/// Throws Error(usage): there is a `kind` of that name already.
+[[noreturn]] HOGEL_API void throw_known(std::string_view kind, std::string_view name);
 
-/// All that exists of a kind, by name: renderers, coders, scenes. The library fills each table; a program may add rows
-/// while it runs, from any thread. A row has a member `name`, and rows stay where they are.
+/// Everything of one kind that exists, by name: renderers, coders, scenes. The library fills each table; a program may
+/// add rows while it runs, from any thread. A row has a member `name`. References to rows stay valid.
 template <class Row>
 class Table {
   public:
@@ -31,7 +36,7 @@ class Table {
         for (Row& row : rows) rows_.push_back(std::move(row));
     }
 
-    /// In the order in which to show them; those added come last.
+    /// All rows, in the order in which to show them; added ones come last.
     std::vector<Row> rows() const {
         const std::lock_guard lock(mutex_);
         return {rows_.begin(), rows_.end()};
@@ -49,7 +54,7 @@ class Table {
             if (row.name == name) return &row;
         return nullptr;
     }
-    /// The row of that name. Throws Error(usage) for an unknown one, with the nearest name and all that exist.
+    /// The row of that name. Throws Error(usage) for an unknown name, with the nearest one and all that exist.
     const Row& find(std::string_view name) const {
         if (const Row* row = look_up(name)) return *row;
         throw_unknown(kind_, name, names());

@@ -5,9 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "hogel/export.h"
+
 namespace hogel {
 
-/// Lengths are metres and angles radians everywhere; these literals say what was meant: 633_nm, 5_cm, 40_deg.
+/// Lengths are metres and angles radians everywhere; literals convert to them: 633_nm, 5_cm, 40_deg.
 namespace literals {
 constexpr double operator""_m(long double v) { return static_cast<double>(v); }
 constexpr double operator""_cm(long double v) { return static_cast<double>(v * 1e-2L); }
@@ -24,16 +26,17 @@ constexpr double operator""_deg(unsigned long long v) { return static_cast<doubl
 }  // namespace literals
 
 /// Reads "16mm", "-0.5 um", "633nm", "1.2m", "5cm"; µm may be written um or µm. Returns metres.
-/// Throws Error(usage) for a missing or unknown unit, naming `what` (an option, say) and the units that exist.
-double parse_length(std::string_view text, std::string_view what);
+/// Throws Error(usage) for text that is no number with a known unit; the message begins with `what`, the name of the
+/// quantity, and shows how lengths are written.
+HOGEL_API double parse_length(std::string_view text, std::string_view what);
 
-/// Reads "40deg" or "0.7rad". Returns radians. Throws Error(usage) as parse_length does.
-double parse_angle(std::string_view text, std::string_view what);
+/// Reads "40deg" or "0.7rad". Returns radians. Throws Error(usage) as parse_length() does.
+HOGEL_API double parse_angle(std::string_view text, std::string_view what);
 
-/// Writes a length with the unit that reads best: "16 mm", "1.5625 um", "633 nm".
-std::string format_length(double metres);
+/// A length with the unit that reads best: "16 mm", "1.5625 um", "633 nm".
+HOGEL_API std::string format_length(double metres);
 
-/// Writes a number of bytes as people say it: "983 MB", "1.4 GB".
-std::string format_bytes(double bytes);
+/// A number of bytes with the decimal unit that reads best, two or three digits: "983 MB", "1.4 GB".
+HOGEL_API std::string format_bytes(double bytes);
 
 }  // namespace hogel

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Decodes a compressed light field (.hgl) of the coders "hogel", "lossless", "bounded" and "jpeg4d" as docs/format.md
-says, slowly and plainly, and compares it with what `hogel decompress --float` made of it: every sample must be the same,
-to the last bit; with "jpeg4d", whose sums are in no order, to rounding; and every depth, where there is depth. Corners
-of an unfolded hemicube are nobody's.
+"""Decodes compressed light fields (.hgl) of the coders "hogel", "lossless", "bounded" and "jpeg4d" as docs/format.md
+describes them, slowly and plainly, and compares them with what `hogel decompress --float` made of them. Every sample
+must be the same to the last bit (with "jpeg4d", whose sums have no fixed order, to rounding), and so must every depth.
+The corners of an unfolded hemicube belong to no face and are not compared.
 
 usage: decode_hgl.py STREAM.hgl LIGHT_FIELD.h5 [STREAM.hgl LIGHT_FIELD.h5 ...]
 """
@@ -39,7 +39,7 @@ class Model:
 
 
 class Models(dict):
-    """A model for every name that is asked for, which begins with the state of that name."""
+    """A model for each name; it starts in the state of that name when it is first used."""
 
     def __init__(self, states=None):
         self.states = states or {}
@@ -49,10 +49,10 @@ class Models(dict):
         return self[name]
 
 
-def model_names(version):
-    """All models of hogels, in the order in which a stream tells their states."""
-    def of_first(of, moved):
-        return [(of, name, moved, spread, around) for spread in range(4) for around in range(3)
+def model_names():
+    """All models of a hogel's code, in the order in which a stream holds their states."""
+    def of_first(of, w):
+        return [(of, name, w, spread, around) for spread in range(4) for around in range(3)
                 for name in ("not first", "none")]
 
     def of_disparity(of):
@@ -60,48 +60,39 @@ def model_names(version):
         names += [(of, "which", spread, k) for spread in range(4) for k in range(4)]
         return names + [(of, "sign")] + [((of, "difference"), k) for k in range(31)]
 
-    def of_coded(moved, kinds):
-        return [("coded", moved, c, kind, surprising, around) for c in (False, True) for kind in kinds
-                for surprising in (False, True) for around in range(3)]
+    def of_coded(w, kinds):
+        return [("coded", w, h, kind, r, around) for h in (False, True) for kind in kinds for r in (False, True)
+                for around in range(3)]
 
-    def of_mode(moved):
-        return [("mode", moved, context, k) for context in range(3) for k in range(6)]
+    def of_mode(w):
+        return [("mode", w, context, k) for context in range(3) for k in range(6)]
 
     names = of_mode(0)
-    names += [("within", k) for k in range(3 if version < 6 else 9)]
+    names += [("intra", k) for k in range(9)]
     names += of_disparity("main")
-    names += of_coded(0, ("any", "side", "within"))
-    for of in [(c, within) for c in (False, True) for within in (False, True)]:
-        for basis in ("cosines", "samples", "half") if version > 5 else ():
+    names += of_coded(0, ("any", "side", "intra"))
+    for of in [(h, intra) for h in (False, True) for intra in (False, True)]:
+        for basis in ("cosines", "samples", "half"):
             name = (*of, basis)
             names += [(name, "last", node) for node in range(64)]
-            names += [(name, size, around, place) for size in ("some", "above 1") for around in range(12)
+            names += [(name, size, around, place) for size in ("significant", "above 1") for around in range(12)
                       for place in range(3)]
             names += [(name, "above 2", around) for around in range(12)]
             names += [((name, "rest", around), k) for around in range(12) for k in range(31)]
             names += [(name, "sign", right, below) for right in range(3) for below in range(3)]
-        if version < 6:
-            names += [(of, "last", node) for node in range(64)]
-            names += [(of, "some", total, (place, low)) for total in range(8) for place in range(3)
-                      for low in (False, True)]
-            names += [(of, "above 1", total) for total in range(8)] + [(of, "above 2", total) for total in range(8)]
-            names += [((of, "rest"), k) for k in range(31)]
-    if version > 5:
-        names += [("basis", c, kind, k) for c in (False, True) for kind in ("any", "side", "within", "parted")
-                  for k in range(3)]
-    if version > 3:
-        names += [("parted", 0, context) for context in range(3)]
-        names += [(part, "side", k) for part in ("main", "beyond") for k in range(4)]
-        names += [("angle", node) for node in range(32)] + [("place", node) for node in range(4)]
-        names += of_disparity("beyond")
-        names += of_coded(0, ("parted",))
-    if version > 4:
-        for moved in (1, 2):
-            names += of_mode(moved) + of_first("main", moved) + of_coded(moved, ("any", "side", "within"))
-            names += [("parted", moved, context) for context in range(3)]
-            names += of_first("beyond", moved) + of_coded(moved, ("parted",))
-        names += [("turn", node) for node in range(32)]
-        names += [("place", of, node) for of in range(4) for node in range(4)]
+    names += [("basis", h, kind, k) for h in (False, True) for kind in ("any", "side", "intra", "partitioned")
+              for k in range(3)]
+    names += [("partitioned", 0, context) for context in range(3)]
+    names += [(part, "side", k) for part in ("main", "second") for k in range(4)]
+    names += [("angle", node) for node in range(32)] + [("offset", node) for node in range(4)]
+    names += of_disparity("second")
+    names += of_coded(0, ("partitioned",))
+    for w in (1, 2):
+        names += of_mode(w) + of_first("main", w) + of_coded(w, ("any", "side", "intra"))
+        names += [("partitioned", w, context) for context in range(3)]
+        names += of_first("second", w) + of_coded(w, ("partitioned",))
+    names += [("angle_by", node) for node in range(32)]
+    names += [("offset_by", of, node) for of in range(4) for node in range(4)]
     return names
 
 
@@ -160,31 +151,30 @@ class Decoder:
         return value - 1
 
 
-def levels_of_places(version, n):
-    level, ends, result = 1, [0, n - 1], [0] * n
-    if version > 4:
-        level, ends, result = 2, sorted({0, (n - 1) // 2, n - 1}), [1] * n
-        result[(n - 1) // 2] = 0
+def layers_of_places(n):
+    layer, ends, result = 2, sorted({0, (n - 1) // 2, n - 1}), [1] * n
+    result[(n - 1) // 2] = 0
     while True:
         grown = []
         for a, b in zip(ends, ends[1:]):
             grown.append(a)
             if b - a >= 2:
-                result[(a + b) // 2] = level
+                result[(a + b) // 2] = layer
                 grown.append((a + b) // 2)
         grown.append(ends[-1])
         if len(grown) == len(ends):
             return result
-        ends, level = grown, level + 1
+        ends, layer = grown, layer + 1
 
 
 class Hogel:
-    def __init__(self, s, t, level, references, tellers):
-        self.s, self.t, self.level, self.references, self.tellers, self.blocks = s, t, level, references, tellers, []
+    def __init__(self, s, t, layer, references, context_references):
+        self.s, self.t, self.layer = s, t, layer
+        self.references, self.context_references, self.blocks = references, context_references, []
 
 
 def nearest(references, count):
-    """Of references (place in the order, i, j) to the left, right, above and below the nearest ones."""
+    """The nearest references (place in the order, i, j) to the left, to the right, above and below."""
     def far(side):
         distances = sorted(abs(i + j) for _, i, j in references if (i > 0, i < 0, j > 0, j < 0) == side)
         return distances[:count]
@@ -192,24 +182,24 @@ def nearest(references, count):
     return [(k, i, j) for k, i, j in references if abs(i + j) in far((i > 0, i < 0, j > 0, j < 0))]
 
 
-def order_of(version, columns, rows, references_a_side, tellers_a_side):
-    """The hogels in their order, and for each its references and tellers (place in the order, i, j)."""
-    of_column, of_row = levels_of_places(version, columns), levels_of_places(version, rows)
-    top = max(of_column + of_row)
-    waves = [[(s, t)] for t in range(rows) for s in range(columns) if of_column[s] == of_row[t] == 0]
-    for level in range(1, top + 1):
+def order_of(columns, rows, references_a_side):
+    """The hogels in coding order with their references (place in the order, i, j), and the number of the last layer."""
+    of_column, of_row = layers_of_places(columns), layers_of_places(rows)
+    last = max(of_column + of_row)
+    wavefronts = [[((columns - 1) // 2, (rows - 1) // 2)]]
+    for layer in range(1, last + 1):
         for same in (False, True):
-            waves.append([(s, t) for t in range(rows) for s in range(columns)
-                          if max(of_column[s], of_row[t]) == level and (of_column[s] == of_row[t]) == same])
+            wavefronts.append([(s, t) for t in range(rows) for s in range(columns)
+                               if max(of_column[s], of_row[t]) == layer and (of_column[s] == of_row[t]) == same])
     hogels = []
-    for wave in waves:
+    for wavefront in wavefronts:
         before = list(enumerate(hogels))
-        for s, t in wave:
+        for s, t in wavefront:
             references = [(k, h.s - s, 0) for k, h in before if h.t == t]
             references += [(k, 0, h.t - t) for k, h in before if h.s == s]
             hogels.append(Hogel(s, t, max(of_column[s], of_row[t]), nearest(references, references_a_side),
-                                nearest(references, tellers_a_side)))
-    return hogels, top
+                                nearest(references, 1)))
+    return hogels, last
 
 
 ZIGZAG = []
@@ -223,7 +213,7 @@ COSINES = np.array([[f32(np.rint((math.sqrt(1 / 8) if k == 0 else 0.5) * math.co
                                  * 2**20) / 2**20) for j in range(8)] for k in range(8)], f32)
 
 
-# Whether there are samples along u, and along v.
+# Whether a basis has samples along u, and along v.
 BASES = (False, False), (True, True), (False, True), (True, False)
 
 
@@ -236,14 +226,17 @@ def taps_at(fraction):
 
 
 TAPS = [taps_at(fraction) for fraction in range(64)]
-def beyond(line):
-    """Which samples of a block lie beyond a line."""
-    angle, place = line // 4, line % 4
+
+
+def second_partition(edge):
+    """Which samples of a block belong to its second partition."""
+    angle, offset = edge
     cosine, sine = (round(f(2 * math.pi * angle / 32) * 2**14) for f in (math.cos, math.sin))
-    return np.array([[cosine * (2 * c - 7) + sine * (2 * r - 7) > 2 * place * (abs(cosine) + abs(sine))
+    return np.array([[cosine * (2 * c - 7) + sine * (2 * r - 7) > 2 * offset * (abs(cosine) + abs(sine))
                       for c in range(8)] for r in range(8)])
 
 
+# The squared sines of the expected noise.
 ALIAS = [f32(np.rint(math.sin(math.pi * fraction / 64)**2 * 2**14) / 2**14) for fraction in range(64)]
 
 
@@ -262,25 +255,18 @@ def along_direction(edge, other, halves):
 
 
 class Tile:
-    def __init__(self, version, data, columns, rows, shape, aspect):
+    def __init__(self, data, columns, rows, shape, aspect):
         source = Bytes(data)
-        self.version = version
         step, growth = f32(source.take("f")), f32(source.take("f"))
         self.channels, self.height, self.width = shape
         self.across, self.down, self.aspect = -(-self.width // 8), -(-self.height // 8), aspect
-        sides = (64, 64) if version < 3 else (source.take("B"), 1)
-        self.hogels, top = order_of(version, columns, rows, *sides)
-        self.steps = [step] * (top + 1)
-        for level in range(top - 1, -1, -1):
-            self.steps[level] = self.steps[level + 1] / growth
-        if version < 3:  # one code
-            self.decoder, self.models = Decoder(data[8:]), Models()
-            for hogel in self.hogels:
-                self.decode(hogel)
-            return
+        self.hogels, last = order_of(columns, rows, source.take("B"))
+        self.steps = [step] * (last + 1)
+        for layer in range(last - 1, -1, -1):
+            self.steps[layer] = self.steps[layer + 1] / growth
         states = {}
-        for level in range(top + 1):
-            hogels = [hogel for hogel in self.hogels if hogel.level == level]
+        for layer in range(last + 1):
+            hogels = [hogel for hogel in self.hogels if hogel.layer == layer]
             length = source.take("I")
             side = Decoder(data[source.at:source.at + length])
             source.at += length
@@ -295,7 +281,7 @@ class Tile:
 
     def take_states(self, side, states):
         models, changed = Models(), 0
-        for name in model_names(self.version):
+        for name in model_names():
             changed = side.bit(models["changed", changed])
             if changed:
                 sign = -1 if side.bit(models["sign"]) else 1
@@ -307,9 +293,9 @@ class Tile:
         _, i, j = reference
         return -disparity * i, math.floor(float(-disparity * j) * float(self.aspect) + 0.5)
 
-    def moved(self, hogel):
+    def warped(self, hogel):
         kept = {}
-        for reference in hogel.tellers:
+        for reference in hogel.context_references:
             k, i, j = reference
             for n, block in enumerate(self.hogels[k].blocks):
                 shift_u, shift_v = self.shift(block["disparity"], reference)
@@ -323,7 +309,7 @@ class Tile:
                     kept[place] = d, far, block
         return {place: block for place, (_, _, block) in kept.items()}
 
-    def candidates(self, hogel, n, moved):
+    def candidates(self, hogel, n, warped):
         blocks, result = hogel.blocks, []
 
         def add(value):
@@ -332,8 +318,8 @@ class Tile:
                 result.append(value)
 
         left, above = n % self.across > 0, n >= self.across
-        if n in moved:
-            add(moved[n]["disparity"])
+        if n in warped:
+            add(warped[n]["disparity"])
         if left:
             add(blocks[n - 1]["disparity"])
         if above:
@@ -341,16 +327,13 @@ class Tile:
         if left and above:
             add(blocks[n - 1]["disparity"] + blocks[n - self.across]["disparity"]
                 - blocks[n - self.across - 1]["disparity"])
-        if hogel.tellers and len(result) < 4:
-            add(self.hogels[hogel.tellers[0][0]].blocks[n]["disparity"])
+        if hogel.context_references and len(result) < 4:
+            add(self.hogels[hogel.context_references[0][0]].blocks[n]["disparity"])
         near = [blocks[k] for k in [n - 1] * left + [n - self.across] * above]
-        if self.version > 4:
-            near += [moved[n]] if n in moved else []
-        else:
-            near += [self.hogels[k].blocks[n] for k, _, _ in hogel.tellers[:1]]
+        near += [warped[n]] if n in warped else []
         for block in near:
             if block["mode"] == 6:
-                add(block["beyond"])
+                add(block["second"])
         return result or [0]
 
     def unary(self, name, most):
@@ -359,7 +342,7 @@ class Tile:
             value += 1
         return value
 
-    def path(self, name, bits):
+    def tree(self, name, bits):
         node = 1
         for _ in range(bits):
             node = node * 2 + self.decoder.bit(self.models[(*name, node)])
@@ -381,7 +364,7 @@ class Tile:
         return max(-2**14, min(2**14, candidates[0] + sign * unit * size))
 
     def levels(self, of, basis):
-        """Of samples along u and along v, where the basis says so, and else of cosines."""
+        """basis: whether levels stand for samples along u, and along v; otherwise for frequencies."""
         bit, models, (samples_u, samples_v) = self.decoder.bit, self.models, basis
         name = (*of, "half" if samples_u != samples_v else "samples" if samples_u else "cosines")
         order = ZIGZAG
@@ -389,7 +372,7 @@ class Tile:
             order = [(r, c) for r in range(8) for c in range(8)]
         elif samples_v:
             order = [(r, c) for c in range(8) for r in range(8)]
-        last, result, seen = self.path((name, "last"), 6), np.zeros((8, 8), f32), np.zeros((10, 10), int)
+        last, result, seen = self.tree((name, "last"), 6), np.zeros((8, 8), f32), np.zeros((10, 10), int)
         for n in range(last, -1, -1):
             r, c = order[n]
             size = abs(seen)
@@ -397,7 +380,7 @@ class Tile:
             around = sum(total >= begin for begin in (1, 2, 3, 5, 8, 12, 18, 28, 44, 70, 120))
             frequency = r * (not samples_v) + c * (not samples_u)
             place = 0 if frequency == 0 else 1 if frequency < 3 else 2
-            if n == last or bit(models[name, "some", around, place]):
+            if n == last or bit(models[name, "significant", around, place]):
                 size = 1
                 if bit(models[name, "above 1", around, place]):
                     size = 2
@@ -412,81 +395,60 @@ class Tile:
                 seen[r, c] = result[r, c] = -size if negative else size
         return result
 
-    def cosine_levels(self, name):
-        """Up to version 5."""
-        bit, models = self.decoder.bit, self.models
-        last, result, seen = self.path((name, "last"), 6), np.zeros((8, 8), f32), np.zeros((10, 10), int)
-        for n in range(last, -1, -1):
-            r, c = ZIGZAG[n]
-            total = seen[r, c + 1] + seen[r + 1, c] + seen[r + 1, c + 1] + seen[r, c + 2] + seen[r + 2, c]
-            place = (0 if r + c == 0 else 1 if r + c < 3 else 2, n < 3)
-            if n == last or bit(models[name, "some", min(total, 7), place]):
-                size = 1
-                if bit(models[name, "above 1", min(total, 7)]):
-                    size = 2
-                    if bit(models[name, "above 2", min(total // 2, 7)]):
-                        size = 3 + self.decoder.number(models, (name, "rest"))
-                result[r, c] = -size if self.decoder.even() else size
-                seen[r, c] = min(size, 4)
-        return result
-
     def decode(self, hogel):
-        first, moved = not hogel.references, self.moved(hogel)
+        first, warped = not hogel.references, self.warped(hogel)
         nearest = min([abs(i) + abs(j) for _, i, j in hogel.references] + [64])
-        unit = 1 if hogel.level == 0 else max(1, 4 // nearest)
+        unit = 1 if hogel.layer == 0 else max(1, 4 // nearest)
         self.picture = np.zeros((self.channels, 8 * self.down, 8 * self.across), f32)
         bit, models = self.decoder.bit, self.models
         for n in range(self.across * self.down):
             near = [hogel.blocks[n - 1] if n % self.across else None,
                     hogel.blocks[n - self.across] if n >= self.across else None]
             near = [b for b in near if b]
-            block = {"mode": 0, "within": 0}
-            of = moved.get(n) if self.version > 4 else None  # what tells
+            block = {"mode": 0, "intra": 0}
+            of = warped.get(n)
             before = 0 if of is None else 1 if of["mode"] == 1 else 2
             if not first:
                 odd = sum(b["mode"] != 1 for b in near)
                 if not bit(models["mode", before, odd, 0]):
                     block["mode"] = 1
-                elif self.version > 3 and bit(models["parted", before, odd]):
+                elif bit(models["partitioned", before, odd]):
                     block["mode"] = 6
                 elif bit(models["mode", before, odd, 1]):
                     block["mode"] = 2
                     while block["mode"] < 5 and bit(models["mode", before, odd, block["mode"]]):
                         block["mode"] += 1
             if block["mode"] == 0:
-                block["within"] = self.unary(("within",), 3 if self.version < 6 else 9)
-            candidates = self.candidates(hogel, n, moved)
+                block["intra"] = self.unary(("intra",), 9)
+            candidates = self.candidates(hogel, n, warped)
             block["disparity"] = candidates[0]
             if block["mode"] or first:
                 block["disparity"] = self.disparity("main", candidates, before,
-                                                    sum(b["surprising"] for b in near), unit)
+                                                    sum(b["not first"] for b in near), unit)
             if block["mode"] == 6:
-                block["sides"] = [self.unary((part, "side"), 4) for part in ("main", "beyond")]
+                block["sides"] = [self.unary((part, "side"), 4) for part in ("main", "second")]
                 if of and of["mode"] == 6:
-                    block["line"] = (of["line"] // 4 + self.path(("turn",), 5)) % 32 * 4
-                    block["line"] += self.path(("place", of["line"] % 4), 2)
+                    angle, offset = of["edge"]
+                    block["edge"] = (angle + self.tree(("angle_by",), 5)) % 32, self.tree(("offset_by", offset), 2)
                 else:
-                    block["line"] = self.path(("angle",), 5) * 4
-                    block["line"] += self.path(("place",), 2)
-                block["beyond"] = self.disparity("beyond", candidates, before, 0, unit)
-            block["surprising"] = block["disparity"] != candidates[0]
-            kind = "within" if block["mode"] == 0 else "any" if block["mode"] == 1 else "parted" if block["mode"] == 6 else "side"
+                    block["edge"] = self.tree(("angle",), 5), self.tree(("offset",), 2)
+                block["second"] = self.disparity("second", candidates, before, 0, unit)
+            block["not first"] = block["disparity"] != candidates[0]
+            kind = ("intra", "any", "side", "side", "side", "side", "partitioned")[block["mode"]]
             block["coded"] = []
             hogel.blocks.append(block)
             for c in range(self.channels):
                 around = sum(b["coded"][c] for b in near)
                 had = 0 if of is None else 2 if of["coded"][c] else 1
-                block["coded"].append(bit(models["coded", had, c > 0, kind, block["surprising"], around]))
-                levels, basis, sort = None, BASES[0], (c > 0, kind == "within")
-                if block["coded"][c] and self.version > 5:
+                block["coded"].append(bit(models["coded", had, c > 0, kind, block["not first"], around]))
+                levels, basis, sort = None, BASES[0], (c > 0, kind == "intra")
+                if block["coded"][c]:
                     basis = BASES[self.unary(("basis", c > 0, kind), 3)]
                     levels = self.levels(sort, basis)
-                elif block["coded"][c]:
-                    levels = self.cosine_levels(sort)
                 self.reconstruct(hogel, n, block, c, levels, basis)
         hogel.picture = self.picture
 
-    def predict_within(self, plane, x, y, how):
+    def predict_intra(self, plane, x, y, how):
         left = plane[y:y + 8, x - 1] if x else np.full(8, plane[y - 1, x] if y else 0, f32)
         above = plane[y - 1, x:x + 8] if y else np.full(8, plane[y, x - 1] if x else 0, f32)
         if how == 2:
@@ -510,13 +472,13 @@ class Tile:
         r, c = k[:, None], k[None, :]
         return ((7 - c) * left[:, None] + (c + 1) * above[7] + (7 - r) * above[None, :] + (r + 1) * left[7]) / f32(16)
 
-    def predict_across(self, hogel, c, x, y, disparity, side):
+    def predict_inter(self, hogel, c, x, y, disparity, side):
         found = []
         for reference in hogel.references:
             k, i, j = reference
             if side and not [i < 0, i > 0, j < 0, j > 0][side - 1]:
                 continue
-            ratio = self.steps[self.hogels[k].level] / self.steps[0]
+            ratio = self.steps[self.hogels[k].layer] / self.steps[0]
             u, v = self.shift(disparity, reference)
             noise = (f32(0.03) * (ratio * ratio) + f32(0.003) * f32(i * i + j * j)) + ALIAS[u % 64] + ALIAS[v % 64]
             found.append((noise, k, u, v))
@@ -547,17 +509,16 @@ class Tile:
         x, y, plane = n % self.across * 8, n // self.across * 8, self.picture[c]
         if block["mode"]:
             main, side = (block["sides"] if block["mode"] == 6 else [block["mode"] - 1, None])
-            prediction = self.predict_across(hogel, c, x, y, block["disparity"], main)
+            prediction = self.predict_inter(hogel, c, x, y, block["disparity"], main)
             if side is not None:
-                other = self.predict_across(hogel, c, x, y, block["beyond"], side)
-                prediction = np.where(beyond(block["line"]), other, prediction)
+                other = self.predict_inter(hogel, c, x, y, block["second"], side)
+                prediction = np.where(second_partition(block["edge"]), other, prediction)
         else:
-            prediction = self.predict_within(plane, x, y, block["within"])
+            prediction = self.predict_intra(plane, x, y, block["intra"])
         residual = np.zeros((8, 8), f32)
         if levels is not None:
-            if self.version > 4:
-                levels = levels + np.sign(levels) * f32(3 / 16 if block["mode"] else 1 / 16)
-            residual = levels * self.steps[hogel.level]
+            levels = levels + np.sign(levels) * f32(3 / 16 if block["mode"] else 1 / 16)
+            residual = levels * self.steps[hogel.layer]
             samples_u, samples_v = basis
             if not samples_u:
                 residual = sum((residual[:, j:j + 1] * COSINES[j:j + 1, :] for j in range(8)), np.zeros((8, 8), f32))
@@ -567,7 +528,7 @@ class Tile:
 
 
 def joined(tile, shape):
-    """What the hogels of a tile show, as [c][t][s][v][u], red, green and blue."""
+    """The samples of a tile, [c][t][s][v][u], in red, green and blue."""
     result = np.zeros(shape, f32)
     for hogel in tile.hogels:
         picture = hogel.picture[:, :shape[3], :shape[4]]
@@ -579,13 +540,14 @@ def joined(tile, shape):
 
 
 class Exact:
-    """What is coded beside the prediction of a row of hogels."""
+    """The code of the residuals of a row of hogels, or of one hogel."""
 
     def __init__(self, data):
         self.decoder, self.models = Decoder(data), Models()
 
     def residual(self, around):
-        """around: size (negative for negative numbers, 33 for special) and weight of those near by, left and above first."""
+        """around: for each neighbour its size (negative for negative numbers, 33 for special), its weight, and whether it
+        is the one to the left or above."""
         bit, models = self.decoder.bit, self.models
         beside = [size for size, weight, near in around if near]
         special, sign = beside.count(33), sum((size > 0) - (size < 0) for size in beside if size != 33)
@@ -611,11 +573,11 @@ def ordered(value):
     return bits ^ (0xFFFFFFFF if bits >> 31 else 0x80000000)
 
 
-def exact(version, coder, data, shape, aspect, counts):
+def exact(coder, data, shape, aspect, counts):
     channels, rows, columns, n_v, n_u = shape
     source = Bytes(data)
     length = source.take("I")
-    tile = joined(Tile(version, data[4:4 + length], columns, rows, (channels, n_v, n_u), aspect), shape)
+    tile = joined(Tile(data[4:4 + length], columns, rows, (channels, n_v, n_u), aspect), shape)
     source.at += length
     if coder == "lossless":
         zero = source.take("B")
@@ -661,7 +623,7 @@ def exact(version, coder, data, shape, aspect, counts):
 
 
 class Counts:
-    """The symbols of an alphabet by how often each was seen."""
+    """The frequencies of the symbols of an alphabet."""
 
     def __init__(self, count):
         self.seen = [1] * count
@@ -758,9 +720,9 @@ def jpeg4d(data, shape):
     return np.stack(channels)
 
 
-def parts_of(source, end):
-    """The parts that a header ends with: the curve's points and values, and the factor of chrominance; then the bytes
-    of depth, and from where on it is infinite."""
+def fields_of(source, end):
+    """The optional fields of a header: the curve's points and values and the factor of chrominance; then the bytes of the
+    depth stream and the smallest value that means infinity."""
     points = values = None
     chrominance, depth = f32(1), (0, None)
     while source.at < end:
@@ -780,7 +742,7 @@ def parts_of(source, end):
 
 
 def unmapped(tile, points, values, chrominance):
-    """Radiances [c]... as they were before they were mapped."""
+    """Radiances [c]... with the mapping undone."""
     if values is None and chrominance == 1:
         return tile
     mean = (tile[0] + tile[1] + tile[2]) / f32(3) if len(tile) == 3 else tile[0]
@@ -798,12 +760,12 @@ def unmapped(tile, points, values, chrominance):
 
 
 def check(data, file, beyond=None):
-    """A stream against a light field; with `beyond` against its depths, which from there on are infinite."""
+    """Compares a stream with a light field; with `beyond`, which means infinity, with its depths."""
     source = Bytes(data)
     assert data[:8] == b"\x89HGL\r\n\x1a\n"
     source.at = 8
     version, length = source.take("II")
-    assert 1 <= version <= 6
+    assert version == 1
     channels, columns, rows, n_u, n_v = source.take("5Q")
     _, tan_u, tan_v, _, _ = source.take("5d")
     assert source.text() == "front"
@@ -812,51 +774,42 @@ def check(data, file, beyond=None):
     assert (coder, source.text()) in [("hogel", ""), ("lossless", ""), ("bounded", ""), ("jpeg4d", "dct8")]
     for _ in range(source.take("I")):
         source.text(), source.text()
-    # Parts: for each its size, and the faces in it as name, columns and rows.
+    # For each array of directions its size, and the faces in it: name, columns and rows.
     parts = [(n_u, n_v, tan_u, tan_v, [("radiance", 0, n_u, 0, n_v)])]
-    layers, layout = 1, "faces"
-    if version > 1:
-        layout, sides = source.text(), {}
-        for _ in range(source.take("I")):
-            name = source.text()
-            sides[name] = source.take("QQ4d")
-        if layout in ("faces", "gathered"):
-            parts += [(u, v, a, b, [(f"{name}/radiance", 0, u, 0, v)]) for name, (u, v, a, b, _, _) in sides.items()]
-        else:
-            assert layout == "unfolded"
-            u0, v0 = sides["left"][0], sides["top"][1]
-            u1, v1 = u0 + n_u, v0 + n_v
-            u2, v2 = u1 + sides["right"][0], v1 + sides["bottom"][1]
-            places = [("radiance", u0, u1, v0, v1), ("left/radiance", 0, u0, v0, v1),
-                      ("right/radiance", u1, u2, v0, v1), ("top/radiance", u0, u1, 0, v0),
-                      ("bottom/radiance", u0, u1, v1, v2)]
-            parts = [(u2, v2, tan_u * u2 / n_u, tan_v * v2 / n_v, places)]
-    if version > 2:
-        layers = source.take("I")
-    mapping, (depth_bytes, depth_beyond) = parts_of(source, 16 + length)
+    layout, sides = source.text(), {}
+    for _ in range(source.take("I")):
+        name = source.text()
+        sides[name] = source.take("QQ4d")
+    if layout in ("faces", "stacked"):
+        parts += [(u, v, a, b, [(f"{name}/radiance", 0, u, 0, v)]) for name, (u, v, a, b, _, _) in sides.items()]
+    else:
+        assert layout == "unfolded"
+        u0, v0 = sides["left"][0], sides["top"][1]
+        u1, v1 = u0 + n_u, v0 + n_v
+        u2, v2 = u1 + sides["right"][0], v1 + sides["bottom"][1]
+        places = [("radiance", u0, u1, v0, v1), ("left/radiance", 0, u0, v0, v1),
+                  ("right/radiance", u1, u2, v0, v1), ("top/radiance", u0, u1, 0, v0),
+                  ("bottom/radiance", u0, u1, v1, v2)]
+        parts = [(u2, v2, tan_u * u2 / n_u, tan_v * v2 / n_v, places)]
+    layers = source.take("I")
+    mapping, (depth_bytes, depth_beyond) = fields_of(source, 16 + length)
     if depth_bytes:
         check(data[-depth_bytes:], file, depth_beyond)
         data = data[:-depth_bytes]
     assert source.at == 16 + length
     assert source.take("I") == zlib.crc32(data[:16 + length])
     tiles = len(parts) * -(-rows // tile_t) * -(-columns // tile_s)
-    if version < 3:
-        begin, = struct.unpack_from("<Q", data, len(data) - 12)
-        assert struct.unpack_from("<I", data, len(data) - 4)[0] == zlib.crc32(data[begin:-4])
-        index = Bytes(data[begin:])
-        entries = [index.take("QI") for _ in range(tiles)]
-    else:
-        begin, end = source.at, source.at + 8 * layers * tiles
-        entries = [source.take("II") for _ in range(layers * tiles)]
-        assert source.take("I") == zlib.crc32(data[begin:end])
-    # What each tile has of the layers, one after the other.
+    begin, end = source.at, source.at + 8 * layers * tiles
+    entries = [source.take("II") for _ in range(layers * tiles)]
+    assert source.take("I") == zlib.crc32(data[begin:end])
+    # The layers of each tile, concatenated.
     codes = [b""] * tiles
     for number, (size, checksum) in enumerate(entries):
         code = data[source.at:source.at + size]
         source.at += size
         assert zlib.crc32(code) == checksum
         codes[number % tiles] += code
-    assert source.at == (len(data) if version > 2 else begin)
+    assert source.at == len(data)
     codes = iter(codes)
     for u, v, tan_u, tan_v, faces in parts:
         aspect = f32((2 * tan_u / u) / (2 * tan_v / v))
@@ -869,18 +822,18 @@ def check(data, file, beyond=None):
                 code = next(codes)
                 across, down = min(tile_s, columns - s0), min(tile_t, rows - t0)
                 shape = channels, down, across, v, u
-                if layout == "gathered":
+                if layout == "stacked":
                     shape = (channels, 1, across, down, u) if v == 1 else (channels, 1, down, across, v)
                 counts = np.zeros(shape[3:], bool)
-                for _, u0, u1, v0, v1 in faces if layout != "gathered" else [(None, 0, shape[4], 0, shape[3])]:
+                for _, u0, u1, v0, v1 in faces if layout != "stacked" else [(None, 0, shape[4], 0, shape[3])]:
                     counts[v0:v1, u0:u1] = True
                 if coder == "hogel":
-                    tile = joined(Tile(version, code, shape[2], shape[1], (channels, *shape[3:]), aspect), shape)
+                    tile = joined(Tile(code, shape[2], shape[1], (channels, *shape[3:]), aspect), shape)
                 elif coder == "jpeg4d":
                     tile = jpeg4d(code, shape)
                 else:
-                    tile = exact(version, coder, code, shape, aspect, counts)
-                if layout == "gathered" and v == 1:
+                    tile = exact(coder, code, shape, aspect, counts)
+                if layout == "stacked" and v == 1:
                     tile = tile.transpose(0, 3, 2, 1, 4)
                 tile = tile.reshape(channels, down, across, v, u)
                 if beyond is not None:

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a command-line script and compares what it prints, and its exit status, with what the script says.
 
-usage: run.py HOGEL SCRIPT      HOGEL: the program under test
+usage: run.py PROGRAM SCRIPT      PROGRAM: the one under test, hogel or hogel-bench; exit status 77 says that the script was skipped
 
 A script is read line by line:
   # words            a comment
-  $ command          is run by bash in an empty folder that the whole script shares; `hogel` is the program
+  needs command      skips the script unless bash runs this with exit status 0; before the first $
+  $ command          is run by bash in an empty folder that the whole script shares; the program is in its PATH
   text               expected on its standard output
   ! text             expected on its standard error
   ? 3                expected exit status, 0 where none is given
@@ -30,12 +31,14 @@ class Step:
 
 
 def read_script(path):
-    steps = []
+    needs, steps = [], []
     for number, line in enumerate(path.read_text().splitlines(), 1):
         if line.startswith("$ "):
             steps.append(Step(number, line[2:]))
         elif line.startswith("#") or not line:
             continue
+        elif line.startswith("needs ") and not steps:
+            needs.append(line[6:])
         elif not steps:
             sys.exit(f"{path}:{number}: expectation before any command")
         elif line.startswith("! "):
@@ -46,7 +49,7 @@ def read_script(path):
             steps[-1].out.append(line)
     if not steps:
         sys.exit(f"{path}: no command")
-    return steps
+    return needs, steps
 
 
 def matches(expected, text):
@@ -59,9 +62,13 @@ def matches(expected, text):
     return re.fullmatch("".join(parts), re.sub(r"\n\n+", "\n", text)) is not None
 
 
-def check(step, folder, environment):
-    done = subprocess.run(["bash", "-c", step.command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+def run(command, folder, environment):
+    return subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                           capture_output=True, text=True, timeout=300)
+
+
+def check(step, folder, environment):
+    done = run(step.command, folder, environment)
     complaints = []
     for name, expected, text in (("stdout", step.out, done.stdout), ("stderr", step.err, done.stderr)):
         if not matches(expected, text):
@@ -83,7 +90,12 @@ def main():
         folder.mkdir()
         environment = {"PATH": f"{program.parent}:{os.environ['PATH']}", "HOME": name, "LC_ALL": "C.UTF-8",
                        "TOOLS": str(pathlib.Path(__file__).parent.resolve())}
-        for step in read_script(script):
+        needs, steps = read_script(script)
+        for command in needs:
+            if run(command, folder, environment).returncode != 0:
+                print(f"{script}: skipped, this machine lacks what it needs: {command}")
+                return 77
+        for step in steps:
             for complaint in check(step, folder, environment):
                 failed = True
                 print(f"{script}:{step.line_number}: $ {step.command}\n  {complaint}")

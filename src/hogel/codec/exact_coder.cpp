@@ -10,6 +10,7 @@
 #include "hogel/codec/exact_coder.h"
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/format/residuals.h"
+#include "hogel/codec/format/unfolded.h"
 #include "hogel/codec/hogel_coder.h"
 #include "hogel/core/parallel.h"
 
@@ -243,19 +244,14 @@ template <class Rule>
 class ExactCoder final : public TileCoder {
   public:
     // @param max_error   for encode(), of the rules that have one
-    ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted, std::uint32_t version, double max_error)
-        : predictor_(make_hogel_coder(grid, counted, version)),
-          counted_(counted),
-          version_(version),
-          max_error_(max_error) {}
+    ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted, double max_error)
+        : predictor_(make_hogel_coder(grid, counted)), counted_(counted), max_error_(max_error) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override { return predictor_->preferred_tile(grid); }
     std::size_t max_at_once() const override { return predictor_->max_at_once(); }
     bool takes_any_value() const override { return true; }
     // Those of the prediction, and what is left.
-    std::size_t layers(const HogelRange& tile) const override {
-        return version_ < 3 ? 1 : predictor_->layers(tile) + 1;
-    }
+    std::size_t layers(const HogelRange& tile) const override { return predictor_->layers(tile) + 1; }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
         ByteWriter writer;
@@ -355,20 +351,18 @@ class ExactCoder final : public TileCoder {
 
     std::unique_ptr<TileCoder> predictor_;
     DirectionCross counted_;
-    std::uint32_t version_;
     double max_error_;
 };
 
 }  // namespace
 
-std::unique_ptr<TileCoder> make_lossless_coder(const LightFieldGrid& grid, const DirectionCross& counted,
-                                               std::uint32_t version) {
-    return std::make_unique<ExactCoder<Ordered>>(grid, counted, version, 0);
+std::unique_ptr<TileCoder> make_lossless_coder(const LightFieldGrid& grid, const DirectionCross& counted) {
+    return std::make_unique<ExactCoder<Ordered>>(grid, counted, 0);
 }
 
 std::unique_ptr<TileCoder> make_bounded_coder(const LightFieldGrid& grid, const DirectionCross& counted,
-                                              double max_error, std::uint32_t version) {
-    return std::make_unique<ExactCoder<Bounded>>(grid, counted, version, max_error);
+                                              double max_error) {
+    return std::make_unique<ExactCoder<Bounded>>(grid, counted, max_error);
 }
 
 }  // namespace hogel::codec

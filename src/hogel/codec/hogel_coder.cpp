@@ -13,7 +13,6 @@
 
 #include "hogel/codec/decode/hogel_decoder.h"
 #include "hogel/codec/encode/analysis.h"
-#include "hogel/codec/encode/chained_hogels.h"
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/format/model_states.h"
 #include "hogel/codec/format/pictures.h"
@@ -67,7 +66,7 @@ class TileEncoder {
           counted_(counted),
           setup_(HogelOrder(tile.range.ns, tile.range.nt, references, decode::tellers_a_side), grid.directions_u,
                  grid.directions_v, grid.channels, step, expected_growth,
-                 static_cast<float>(grid.step_u() / grid.step_v()), latest_version),
+                 static_cast<float>(grid.step_u() / grid.step_v())),
           references_(references),
           order_(setup_.order.hogels()),
           pictures_(order_.size()),
@@ -170,7 +169,7 @@ class TileEncoder {
     const BlockModelNumbers numbers_;
     std::vector<BlockRecorder::Record> records_;  // what hogels are told, until it is written
     std::vector<double> errors_;
-    ModelStates states_{latest_version};
+    ModelStates states_;
     ByteWriter bytes_;
 };
 
@@ -248,8 +247,7 @@ std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& g
 
 class HogelCoder final : public TileCoder {
   public:
-    HogelCoder(const LightFieldGrid& grid, const DirectionCross& counted, std::uint32_t version)
-        : grid_(grid), counted_(counted), version_(version) {}
+    HogelCoder(const LightFieldGrid& grid, const DirectionCross& counted) : grid_(grid), counted_(counted) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         std::size_t side = preferred_side;
@@ -265,9 +263,7 @@ class HogelCoder final : public TileCoder {
     std::size_t max_at_once() const override { return 2; }
 
     std::size_t layers(const HogelRange& tile) const override {
-        return version_ < 3
-                   ? 1
-                   : static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt, decode::begin_of_order(version_)));
+        return static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt));
     }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
@@ -281,27 +277,23 @@ class HogelCoder final : public TileCoder {
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        if (version_ < 3) return encode::decode_chained_hogels(bytes, grid_, tile);
-        decode::HogelDecoder({bytes.begin(), bytes.end()}, grid_, tile.range, layers(tile.range), version_).read(tile);
+        decode::HogelDecoder({bytes.begin(), bytes.end()}, grid_, tile.range, layers(tile.range)).read(tile);
     }
 
     std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
                                       const HogelRange& range, std::size_t levels) const override {
-        if (version_ < 3) return TileCoder::open(std::move(bytes), grid, range, levels);
-        return std::make_unique<decode::HogelDecoder>(std::move(bytes), grid, range, levels, version_);
+        return std::make_unique<decode::HogelDecoder>(std::move(bytes), grid, range, levels);
     }
 
   private:
     LightFieldGrid grid_;
     DirectionCross counted_;
-    std::uint32_t version_;
 };
 
 }  // namespace
 
-std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted,
-                                            std::uint32_t version) {
-    return std::make_unique<HogelCoder>(grid, counted, version);
+std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted) {
+    return std::make_unique<HogelCoder>(grid, counted);
 }
 
 }  // namespace hogel::codec

@@ -44,57 +44,54 @@ LightFieldBuffer plane_at(double disparity, std::size_t hogels, std::size_t dire
 
 TEST(HogelOrder, reaches_every_hogel_once_and_refers_to_what_was_before) {
     using Sides = std::pair<std::size_t, std::size_t>;
-    for (const HogelOrder::Begin begin : {HogelOrder::Begin::corners, HogelOrder::Begin::middle})
-        for (const auto& [columns, rows] : {Sides{1, 1}, {2, 1}, {1, 7}, {16, 16}, {13, 32}}) {
-            const HogelOrder order(columns, rows, 3, 1, begin);
-            ASSERT_EQ(order.levels(), HogelOrder::levels(columns, rows, begin));
-            const HogelOrder::Hogel& first = order.hogels().front();
-            const bool middle = begin == HogelOrder::Begin::middle;
-            EXPECT_EQ(first.s, middle ? (columns - 1) / 2 : 0);
-            EXPECT_EQ(first.t, middle ? (rows - 1) / 2 : 0);
-            ASSERT_EQ(order.hogels().size(), columns * rows);
-            std::vector<bool> seen(columns * rows);
-            ASSERT_EQ(order.waves().back(), order.hogels().size());
-            for (std::size_t wave = 0; wave + 1 < order.waves().size(); ++wave)
-                for (std::size_t k = order.waves()[wave]; k < order.waves()[wave + 1]; ++k) {
-                    const HogelOrder::Hogel& hogel = order.hogels()[k];
-                    ASSERT_FALSE(seen[hogel.t * columns + hogel.s]);
-                    seen[hogel.t * columns + hogel.s] = true;
-                    EXPECT_EQ(hogel.references.empty(), k == 0);
-                    EXPECT_EQ(hogel.tellers.empty(), k == 0);
-                    EXPECT_LE(hogel.references.size(), 12u);
-                    // On each side the nearest three that came earlier, and of these the nearest one.
-                    const auto on_same_side = [](const HogelOrder::Reference& a, const HogelOrder::Reference& b) {
-                        return a.ds * b.ds > 0 || a.dt * b.dt > 0;
+    for (const auto& [columns, rows] : {Sides{1, 1}, {2, 1}, {1, 7}, {16, 16}, {13, 32}}) {
+        const HogelOrder order(columns, rows, 3, 1);
+        ASSERT_EQ(order.levels(), HogelOrder::levels(columns, rows));
+        const HogelOrder::Hogel& first = order.hogels().front();
+        EXPECT_EQ(first.s, (columns - 1) / 2);
+        EXPECT_EQ(first.t, (rows - 1) / 2);
+        ASSERT_EQ(order.hogels().size(), columns * rows);
+        std::vector<bool> seen(columns * rows);
+        ASSERT_EQ(order.waves().back(), order.hogels().size());
+        for (std::size_t wave = 0; wave + 1 < order.waves().size(); ++wave)
+            for (std::size_t k = order.waves()[wave]; k < order.waves()[wave + 1]; ++k) {
+                const HogelOrder::Hogel& hogel = order.hogels()[k];
+                ASSERT_FALSE(seen[hogel.t * columns + hogel.s]);
+                seen[hogel.t * columns + hogel.s] = true;
+                EXPECT_EQ(hogel.references.empty(), k == 0);
+                EXPECT_EQ(hogel.tellers.empty(), k == 0);
+                EXPECT_LE(hogel.references.size(), 12u);
+                // On each side the nearest three that came earlier, and of these the nearest one.
+                const auto on_same_side = [](const HogelOrder::Reference& a, const HogelOrder::Reference& b) {
+                    return a.ds * b.ds > 0 || a.dt * b.dt > 0;
+                };
+                for (std::size_t other = 0; other < order.waves()[wave]; ++other) {
+                    const HogelOrder::Hogel& earlier = order.hogels()[other];
+                    if ((earlier.s == hogel.s) == (earlier.t == hogel.t)) continue;
+                    const HogelOrder::Reference it{other, int(earlier.s) - int(hogel.s), int(earlier.t) - int(hogel.t)};
+                    std::size_t nearer = 0;
+                    for (std::size_t third = 0; third < order.waves()[wave]; ++third) {
+                        const HogelOrder::Hogel& h = order.hogels()[third];
+                        const HogelOrder::Reference r{third, int(h.s) - int(hogel.s), int(h.t) - int(hogel.t)};
+                        if ((r.ds == 0) == (r.dt == 0) || !on_same_side(r, it)) continue;
+                        nearer += std::abs(r.ds + r.dt) < std::abs(it.ds + it.dt);
+                    }
+                    const auto among = [&](const std::vector<HogelOrder::Reference>& list) {
+                        return std::ranges::count(list, other, &HogelOrder::Reference::hogel) > 0;
                     };
-                    for (std::size_t other = 0; other < order.waves()[wave]; ++other) {
-                        const HogelOrder::Hogel& earlier = order.hogels()[other];
-                        if ((earlier.s == hogel.s) == (earlier.t == hogel.t)) continue;
-                        const HogelOrder::Reference it{other, int(earlier.s) - int(hogel.s),
-                                                       int(earlier.t) - int(hogel.t)};
-                        std::size_t nearer = 0;
-                        for (std::size_t third = 0; third < order.waves()[wave]; ++third) {
-                            const HogelOrder::Hogel& h = order.hogels()[third];
-                            const HogelOrder::Reference r{third, int(h.s) - int(hogel.s), int(h.t) - int(hogel.t)};
-                            if ((r.ds == 0) == (r.dt == 0) || !on_same_side(r, it)) continue;
-                            nearer += std::abs(r.ds + r.dt) < std::abs(it.ds + it.dt);
-                        }
-                        const auto among = [&](const std::vector<HogelOrder::Reference>& list) {
-                            return std::ranges::count(list, other, &HogelOrder::Reference::hogel) > 0;
-                        };
-                        ASSERT_EQ(among(hogel.references), nearer < 3);
-                        ASSERT_EQ(among(hogel.tellers), nearer < 1);
-                    }
-                    EXPECT_GE(hogel.level, order.hogels()[k > 0 ? k - 1 : 0].level);
-                    for (const HogelOrder::Reference& reference : hogel.references) {
-                        ASSERT_LT(reference.hogel, order.waves()[wave]);  // nothing of its own wave
-                        const HogelOrder::Hogel& other = order.hogels()[reference.hogel];
-                        EXPECT_EQ(std::ptrdiff_t(hogel.s) + reference.ds, std::ptrdiff_t(other.s));
-                        EXPECT_EQ(std::ptrdiff_t(hogel.t) + reference.dt, std::ptrdiff_t(other.t));
-                        EXPECT_TRUE(reference.ds == 0 || reference.dt == 0);
-                    }
+                    ASSERT_EQ(among(hogel.references), nearer < 3);
+                    ASSERT_EQ(among(hogel.tellers), nearer < 1);
                 }
-        }
+                EXPECT_GE(hogel.level, order.hogels()[k > 0 ? k - 1 : 0].level);
+                for (const HogelOrder::Reference& reference : hogel.references) {
+                    ASSERT_LT(reference.hogel, order.waves()[wave]);  // nothing of its own wave
+                    const HogelOrder::Hogel& other = order.hogels()[reference.hogel];
+                    EXPECT_EQ(std::ptrdiff_t(hogel.s) + reference.ds, std::ptrdiff_t(other.s));
+                    EXPECT_EQ(std::ptrdiff_t(hogel.t) + reference.dt, std::ptrdiff_t(other.t));
+                    EXPECT_TRUE(reference.ds == 0 || reference.dt == 0);
+                }
+            }
+    }
 }
 
 TEST(Prediction, moves_a_block_by_fractions) {
@@ -123,7 +120,7 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
         LightFieldTile tile = whole(plane_at(disparity, 9, 64, 48));
         const LightFieldGrid grid = plane_at(disparity, 9, 64, 48).grid();
         const TileSetup setup(HogelOrder(9, 9, 3, 1), 64, 48, 1, 0.01f, 1.35f,
-                              static_cast<float>(grid.step_u() / grid.step_v()), latest_version);
+                              static_cast<float>(grid.step_u() / grid.step_v()));
         for (const HogelOrder::Hogel& hogel : setup.order.hogels()) {
             if (hogel.level > 0) break;
             std::vector<std::int16_t> estimated = encode::estimate_disparities(setup, tile, hogel).disparities;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hogel/codec/format/bytes.h"
-#include "hogel/codec/tile_coder.h"
+#include "hogel/compress.h"
 #include "hogel/error.h"
 
 namespace hogel::codec {

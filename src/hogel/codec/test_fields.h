@@ -82,7 +82,7 @@ inline double sqnr_of(const LightFieldBuffer& truth, const LightFieldBuffer& oth
 }
 
 inline LightFieldBuffer decoded(const std::filesystem::path& path) {
-    const auto source = open_stream(path);
+    const auto source = hogel::open_stream(path).faces().front();
     LightFieldBuffer field(source->grid());
     copy(*source, field);
     return field;
@@ -97,6 +97,24 @@ inline ErrorCode code_of(const std::function<void()>& call) {
         return error.code();
     }
     return ErrorCode{0};
+}
+
+// The library's verbs on local objects, which outlive the calls.
+inline CompressionResult compress(const LightFieldSource& field, const std::filesystem::path& path,
+                                  const CompressionOptions& options) {
+    return hogel::compress(borrow(field), path, options);
+}
+inline CompressionResult compress(const std::vector<const LightFieldSource*>& faces,
+                                  const std::filesystem::path& path, const CompressionOptions& options) {
+    return hogel::compress(borrow(faces), path, options);
+}
+inline LightField::Source open_front(const std::filesystem::path& path, const StreamOptions& options = {}) {
+    return open_stream(path, options).faces().front();
+}
+inline std::vector<LightField::Source> open_faces(const std::filesystem::path& path,
+                                                  const StreamOptions& options = {}) {
+    const LightField light_field = open_stream(path, options);
+    return {light_field.faces().begin(), light_field.faces().end()};
 }
 
 }  // namespace hogel::codec

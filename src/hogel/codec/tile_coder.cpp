@@ -2,20 +2,16 @@
 #include "hogel/codec/tile_coder.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 
 #include "hogel/codec/baselines/classic_coders.h"
 #include "hogel/codec/exact_coder.h"
 #include "hogel/codec/hogel_coder.h"
 #include "hogel/error.h"
+#include "hogel/transform/transform.h"
 
-namespace hogel::codec {
+namespace hogel {
 
-using namespace format;
-
-std::vector<std::string_view> coder_names() { return {"hogel", "threepass", "ezw", "jpeg4d", "fringes"}; }
+using namespace codec;
 
 namespace {
 
@@ -27,6 +23,14 @@ class DecodedTile final : public TileDecoder {
   private:
     LightFieldTile tile_;
 };
+
+std::unique_ptr<TileCoder> make_hogel(const CodingMethod& method, const LightFieldGrid& grid,
+                                      const DirectionCross& counted) {
+    if (!method.transform.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("coder hogel has a transform of its own; expected none, not {}", method.transform));
+    return make_hogel_coder(grid, counted);
+}
 
 }  // namespace
 
@@ -41,23 +45,31 @@ void TileCoder::decode_coefficients(std::span<const std::uint8_t>, LightFieldTil
     throw Error(ErrorCode::usage, "this coder keeps no coefficients of directions; coder fringes does");
 }
 
+Table<CoderInfo>& coders() {
+    using namespace codec::baselines;
+    static Table<CoderInfo> table(
+        "coder", {{"hogel", "prediction along disparities between hogels", "", false, make_hogel},
+                  {"threepass", "wavelets in four dimensions, zerotrees ([K] 4.4.2)", "cdf97", false, make_threepass},
+                  {"ezw", "wavelets in four dimensions, embedded zerotrees", "cdf97", false, make_ezw},
+                  {"jpeg4d", "cosine transform in four dimensions ([K] 4.4.1)", "dct8", true, make_jpeg4d},
+                  {"fringes", "threepass on amplitudes, hogels and directions apart: for basis fringes", "cdf97", false,
+                   make_fringes}});
+    return table;
+}
+
+std::vector<std::string> transform_names() {
+    const std::vector<std::string_view> names = transform::transform_names();
+    return {names.begin(), names.end()};
+}
+
+namespace codec {
+
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
-                                           const DirectionCross& counted, std::uint32_t version) {
-    if (method == CodingMethod{"lossless", ""}) return make_lossless_coder(grid, counted, version);
-    if (method == CodingMethod{"bounded", ""}) return make_bounded_coder(grid, counted, 0, version);
-    if (!std::ranges::count(coder_names(), method.coder))
-        throw Error(ErrorCode::usage, fmt::format("there is no coder '{}'; expected one of {}", method.coder,
-                                                  fmt::join(coder_names(), ", ")));
-    if (method.coder != "hogel") return baselines::make_classic_coder(method, counted, version);
-    if (!method.transform.empty())
-        throw Error(ErrorCode::usage,
-                    fmt::format("coder hogel has its own transform; expected none, not {}", method.transform));
-    return make_hogel_coder(grid, counted, version);
+                                           const DirectionCross& counted) {
+    if (method == CodingMethod{"lossless", ""}) return make_lossless_coder(grid, counted);
+    if (method == CodingMethod{"bounded", ""}) return make_bounded_coder(grid, counted, 0);
+    return coders().find(method.coder).make(method, grid, counted);
 }
 
-std::string_view default_transform(std::string_view coder) {
-    if (coder == "hogel") return "";
-    return coder == "jpeg4d" ? "dct8" : "cdf97";
-}
-
-}  // namespace hogel::codec
+}  // namespace codec
+}  // namespace hogel

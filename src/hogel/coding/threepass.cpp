@@ -118,55 +118,8 @@ struct Decoding {
     std::pair<std::uint32_t, bool> magnitude(int bits) { return symbols.magnitude(0, bits, false); }
 };
 
-// The same as it once was, with symbols of alphabets from −1 to bits−1.
-class AlphabetDecoding {
-  public:
-    AlphabetDecoding(std::span<const std::uint8_t> code, int planes) : decoder_(code) {
-        for (int bits = 0; bits <= planes; ++bits) {
-            for (auto& by_leaf : trees_)
-                for (auto& by_previous : by_leaf) by_previous.emplace_back(static_cast<std::size_t>(bits) + 1);
-            nodes_.emplace_back(static_cast<std::size_t>(bits) + 1);
-        }
-    }
-    const ArithmeticDecoder& decoder() const { return decoder_; }
-    int tree(int above, bool leaf) {
-        if (decoder_.ended()) return -1;
-        SymbolModel& model = trees_[leaf][after_zerotree_][static_cast<std::size_t>(above)];
-        const int symbol = static_cast<int>(decoder_.symbol(model)) - 1;
-        after_zerotree_ = symbol < 0;
-        return symbol;
-    }
-    int node(int tree_bits) {
-        return static_cast<int>(decoder_.symbol(nodes_[static_cast<std::size_t>(tree_bits)])) - 1;
-    }
-    std::pair<std::uint32_t, bool> magnitude(int bits) {
-        const bool negative = decoder_.even();
-        std::uint32_t level = 1;
-        for (int at = bits - 2; at >= 0; --at)
-            level =
-                level << 1 |
-                std::uint32_t{decoder_.bit(magnitudes_[static_cast<std::size_t>(bits)][static_cast<std::size_t>(at)])};
-        return {level, negative};
-    }
-
-  private:
-    ArithmeticDecoder decoder_;
-    bool after_zerotree_ = false;  // the tree symbol before this one was −1
-    std::array<std::array<std::vector<SymbolModel>, 2>, 2>
-        trees_;                       // [leaf][after_zerotree][bits of the parent's subtree]
-    std::vector<SymbolModel> nodes_;  // by bits of the subtree
-    std::array<std::array<BitModel, max_planes>, max_planes + 1> magnitudes_;
-};
-
 [[noreturn]] void damaged(const char* what) {
     throw Error(ErrorCode::bad_input, fmt::format("three-pass stream: {}, expected a whole undamaged one", what));
-}
-
-template <class Source>
-void read_all(const transform::Pyramid& pyramid, float step, int planes, Source source, std::span<float> values) {
-    read_three_pass(Forest(pyramid), Quantiser(step), planes, source, values);
-    if (source.decoder().ended()) damaged("it ends too early or is damaged");
-    if (!source.decoder().all_read()) damaged("bytes are left over");
 }
 
 void check_size(const transform::Pyramid& pyramid, std::size_t size) {
@@ -224,19 +177,18 @@ std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, s
     return bytes;
 }
 
-void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
-                       ThreePassCode code) {
+void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes,
+                       std::span<float> values) {
     check_size(pyramid, values.size());
     if (bytes.size() < header) damaged("it ends within its header");
     const float step = get_float(bytes);
     const int planes = bytes[4];
     if (!(step > 0) || !std::isfinite(step)) damaged("its step is not a positive number");
     if (planes > max_planes) damaged("it has more than 30 bit planes");
-    const std::span<const std::uint8_t> rest = bytes.subspan(header);
-    if (code == ThreePassCode::bits)
-        read_all(pyramid, step, planes, Decoding(rest), values);
-    else
-        read_all(pyramid, step, planes, AlphabetDecoding(rest, planes), values);
+    Decoding decoding(bytes.subspan(header));
+    read_three_pass(Forest(pyramid), Quantiser(step), planes, decoding, values);
+    if (decoding.decoder().ended()) damaged("it ends too early or is damaged");
+    if (!decoding.decoder().all_read()) damaged("bytes are left over");
 }
 
 void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> values) {

@@ -30,13 +30,9 @@ namespace hogel::coding {
 std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values,
                                             double step);
 
-/// How symbols are coded: bit by bit, or as they once were, from alphabets.
-enum class ThreePassCode { bits, alphabets };
-
 /// Throws Error(bad_input) when the bytes are not a whole stream; every truncated one is found out. Bytes that were
 /// changed may give other values, as only a checksum around the stream can tell.
-void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values,
-                       ThreePassCode code = ThreePassCode::bits);
+void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values);
 
 /// Makes of values what three_pass_decode() makes of their stream, which is looked at for its step alone: much sooner.
 void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> values);

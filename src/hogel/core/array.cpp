@@ -13,7 +13,7 @@ void* allocate_lines(std::size_t bytes) {
     const bool large = bytes >= 2 * huge_page;
     void* memory = nullptr;
     if (posix_memalign(&memory, large ? huge_page : line, bytes) != 0) throw std::bad_alloc();
-    // A wish: whether it is granted changes nothing but the speed.
+    // A hint; only the speed depends on whether the system follows it.
     if (large) madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
     return memory;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for every instruction set and chosen when first called: by the processor's own conversions where it has
-// them, elsewhere by loops of half_of() and float_of(), whose branches the compiler does away with.
+// Compiled for every SIMD target: from AVX2 on by the processor's own conversions (F16C), elsewhere by loops of
+// half_of() and float_of(), which the compiler makes free of branches.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/core/half_simd.cpp"
 #include <hwy/foreach_target.h>

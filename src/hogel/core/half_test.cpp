@@ -5,10 +5,14 @@
 #include <limits>
 #include <vector>
 
+#include "hogel/core/test_targets.h"
+
 #include "hogel/core/half.h"
 
 namespace hogel::core {
 namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(Half);
 
 // IEEE 754: 1 sign bit, 5 bits of exponent with bias 15, 10 of fraction.
 float value_by_definition(unsigned half) {
@@ -18,7 +22,7 @@ float value_by_definition(unsigned half) {
     return static_cast<float>(sign * value);
 }
 
-TEST(Half, all_65536_values_are_those_of_the_standard_and_come_back) {
+TEST_P(Half, all_65536_values_are_those_of_IEEE_754_and_convert_back) {
     std::vector<std::uint16_t> halves(65536), back(65536);
     for (unsigned h = 0; h < 65536; ++h) halves[h] = static_cast<std::uint16_t>(h);
     std::vector<float> values(65536);
@@ -40,7 +44,7 @@ TEST(Half, all_65536_values_are_those_of_the_standard_and_come_back) {
 
 TEST(Half, rounds_to_nearest_and_ties_to_even) {
     for (unsigned h = 0; h < 0x7c00; ++h) {
-        // The step above the largest half would be 65536: from its middle, 65520, on the result is infinite.
+        // The next half after the largest would be 65536: from 65520 on, half way, the result is infinite.
         const double low = value_by_definition(h), high = h == 0x7bff ? 65536 : value_by_definition(h + 1);
         const auto middle = static_cast<float>((low + high) / 2);
         ASSERT_EQ(middle, (low + high) / 2);
@@ -51,7 +55,7 @@ TEST(Half, rounds_to_nearest_and_ties_to_even) {
     }
 }
 
-TEST(Half, far_values) {
+TEST(Half, infinities_and_not_a_number) {
     EXPECT_EQ(half_of(INFINITY), 0x7c00);
     EXPECT_EQ(half_of(-INFINITY), 0xfc00);
     EXPECT_EQ(half_of(std::numeric_limits<float>::max()), 0x7c00);

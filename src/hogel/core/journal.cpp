@@ -21,7 +21,7 @@ namespace hogel::core {
 namespace {
 
 constexpr std::string_view first_line = "hogel journal 1";
-// So much work is lost at most when the machine stops.
+// The time between writes, and so the work that is lost at most when the machine stops.
 constexpr std::chrono::seconds between_writes{20};
 
 std::uint32_t checksum_of(std::string_view text) {
@@ -66,9 +66,9 @@ Journal::Journal(const std::filesystem::path& path, std::vector<std::string> wor
 
 Journal::~Journal() {
     try {
-        if (file_ >= 0) write_down();
+        if (file_ >= 0) write_pending();
     } catch (const Error&) {
-        // What is not written down is done again.
+        // Parts that are not recorded are done again.
     }
     if (file_ >= 0) ::close(file_);
 }
@@ -86,7 +86,7 @@ void Journal::read(const std::string& text) {
                                                       "the file beside it to begin again",
                                                       path_.string()));
     std::size_t known = 0, end = first_line.size() + 1;
-    // A line that is damaged, or was being written when the work was stopped, ends what is known.
+    // Nothing counts from the first line on that is damaged or was being written when the work was stopped.
     while (std::getline(lines, line) && !lines.eof()) {
         const std::size_t length = line.size() + 1;
         if (!take_checksum(line)) break;
@@ -107,7 +107,7 @@ void Journal::read(const std::string& text) {
             before_.insert(std::move(part));
         }
     }
-    // What comes next follows the last line that holds.
+    // New lines follow the last valid one.
     if (::ftruncate(file_, static_cast<off_t>(end)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) fail(errno);
     if (!begun_) before_.clear();
 }
@@ -132,7 +132,7 @@ void Journal::append(const std::string& text) {
     }
 }
 
-void Journal::write_down() {
+void Journal::write_pending() {
     if (pending_.empty()) return;
     flush_();
     append(std::exchange(pending_, {}));
@@ -142,7 +142,7 @@ void Journal::write_down() {
 void Journal::note(const Part& part) {
     const std::lock_guard lock(mutex_);
     pending_ += with_checksum(fmt::format("done {}", fmt::join(part, " ")));
-    if (std::chrono::steady_clock::now() - written_ >= between_writes) write_down();
+    if (std::chrono::steady_clock::now() - written_ >= between_writes) write_pending();
 }
 
 void Journal::remove() {

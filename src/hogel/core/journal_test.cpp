@@ -30,7 +30,7 @@ class JournalTest : public testing::Test {
         std::filesystem::temp_directory_path() / ("hogel_journal_" + std::to_string(::getpid()));
 };
 
-TEST_F(JournalTest, remembers_what_is_done) {
+TEST_F(JournalTest, lists_the_parts_done_in_earlier_runs) {
     {
         Journal journal = open({"scene pumpkin", "two\nlines"});
         EXPECT_FALSE(journal.begun());
@@ -48,7 +48,7 @@ TEST_F(JournalTest, remembers_what_is_done) {
     EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
-TEST_F(JournalTest, flushes_before_it_says_so) {
+TEST_F(JournalTest, flushes_results_before_recording_them_as_done) {
     std::string seen = "never";
     {
         Journal journal(path_, {"work"}, [&] { seen = text(); });
@@ -60,7 +60,7 @@ TEST_F(JournalTest, flushes_before_it_says_so) {
     EXPECT_NE(text().find("done 1\n"), std::string::npos);
 }
 
-TEST_F(JournalTest, names_what_differs_in_other_work) {
+TEST_F(JournalTest, names_the_first_difference_of_other_work) {
     open({"scene pumpkin", "hogels 64x64"}).begin();
     for (const auto& other : {std::vector<std::string>{"scene pumpkin", "hogels 32x32"}, {"scene pumpkin"}}) try {
             open(other);
@@ -71,13 +71,12 @@ TEST_F(JournalTest, names_what_differs_in_other_work) {
         }
 }
 
-TEST_F(JournalTest, is_written_by_one_at_a_time) {
+TEST_F(JournalTest, is_open_only_once_at_a_time) {
     const Journal first = open({"work"});
     EXPECT_THROW(open({"work"}), Error);
 }
 
-// Whatever happens to the file, no part that was not done is taken for done.
-TEST_F(JournalTest, damage_costs_work_and_nothing_else) {
+TEST_F(JournalTest, damage_never_makes_a_part_count_as_done) {
     {
         Journal journal = open({"work"});
         journal.begin();
@@ -93,7 +92,7 @@ TEST_F(JournalTest, damage_costs_work_and_nothing_else) {
                     ASSERT_LT(i, 8u);
                     ASSERT_TRUE(journal.begun());
                 }
-            // What is added to the damaged file counts.
+            // Parts added to the damaged file count.
             if (!journal.begun()) journal.begin();
             journal.note({1000});
         } catch (const Error& error) {

@@ -2,66 +2,106 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <future>
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "hogel/core/parallel.h"
+#include "hogel/error.h"
 
 namespace hogel::core {
 
-/// The results that were asked for last, by a key. Several threads may ask at once; who asks first for a result makes
-/// it while others who want the same wait.
+/// Results by key, of which those asked for last are kept. Several threads may ask at once: the first that asks for a
+/// result makes it, while others that want the same one wait.
 template <class Key, class Result>
 class LruCache {
   public:
-    /// @param kept  results to keep, at least one
+    /// @param kept  how many results to keep, at least one
     explicit LruCache(std::size_t kept) : kept_(std::max<std::size_t>(kept, 1)) {}
 
     std::size_t kept() const { return kept_; }
 
-    /// The result of that key, or of make(), which returns std::shared_ptr<const Result>. What make() throws, everybody
-    /// who waits for this result gets, and who asks later makes it anew.
+    /// The result of that key, or of make(), which returns std::shared_ptr<const Result>. What make() throws is thrown
+    /// to all that wait for this result, and the next that ask make it anew; but a thread whose own work was not asked
+    /// to stop makes the result itself where the one that it waited for was stopped.
     template <class Make>
     std::shared_ptr<const Result> get(const Key& key, const Make& make) {
-        std::promise<std::shared_ptr<const Result>> promise;
-        {
-            std::unique_lock lock(mutex_);
-            const auto found = std::ranges::find(entries_, key, &Entry::key);
-            if (found != entries_.end()) {
-                entries_.splice(entries_.begin(), entries_, found);
-                const std::shared_future<std::shared_ptr<const Result>> result = found->result;
-                lock.unlock();
-                return result.get();
-            }
-            entries_.push_front({key, promise.get_future().share()});
-            if (entries_.size() > kept_) entries_.pop_back();
+        for (;;) {
+            Promise promise;
+            const auto [result, own] = look_up(key, promise);
+            if (own) return keep_promise(promise, *own, make);
+            if (std::shared_ptr<const Result> made = wait(result)) return made;
         }
+    }
+
+  private:
+    using Promise = std::promise<std::shared_ptr<const Result>>;
+    using Future = std::shared_future<std::shared_ptr<const Result>>;
+
+    struct Entry {
+        Key key;
+        std::uint64_t number;
+        Future result;
+    };
+
+    // The result that is there or being made; or that of the promise, and the number of its new entry.
+    std::pair<Future, std::optional<std::uint64_t>> look_up(const Key& key, Promise& promise) {
+        const std::lock_guard lock(mutex_);
+        const auto found = std::ranges::find(entries_, key, &Entry::key);
+        if (found != entries_.end()) {
+            entries_.splice(entries_.begin(), entries_, found);
+            return {found->result, std::nullopt};
+        }
+        entries_.push_front({key, ++last_number_, promise.get_future().share()});
+        if (entries_.size() > kept_) entries_.pop_back();
+        return {entries_.front().result, last_number_};
+    }
+
+    template <class Make>
+    std::shared_ptr<const Result> keep_promise(Promise& promise, std::uint64_t number, const Make& make) {
         try {
             std::shared_ptr<const Result> result;
             // A thread that waits inside must not begin to make something else, which may wait for this very result.
             isolate([&] { result = make(); });
             promise.set_value(result);
             return result;
+        } catch (const Error& error) {
+            forget(number);
+            if (error.code() == ErrorCode::cancelled)
+                promise.set_value(nullptr);
+            else
+                promise.set_exception(std::current_exception());
+            throw;
         } catch (...) {
+            forget(number);
             promise.set_exception(std::current_exception());
-            const std::lock_guard lock(mutex_);
-            std::erase_if(entries_, [&](const Entry& entry) { return entry.key == key; });
             throw;
         }
     }
 
-  private:
-    struct Entry {
-        Key key;
-        std::shared_future<std::shared_ptr<const Result>> result;
-    };
+    void forget(std::uint64_t number) {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(entries_, [&](const Entry& entry) { return entry.number == number; });
+    }
+
+    // Null where the thread that was to make the result was stopped, and this one was not.
+    static std::shared_ptr<const Result> wait(const Future& future) {
+        while (future.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) throw_if_stopped();
+        std::shared_ptr<const Result> result = future.get();
+        if (!result) throw_if_stopped();
+        return result;
+    }
 
     std::size_t kept_;
     std::mutex mutex_;
     std::list<Entry> entries_;  // the one used last first
+    std::uint64_t last_number_ = 0;
 };
 
 }  // namespace hogel::core

@@ -8,40 +8,40 @@
 
 namespace hogel::core {
 
-/// Things that many tasks need, one after the other, such as arrays of a few megabytes: made when none is free, and
-/// kept for whoever comes next, because fresh memory has to be cleared page by page first. For any number of threads.
+/// Objects that tasks need for a while, such as arrays of a few megabytes: made when none is free and kept for the next
+/// task, because the system clears fresh memory page by page. For any number of threads.
 template <class T>
 class ObjectPool {
   public:
-    /// One of them, given back when this goes.
+    /// An object in use; its destructor returns the object to the pool.
     class Lease {
       public:
-        Lease(ObjectPool& from, std::unique_ptr<T> thing) : from_(from), thing_(std::move(thing)) {}
+        Lease(ObjectPool& pool, std::unique_ptr<T> object) : pool_(pool), object_(std::move(object)) {}
         Lease(const Lease&) = delete;
         Lease& operator=(const Lease&) = delete;
         ~Lease() {
-            const std::lock_guard lock(from_.mutex_);
-            from_.free_.push_back(std::move(thing_));
+            const std::lock_guard lock(pool_.mutex_);
+            pool_.free_.push_back(std::move(object_));
         }
-        T& operator*() { return *thing_; }
-        T* operator->() { return thing_.get(); }
+        T& operator*() { return *object_; }
+        T* operator->() { return object_.get(); }
 
       private:
-        ObjectPool& from_;
-        std::unique_ptr<T> thing_;
+        ObjectPool& pool_;
+        std::unique_ptr<T> object_;
     };
 
-    /// What it holds is what the last who had it left there.
+    /// A free object, as its last user left it, or a new one.
     Lease take() {
-        std::unique_ptr<T> thing;
+        std::unique_ptr<T> object;
         {
             const std::lock_guard lock(mutex_);
             if (!free_.empty()) {
-                thing = std::move(free_.back());
+                object = std::move(free_.back());
                 free_.pop_back();
             }
         }
-        return {*this, thing ? std::move(thing) : std::make_unique<T>()};
+        return {*this, object ? std::move(object) : std::make_unique<T>()};
     }
 
   private:

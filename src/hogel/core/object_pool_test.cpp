@@ -10,30 +10,30 @@
 namespace hogel::core {
 namespace {
 
-TEST(ObjectPool, what_is_given_back_is_taken_next) {
-    ObjectPool<std::vector<int>> rooms;
+TEST(ObjectPool, the_object_returned_last_is_taken_next) {
+    ObjectPool<std::vector<int>> buffers;
     const int* first = nullptr;
     {
-        auto room = rooms.take();
-        room->assign(100, 3);
-        first = room->data();
+        auto buffer = buffers.take();
+        buffer->assign(100, 3);
+        first = buffer->data();
     }
-    auto again = rooms.take(), other = rooms.take();
+    auto again = buffers.take(), other = buffers.take();
     EXPECT_EQ(again->data(), first);
     EXPECT_EQ(again->size(), 100u);
     EXPECT_TRUE(other->empty()) << "two at once are two";
 }
 
-TEST(ObjectPool, nobody_has_what_another_has) {
-    struct Room {
-        std::atomic<int> guests{0};
+TEST(ObjectPool, an_object_has_one_user_at_a_time) {
+    struct Buffer {
+        std::atomic<int> users{0};
     };
-    ObjectPool<Room> rooms;
+    ObjectPool<Buffer> buffers;
     std::atomic<int> shared{0};
     parallel_for(1000, [&](std::size_t) {
-        auto room = rooms.take();
-        if (++room->guests != 1) ++shared;
-        --room->guests;
+        auto buffer = buffers.take();
+        if (++buffer->users != 1) ++shared;
+        --buffer->users;
     });
     EXPECT_EQ(shared, 0);
 }

@@ -11,7 +11,7 @@ namespace hogel::core {
 /// which commit() renames and the destructor removes. A symbolic link is followed, so that its target is replaced.
 class OutputFile {
   public:
-    /// What becomes of a file that is not committed. One that is kept is called as the target, with ".part" behind.
+    /// What happens to a file that is not committed. One that is kept has the name of the target with ".part" appended.
     enum class Unfinished { removed, kept };
     /// Throws Error(cannot_write) when the directory does not exist, or the target is there and is not a plain file.
     explicit OutputFile(const std::filesystem::path& target, Unfinished unfinished = Unfinished::removed);
@@ -19,8 +19,8 @@ class OutputFile {
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    const std::filesystem::path& target() const { return target_; }        ///< as it was asked for
-    const std::filesystem::path& temporary() const { return temporary_; }  ///< where to write
+    const std::filesystem::path& target() const { return target_; }        ///< as given to the constructor
+    const std::filesystem::path& temporary() const { return temporary_; }  ///< the file to write to
     /// Throws Error(cannot_write) when the temporary cannot be renamed.
     void commit();
 
@@ -30,7 +30,7 @@ class OutputFile {
     bool committed_ = false;
 };
 
-/// Writes a whole file that way. Throws Error(cannot_write).
+/// Writes a whole file, which appears under its name when it is complete. Throws Error(cannot_write).
 void write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
 
 }  // namespace hogel::core

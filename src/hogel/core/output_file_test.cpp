@@ -73,7 +73,7 @@ TEST_F(OutputFileTest, follows_a_symbolic_link) {
     EXPECT_EQ(text_of(directory_ / "a.txt"), "new");
 }
 
-TEST_F(OutputFileTest, says_what_is_in_the_way) {
+TEST_F(OutputFileTest, errors_say_what_is_in_the_way) {
     EXPECT_NE(refusal(directory_).find("is a directory"), std::string::npos);
     EXPECT_NE(refusal(directory_ / "none" / "a.txt").find("there is no directory"), std::string::npos);
     EXPECT_NE(refusal("/dev/null").find("not a plain file"), std::string::npos);

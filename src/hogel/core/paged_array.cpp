@@ -30,7 +30,7 @@ Complex* map_file(std::size_t bytes, const std::filesystem::path& folder) {
     const int file = mkstemps(name.data(), 4);
     if (file < 0) fail("cannot create a scratch file", errno);
     unlink(name.c_str());
-    // Room is taken at once: a disk that fills up under a mapping would end the program.
+    // Room is reserved at once, because a disk that fills up under a mapping kills the program.
     const int taken = posix_fallocate(file, 0, static_cast<off_t>(bytes));
     void* data = taken == 0 ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
     const int reason = taken != 0 ? taken : errno;
@@ -49,8 +49,8 @@ void PagedArray::Release::operator()(Complex* data) const {
 }
 
 PagedArray::PagedArray(const Shape<2>& shape, const ScratchOptions& scratch) : shape_(shape) {
-    constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / (4 * sizeof(Complex));
-    if (shape[0] == 0 || shape[1] == 0 || shape[0] > most / shape[1])
+    constexpr std::size_t max_samples = std::numeric_limits<std::size_t>::max() / (4 * sizeof(Complex));
+    if (shape[0] == 0 || shape[1] == 0 || shape[0] > max_samples / shape[1])
         throw Error(ErrorCode::usage, fmt::format("an array of {}x{} samples cannot be made", shape[1], shape[0]));
     const std::size_t bytes = count(shape) * sizeof(Complex);
     if (bytes <= scratch.memory) {
@@ -60,8 +60,8 @@ PagedArray::PagedArray(const Shape<2>& shape, const ScratchOptions& scratch) : s
         data_ = {map_file(bytes, scratch.folder), Release(bytes)};
     } else {
         throw Error(ErrorCode::usage,
-                    fmt::format("an array of {}x{} samples takes {}, more than the {} of memory that it may; a folder "
-                                "for scratch files would do",
+                    fmt::format("an array of {}x{} samples takes {}, more than the {} allowed in memory; a "
+                                "folder for scratch files would do",
                                 shape[1], shape[0], format_bytes(static_cast<double>(bytes)),
                                 format_bytes(static_cast<double>(scratch.memory))));
     }

@@ -10,13 +10,13 @@
 
 namespace hogel::core {
 
-/// An array of complex values, all zero at first, in memory or in a file without a name that the system pages in and
-/// out and that is gone with the array. Work on it goes by rows, or by blocks of neighbouring columns.
+/// An array of complex values, all zero at first, in memory or in a mapped file without a name, which the system pages
+/// in and out and removes with the array. Work on it by rows, or by blocks of neighbouring columns.
 class PagedArray {
   public:
     PagedArray() = default;
-    /// Throws Error(usage) for an array that is too large for the memory when no folder is given, and
-    /// Error(cannot_write) when the file cannot be made or the disk has no room for it.
+    /// Throws Error(usage) for an empty array and one of more than scratch.memory bytes where no folder is given, and
+    /// Error(cannot_write) where the file cannot be made or the disk has no room for it.
     PagedArray(const Shape<2>& shape, const ScratchOptions& scratch);
 
     View<std::complex<float>, 2> view() { return {data_.get(), shape_}; }
@@ -29,7 +29,7 @@ class PagedArray {
     struct Release {
         Release() : mapped_bytes(0) {}
         explicit Release(std::size_t bytes) : mapped_bytes(bytes) {}
-        std::size_t mapped_bytes;  // 0: of memory
+        std::size_t mapped_bytes;  // 0: allocated in memory
         void operator()(std::complex<float>* data) const;
     };
     std::unique_ptr<std::complex<float>, Release> data_;

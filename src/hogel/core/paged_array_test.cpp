@@ -8,8 +8,8 @@
 namespace hogel::core {
 namespace {
 
-TEST(PagedArray, is_zero_and_keeps_values_in_memory_and_in_a_file_that_nobody_sees) {
-    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "large_array";
+TEST(PagedArray, is_zero_at_first_and_keeps_values_in_memory_or_in_an_unnamed_file) {
+    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "paged_array";
     std::filesystem::create_directories(folder);
     for (const std::size_t memory : {std::size_t{1} << 20, std::size_t{0}}) {
         PagedArray array({30, 70}, {memory, folder});
@@ -21,7 +21,7 @@ TEST(PagedArray, is_zero_and_keeps_values_in_memory_and_in_a_file_that_nobody_se
     }
 }
 
-TEST(PagedArray, that_has_no_place_is_refused) {
+TEST(PagedArray, refuses_sizes_that_cannot_be_held) {
     const auto code = [](const Shape<2>& shape, const ScratchOptions& scratch) {
         try {
             PagedArray array(shape, scratch);

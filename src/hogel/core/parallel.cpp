@@ -6,6 +6,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <utility>
+
 #ifdef __SANITIZE_THREAD__
 #include <algorithm>
 #include <atomic>
@@ -16,18 +18,52 @@
 #endif
 
 namespace hogel::core {
+namespace {
+
+// The innermost scope that this thread works in.
+thread_local const StopScope* current_scope = nullptr;
+
+// Lets this thread work in the scope of the thread that began a loop.
+class Inherited {
+  public:
+    explicit Inherited(const StopScope* scope) : before_(std::exchange(current_scope, scope)) {}
+    ~Inherited() { current_scope = before_; }
+    Inherited(const Inherited&) = delete;
+    Inherited& operator=(const Inherited&) = delete;
+
+  private:
+    const StopScope* before_;
+};
+
+[[noreturn]] void throw_cancelled() { throw Error(ErrorCode::cancelled, "stopped on request"); }
+
+}  // namespace
+
+StopScope::StopScope(const Progress& progress) : stop_(progress.stop()), outer_(current_scope) {
+    if (stop_.stop_possible() && !(outer_ && outer_->stop_ == stop_)) current_scope = this;
+}
+
+StopScope::~StopScope() { current_scope = outer_; }
+
+bool StopScope::requested() const { return stop_.stop_requested() || (outer_ && outer_->requested()); }
+
+void throw_if_stopped() {
+    if (current_scope && current_scope->requested()) throw_cancelled();
+}
 
 #ifdef __SANITIZE_THREAD__
 
-// The distribution's TBB is not instrumented: the thread sanitizer sees neither how a loop's work reaches other threads
-// nor how its end comes back, and takes every loop for a race. Its builds run loops on plain threads instead.
+// The distribution's TBB is not instrumented: the thread sanitizer sees neither how work reaches other threads nor how
+// results come back, and reports every loop as a race. Its builds run loops on plain threads instead.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
     std::exception_ptr first;
-    const auto work = [&] {
+    const auto work = [&, scope = current_scope] {
+        const Inherited inherited(scope);
         for (std::size_t i = next++; i < n; i = next++) {
             try {
+                throw_if_stopped();
                 body(i);
             } catch (...) {
                 const std::lock_guard lock(mutex);
@@ -47,7 +83,15 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
 #else
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
-    tbb::parallel_for(std::size_t{0}, n, body, tbb::simple_partitioner());
+    tbb::task_group_context context;
+    const auto run = [&body, scope = current_scope](std::size_t i) {
+        const Inherited inherited(scope);
+        throw_if_stopped();
+        body(i);
+    };
+    tbb::parallel_for(std::size_t{0}, n, run, tbb::simple_partitioner(), context);
+    // Where the loop around this one has failed, TBB leaves out bodies of this one without a word.
+    if (context.is_group_execution_cancelled()) throw_cancelled();
 }
 
 #endif

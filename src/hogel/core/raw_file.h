@@ -7,11 +7,12 @@
 
 namespace hogel::core {
 
-/// A file read and written at offsets, by any number of threads at once.
+/// A file that is read and written at offsets, by any number of threads at once.
 class RawFile {
   public:
     enum class Mode { read, write, create };
-    /// `name` is what errors call the file. Throws Error(bad_input) when reading, Error(cannot_write) otherwise.
+    /// @param name  of the file in error messages
+    /// Throws Error(bad_input) when reading, Error(cannot_write) otherwise.
     RawFile(const std::filesystem::path& path, Mode mode, const std::filesystem::path& name);
     ~RawFile();
     RawFile(const RawFile&) = delete;
@@ -23,11 +24,12 @@ class RawFile {
     void read(std::uint64_t offset, void* to, std::size_t bytes) const;
     /// Throws Error(cannot_write).
     void write(std::uint64_t offset, const void* from, std::size_t bytes);
-    /// Makes the file at least this long, with room for it on the disk where the file system can promise that.
+    /// Makes the file at least this long and reserves room on the disk where the file system can. Throws
+    /// Error(cannot_write).
     void reserve(std::uint64_t bytes);
-    /// Makes the file this long; what is added is a hole. Throws Error(cannot_write) beyond what a file may have.
+    /// Makes the file this long; what is added is a hole. Throws Error(cannot_write).
     void resize(std::uint64_t bytes);
-    /// Comes back when all that was written has reached the disk. Throws Error(cannot_write).
+    /// Returns when all that was written has reached the disk. Throws Error(cannot_write).
     void flush();
     /// Throws Error(cannot_write) when the system reports a late failure.
     void close();

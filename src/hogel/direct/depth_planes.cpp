@@ -12,7 +12,7 @@
 namespace hogel::direct {
 
 std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count) {
-    if (count == 0) throw Error(ErrorCode::usage, "a scene cannot be cut into no planes");
+    if (count == 0) throw Error(ErrorCode::usage, "a scene must be cut into at least one plane");
     double near = std::numeric_limits<double>::infinity(), far = -near;
     for (const ShadedScene::Triangle& triangle : scene.triangles)
         for (const std::uint32_t vertex : triangle.vertices) {
@@ -20,15 +20,15 @@ std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count) {
             far = std::max(far, -scene.positions[vertex].z);
         }
     // A flat scene is one plane, where it is.
-    const double least = 1e-6 * std::max(std::abs(near), std::abs(far)) + 1e-9;
-    if (far - near < least) return {{near - least, far + least}};
+    const double margin = 1e-6 * std::max(std::abs(near), std::abs(far)) + 1e-9;
+    if (far - near < margin) return {{near - margin, far + margin}};
     std::vector<Slice> slices;
     const double step = (far - near) / static_cast<double>(count);
     for (std::size_t i = 0; i < count; ++i)
         slices.push_back({near + step * static_cast<double>(i), near + step * static_cast<double>(i + 1)});
     // Rounding must not lose what lies on the ends.
-    slices.front().near -= least;
-    slices.back().far += least;
+    slices.front().near -= margin;
+    slices.back().far += margin;
     return slices;
 }
 
@@ -46,11 +46,11 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
             const Rgb colour =
                 radiance_at(scene_, hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2, {{0, 0, 1}, plane.pitch_x});
             const float radiance = options.channel == 0 ? colour.r : options.channel == 1 ? colour.g : colour.b;
-            const double turns =
-                random_turns(options, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), number);
+            const double cycles =
+                random_cycles(options, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), number);
             drawn.solid(row, column) = 1;
             drawn.light(row, column) = std::complex<float>(
-                std::polar(scale * std::sqrt(std::max(radiance, 0.0f)), 2 * std::numbers::pi * turns));
+                std::polar(scale * std::sqrt(std::max(radiance, 0.0f)), 2 * std::numbers::pi * cycles));
         }
     });
     drawn.empty = std::ranges::all_of(drawn.solid.elements(), [](float value) { return value == 0; });

@@ -21,8 +21,8 @@ class SliceDrawing {
   public:
     explicit SliceDrawing(const ShadedScene& scene) : scene_(scene), visibility_(scene) {}
 
-    /// The field that a slice sends out on the samples of its plane: √L λ/δ, δ the samples' pitch, with random phases,
-    /// which is a diffuse surface of radiance L; and 1 where there is something, 0 elsewhere.
+    /// The field that a slice emits, on the samples of its plane: √L λ/δ, δ the samples' pitch, with random phases,
+    /// which is a diffuse surface of radiance L; and 1 where the slice is solid, 0 elsewhere.
     struct Drawn {
         Array<std::complex<float>, 2> light;
         Array<float, 2> solid;

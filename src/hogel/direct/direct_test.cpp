@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/test_targets.h"
 #include "hogel/direct/exact_sums.h"
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
@@ -54,22 +55,22 @@ const FieldGrid small{{96, 80, 2_um, 2_um, 0, 0}, 633_nm};
 
 Field make(std::string_view method, const ShadedScene& scene, const FieldGrid& grid,
            const SceneHologramOptions& options = {}) {
-    return find_scene_method(method)->make(scene, grid, options, {});
+    return scene_hologram_methods().find(method).make(scene, grid, options, {});
 }
 
-TEST(TiledPoints, are_the_exact_sum_wherever_the_expansion_holds_and_elsewhere) {
+TEST(TiledPoints, equal_the_exact_sum_near_and_far) {
     SceneHologramOptions options;
     options.spacing = 20_um;
     for (const double depth : {2_mm, -0.8_mm, 120_um}) {
         const ShadedScene scene = card_at(depth, 0.07_mm, 1, 0.15);
         const Field exact = make("points-visible", scene, small, options);
         EXPECT_LT(difference(exact, make("points-tiled", scene, small, options)), 0.02) << depth;
-        // A card hides nothing of itself.
+        // A card does not occlude itself.
         EXPECT_LT(difference(exact, make("points", scene, small, options)), 1e-6);
     }
 }
 
-TEST(FresnelIntegral, by_table_and_series_is_that_of_the_handbook_and_of_its_plain_twin) {
+TEST(FresnelIntegral, equals_the_handbook_and_its_plain_version) {
     // Abramowitz and Stegun, table 7.7.
     EXPECT_NEAR(fresnel_integral_plain(1).real(), 0.7798934, 1e-7);
     EXPECT_NEAR(fresnel_integral_plain(1).imag(), 0.4382591, 1e-7);
@@ -79,7 +80,7 @@ TEST(FresnelIntegral, by_table_and_series_is_that_of_the_handbook_and_of_its_pla
         ASSERT_LT(std::abs(fresnel_integral(w) - fresnel_integral_plain(w)), 3e-7) << w;
 }
 
-TEST(LineSource, is_the_sum_of_its_points) {
+TEST(LineSource, equals_the_sum_of_its_points) {
     for (const double side : {1.0, -1.0}) {
         LineSource line{{-0.1_mm, 0.05_mm, -side * 2_mm}, {0.12_mm, -0.04_mm, -side * 2.03_mm}, 0.7, -0.12, 0.3};
         const double size = length(line.b - line.a);
@@ -101,7 +102,7 @@ TEST(LineSource, is_the_sum_of_its_points) {
     }
 }
 
-// Photographs with a wide lens, so that what is out of focus is blurred and what is hidden is found out.
+// A photograph with a wide lens, which blurs surfaces out of focus and sees around small occluders.
 Image photo(const Field& field, double focus, const Grid& picture) {
     Camera camera;
     camera.eye = {0, 0, 40_mm};
@@ -119,8 +120,8 @@ double mean(const Image& image) {
 
 class SurfaceMethod : public testing::TestWithParam<const char*> {};
 
-// A diffuse card is as bright as its radiance says, behind the hologram and in front of it, straight and tilted.
-TEST_P(SurfaceMethod, shows_a_card_as_bright_as_it_is) {
+// A diffuse card photographs with its own radiance, behind the hologram and in front of it, straight and tilted.
+TEST_P(SurfaceMethod, photographs_a_card_with_its_own_radiance) {
     const std::string method = GetParam();
     const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};
     SceneHologramOptions options;
@@ -144,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, SurfaceMethod,
 class HidingMethod : public testing::TestWithParam<const char*> {};
 
 // A dark card hides the left half of a bright one; without occlusion the bright one shines through.
-TEST_P(HidingMethod, hides_what_lies_behind) {
+TEST_P(HidingMethod, hides_surfaces_behind_others) {
     const std::string method = GetParam();
     const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};
     ShadedScene scene = card_at(1.6_mm, 0.16_mm, 1);
@@ -178,7 +179,7 @@ TEST_P(EdgeMethod, shows_a_card_by_its_outline) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, EdgeMethod, testing::Values("edges", "lines"));
 
-TEST(Fresnel, of_a_small_patch_is_the_sum_of_its_points_and_so_is_fraunhofer) {
+TEST(FresnelPlanes, a_small_patch_is_the_sum_of_its_points_in_the_near_and_far_field) {
     // One sample of the plane's own grid, 633 nm · 4 mm / (128 · 2 µm) wide, in the middle of its cell.
     const FieldGrid grid{{128, 128, 2_um, 2_um, 0, 0}, 633_nm};
     const double pitch = 633e-9 * 4e-3 / (128 * 2e-6);
@@ -203,7 +204,9 @@ TEST(Fresnel, of_a_small_patch_is_the_sum_of_its_points_and_so_is_fraunhofer) {
     }
 }
 
-TEST(AddWave, twins_agree_with_and_without_a_normal_behind_and_before_the_hologram) {
+HOGEL_TEST_ON_EVERY_TARGET(AddWave);
+
+TEST_P(AddWave, equals_its_plain_version_behind_and_in_front_of_the_hologram) {
     const FieldGrid grid{{64, 64, 2_um, 3_um, 0, 0}, 633_nm};
     const SampleRow row{-30_um, 12_um, 2_um};
     std::array<bool, tile_side> hidden{};
@@ -223,11 +226,11 @@ TEST(AddWave, twins_agree_with_and_without_a_normal_behind_and_before_the_hologr
             }
 }
 
-// A field is cut into tiles for the threads; what they draw is keyed by the point, never by the order of work.
-TEST(SceneMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_another_seed) {
+// A field is cut into tiles for the threads; random numbers are keyed by the point, never by the order of work.
+TEST(SceneHologramMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_another_seed) {
     // Far enough for all of them, and small enough for the far field.
     const ShadedScene scene = card_at(12_mm, 0.03_mm, 1, 0.1);
-    for (const SceneMethod& method : scene_methods()) {
+    for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
         SceneHologramOptions options;
         options.planes = 3;
         const auto make_with = [&](std::size_t threads) {
@@ -245,7 +248,7 @@ TEST(SceneMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_
     }
 }
 
-TEST(SceneMethods, refuse_what_they_cannot_do) {
+TEST(SceneHologramMethods, refuse_scenes_and_grids_that_they_cannot_take) {
     const auto message = [](const char* method, const ShadedScene& scene) -> std::string {
         try {
             make(method, scene, small);
@@ -258,7 +261,7 @@ TEST(SceneMethods, refuse_what_they_cannot_do) {
     EXPECT_NE(message("fresnel", card_at(0.5_mm, 0.1_mm)).find("expected a depth of"), std::string::npos);
     EXPECT_NE(message("fresnel", card_at(0, 0.1_mm)).find("lies on the hologram"), std::string::npos);
     EXPECT_NE(message("fraunhofer", card_at(5_mm, 0.1_mm)).find("is in the far field from"), std::string::npos);
-    EXPECT_EQ(find_scene_method("wavy"), nullptr);
+    EXPECT_THROW(scene_hologram_methods().find("wavy"), Error);
 }
 
 }  // namespace

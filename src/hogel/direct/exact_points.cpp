@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/exact_sums.h"
 
 namespace hogel::direct {
@@ -12,8 +13,10 @@ template <class Add>
 Field sum_exactly(const std::vector<ScenePoint>& points, const FieldGrid& grid, const Progress& progress, Add add) {
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         ExactSums sums(grid, region);
-        for (const ScenePoint& point : points)
+        for (const ScenePoint& point : points) {
+            core::throw_if_stopped();
             if (sums.reached_from(point.position)) add(sums, point);
+        }
         for (std::size_t row = 0; row < region.height; ++row)
             for (std::size_t column = 0; column < region.width; ++column) values(row, column) = sums(row, column);
     });
@@ -28,16 +31,16 @@ void add_wave_plain(const ScenePoint& point, const FieldGrid& grid, const Sample
     for (std::size_t i = 0; i < tile_side; ++i) {
         const auto ray = passage(point.position, {row.x + static_cast<double>(i) * row.pitch, row.y, 0}, grid);
         if (!ray || (hidden && hidden[i])) continue;
-        const double turns = ray->path / grid.wavelength + point.turns;
+        const double cycles = ray->path / grid.wavelength + point.cycles;
         const std::complex<double> wave =
-            std::polar(modulus(point, *ray), 2 * std::numbers::pi * (turns - std::round(turns)));
+            std::polar(modulus(point, *ray), 2 * std::numbers::pi * (cycles - std::round(cycles)));
         real[i] += wave.real();
         imaginary[i] += wave.imag();
     }
 }
 
 void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibility) {
-    std::array<Vec3, tile_side> ways;
+    std::array<Vec3, tile_side> directions;
     std::array<bool, tile_side> hidden;
     for (std::size_t row = 0; row < region_.height; ++row) {
         const SampleRow places = row_of(row);
@@ -45,11 +48,11 @@ void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibilit
         for (std::size_t i = 0; i < tile_side; ++i) {
             const Passage ray =
                 unlimited_passage(point.position, {places.x + static_cast<double>(i) * places.pitch, places.y, 0});
-            ways[i] = ray.way;
+            directions[i] = ray.direction;
             lit = lit || !too_steep(ray, grid_);
         }
         if (!lit) continue;
-        visibility.hide(point.surface, ways, hidden);
+        visibility.hide(point.surface, directions, hidden);
         add_wave(point, grid_, places, hidden.data(), real_[row].data(), imaginary_[row].data());
     }
 }
@@ -57,12 +60,14 @@ void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibilit
 // [K] (3.5): everything shines through everything.
 Field exact_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
+    const core::StopScope scope(progress);
     return sum_exactly(surface_points(scene, grid, options), grid, progress, add_all);
 }
 
 // [K] (3.6): a ray for each point and sample.
 Field exact_visible_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                            const Progress& progress) {
+    const core::StopScope scope(progress);
     const Visibility visibility(scene);
     return sum_exactly(surface_points(scene, grid, options), grid, progress,
                        [&](ExactSums& sums, const ScenePoint& point) { sums.add_visible(point, visibility); });
@@ -71,6 +76,7 @@ Field exact_visible_points(const ShadedScene& scene, const FieldGrid& grid, cons
 // Surfaces are given up for the points along their edges, which shine through everything. Source: Waters 1966.
 Field points_along_edges(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                          const Progress& progress) {
+    const core::StopScope scope(progress);
     return sum_exactly(edge_points(scene, grid, options), grid, progress, add_all);
 }
 

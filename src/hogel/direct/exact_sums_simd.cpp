@@ -24,7 +24,7 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
 using D = hn::CappedTag<double, tile_side>;
 using V = hn::Vec<D>;
 
-// Sine and cosine up to an eighth of a turn, by their series.
+// Sine and cosine up to an eighth of a cycle, by their series.
 HWY_INLINE V Sine(D d, V angle, V square) {
     V sum = hn::Set(d, 1.0 / 6227020800);
     for (const double term : {-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6})
@@ -41,7 +41,7 @@ HWY_INLINE V Cosine(D d, V square) {
 void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
              double* imaginary) {
     const D d;
-    // The light's way is from the point to the sample, or the other way round in front of the hologram.
+    // Light travels from the point to the sample, or in front of the hologram from the sample to the point.
     const double towards = point.position.z < 0 ? 1 : -1;
     const double dy = row.y - point.position.y, dz = -point.position.z;
     const V flat = hn::Set(d, dy * dy + dz * dz);
@@ -69,13 +69,13 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
             for (std::size_t j = 0; j < hn::Lanes(d); ++j) seen[j] = hidden[i + j] ? 0 : 1;
             modulus = hn::Mul(modulus, hn::Load(d, seen));
         }
-        const V all = hn::MulAdd(distance, hn::Set(d, towards / grid.wavelength), hn::Set(d, point.turns));
-        const V turns = hn::Sub(all, hn::Round(all));
-        const V quarters = hn::Round(hn::Mul(turns, hn::Set(d, 4.0)));
-        const V angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25), turns), hn::Set(d, 2 * std::numbers::pi));
+        const V all = hn::MulAdd(distance, hn::Set(d, towards / grid.wavelength), hn::Set(d, point.cycles));
+        const V cycles = hn::Sub(all, hn::Round(all));
+        const V quarters = hn::Round(hn::Mul(cycles, hn::Set(d, 4.0)));
+        const V angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25), cycles), hn::Set(d, 2 * std::numbers::pi));
         const V square = hn::Mul(angle, angle);
         const V sine = hn::Mul(modulus, Sine(d, angle, square)), cosine = hn::Mul(modulus, Cosine(d, square));
-        // Turned by −2 to 2 quarters: an even number changes both signs or none, an odd one changes places too.
+        // Rotation by −2 to 2 quarters: an even number changes both signs or none, an odd one swaps the parts too.
         const V size = hn::Abs(quarters), even = hn::Sub(hn::Set(d, 1.0), size);
         const auto odd = hn::Eq(size, hn::Set(d, 1.0));
         const V re = hn::IfThenElse(odd, hn::Neg(hn::Mul(quarters, sine)), hn::Mul(even, cosine));

@@ -9,8 +9,8 @@ namespace hogel::direct {
 /// Sources: Abramowitz and Stegun 7.3; the fraction is that of erfc.
 std::complex<double> fresnel_integral_plain(double w);
 
-/// The same to 3·10⁻⁷ and many times faster: cubics between entries of a table, whose slopes are known, and from w = 8
-/// on the asymptotic series.
+/// The integral to 3·10⁻⁷, many times faster: cubics between entries of a table, whose slopes are known, and from
+/// w = 8 on the asymptotic series.
 std::complex<double> fresnel_integral(double w);
 
 }  // namespace hogel::direct

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
@@ -15,7 +16,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-Complex unit(double turns) { return Complex(std::polar(1.0, 2 * std::numbers::pi * (turns - std::round(turns)))); }
+Complex unit(double cycles) { return Complex(std::polar(1.0, 2 * std::numbers::pi * (cycles - std::round(cycles)))); }
 
 // [K] (3.13): the field of a plane at depth R on the hologram by one transform, which fixes the plane's pitch
 // δ = λ|R|/(nΔ). With `far` [K] (3.10), which leaves out the curvature of the object's own points.
@@ -46,9 +47,9 @@ class PlaneTransform {
         for (std::size_t row = 0; row < light.extent(0); ++row)
             for (std::size_t column = 0; column < light.extent(1); ++column) {
                 const double i = static_cast<double>(column), j = static_cast<double>(row);
-                double turns = sign * (shift(i, plane.width) + shift(j, plane.height));
-                if (!far_) turns += curved(object_.x(i) - object_.center_x, object_.y(j) - object_.center_y);
-                light(row, column) *= unit(turns);
+                double cycles = sign * (shift(i, plane.width) + shift(j, plane.height));
+                if (!far_) cycles += curved(object_.x(i) - object_.center_x, object_.y(j) - object_.center_y);
+                light(row, column) *= unit(cycles);
             }
         depth_ > 0 ? fft_.forward(light) : fft_.backward(light);
         const double scale = object_.pitch_x * object_.pitch_y / (hologram_.wavelength * std::abs(depth_));
@@ -56,10 +57,10 @@ class PlaneTransform {
             for (std::size_t column = 0; column < field.extent(1); ++column) {
                 const double i = static_cast<double>(column), j = static_cast<double>(row);
                 // e^{ikR}/(iλR)
-                const double turns = k * depth_ - 0.25 * sign +
-                                     sign * (shift(i, plane.width) + shift(j, plane.height)) +
-                                     curved(plane.x(i) - plane.center_x, plane.y(j) - plane.center_y);
-                field(row, column) += static_cast<float>(scale) * light(row, column) * unit(turns);
+                const double cycles = k * depth_ - 0.25 * sign +
+                                      sign * (shift(i, plane.width) + shift(j, plane.height)) +
+                                      curved(plane.x(i) - plane.center_x, plane.y(j) - plane.center_y);
+                field(row, column) += static_cast<float>(scale) * light(row, column) * unit(cycles);
             }
     }
 
@@ -87,7 +88,7 @@ Reach reach_of(const ShadedScene& scene, const Grid& plane, const Slice& slice) 
     return reach;
 }
 
-// A plane's pictures repeat at a distance of λR/Δ, where a wider scene would overlap itself.
+// The transform's plane repeats at a distance of λR/Δ, so a wider scene would overlap its copies.
 void require_room(const Reach& reach, const Grid& object, double depth) {
     const double wider = std::max(2 * reach.x / object.size_x(), 2 * reach.y / object.size_y());
     if (wider <= 1) return;
@@ -106,7 +107,7 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
     const SliceDrawing drawing(scene);
     for (std::size_t i = 0; i < slices.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(slices.size()));
-        // The plane itself has no distance to go.
+        // A plane on the hologram has no distance to be propagated over.
         const double depth = slices[i].depth();
         if (std::abs(depth) < nearest_depth(grid))
             throw Error(ErrorCode::usage,
@@ -126,12 +127,14 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
 // Depth planes, added up without occlusion ([K] fig. 3.7).
 Field fresnel_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                      const Progress& progress) {
+    const core::StopScope scope(progress);
     return add_planes(scene, grid, slices_of(scene, options.planes), false, options, progress);
 }
 
 // One plane, so far away or so small that it is flat to the hologram, [K] (3.7): here, to an eighth of a wavelength.
 Field fraunhofer_plane(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
+    const core::StopScope scope(progress);
     const std::vector<Slice> slices = slices_of(scene, 1);
     const double corner = reach_of(scene, grid.plane, slices[0]).corner;
     const double needed = 4 * corner * corner / grid.wavelength;

@@ -10,11 +10,12 @@
 namespace hogel::direct {
 
 // Horizontal parallax only, [K] 3.5: the hologram is cut into lines as high as the points' spacing, and each gets the
-// light of the slice of the scene at its own height alone, as if the world were flat. A line is the same along its
+// light of the slice of the scene at its own height alone. A line is the same along its
 // height Ξ, so its light fans out vertically over about λ/Ξ, as sinc². In the middle a point of the radiance L shows L
 // if its wave in the line has a² = L λ w/Ξ at unit distance and falls off as 1/√r, w its width.
 Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(options.spacing / grid.plane.pitch_y)));
     const double height = static_cast<double>(rows) * grid.plane.pitch_y;
@@ -30,14 +31,15 @@ Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const Sc
     core::parallel_for(lines, [&](std::size_t line) {
         std::vector<std::complex<float>> values(grid.plane.width);
         for (std::size_t column = 0; column < values.size(); ++column) {
+            core::throw_if_stopped();
             std::complex<double> sum = 0;
             for (const ScenePoint& point : slices[line]) {
                 const Vec3 place{grid.plane.x(static_cast<double>(column)), point.position.y, 0};
                 const auto ray = passage(point.position, place, grid);
-                if (!ray || !visibility.sees(point.surface, ray->way)) continue;
-                const double turns = ray->path / grid.wavelength + point.turns;
+                if (!ray || !visibility.sees(point.surface, ray->direction)) continue;
+                const double cycles = ray->path / grid.wavelength + point.cycles;
                 sum += std::polar(modulus(point, *ray) * std::sqrt(grid.wavelength * std::abs(ray->path)) / height,
-                                  2 * std::numbers::pi * (turns - std::round(turns)));
+                                  2 * std::numbers::pi * (cycles - std::round(cycles)));
             }
             values[column] = std::complex<float>(sum);
         }

@@ -7,13 +7,13 @@
 
 namespace hogel::direct {
 
-/// A line that shines as one, with a phase that runs along it.
+/// A line that emits coherently, with a phase linear along it.
 struct LineSource {
     Vec3 a, b;             ///< both behind the hologram or both in front of it, metres
     double amplitude = 1;  ///< of the spherical waves a metre of it sends out, at unit distance
-    double slope = 0;  ///< of the phase: its light leaves, or in front of the hologram meets, at the angle acos to the
-                       ///< line, −1 < slope < 1
-    double turns = 0;  ///< phase at a
+    double slope = 0;   ///< of the phase: its light leaves, or in front of the hologram meets, at the angle acos to the
+                        ///< line, −1 < slope < 1
+    double cycles = 0;  ///< phase at a
 };
 
 /// The wave of a line at a place on the hologram, ∫ amplitude · e^{±ik(r + slope·l)}/r dl, in closed form: the path to

@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
 #include "hogel/direct/scene_points.h"
@@ -21,18 +22,19 @@ std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavele
     const double at = foot - slope * distance / sine, path = distance / sine;
     const double scale = sine * std::sqrt(2 / (wavelength * path));
     const std::complex<double> part = fresnel_integral((size - at) * scale) - fresnel_integral(-at * scale);
-    const double turns = (path + slope * at) / wavelength;
+    const double cycles = (path + slope * at) / wavelength;
     const std::complex<double> wave = std::polar(line.amplitude * std::sqrt(0.5 * wavelength / path) / sine,
-                                                 2 * std::numbers::pi * (turns - std::round(turns))) *
+                                                 2 * std::numbers::pi * (cycles - std::round(cycles))) *
                                       part;
     // In front of the hologram light still runs towards the line.
-    return std::polar(1.0, 2 * std::numbers::pi * line.turns) * (behind ? wave : std::conj(wave));
+    return std::polar(1.0, 2 * std::numbers::pi * line.cycles) * (behind ? wave : std::conj(wave));
 }
 
 // Edges as lines that shine as a whole, each in the phase that sends its light straight ahead. A line of length l and
 // radiance L, as wide as the points' spacing w, has the energy at the hologram of as many independent points.
 Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
+    const core::StopScope scope(progress);
     std::vector<LineSource> lines;
     std::uint32_t number = 0;
     for (const SceneEdge& edge : scene_edges(scene, options)) {
@@ -50,7 +52,7 @@ Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneH
             LineSource line{a, b};
             line.slope = -side * (b.z - a.z) / size;
             line.amplitude = std::sqrt(edge.radiance * options.spacing * size / (grid.wavelength * middle));
-            line.turns = random_turns(options, number++, 0, 0xfffffffe);
+            line.cycles = random_cycles(options, number++, 0, 0xfffffffe);
             lines.push_back(line);
         }
     }

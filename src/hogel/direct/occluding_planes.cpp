@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/propagate.h"
 
 namespace hogel::direct {
 
-// Depth planes from the farthest to the nearest: the light of those behind comes to each plane by the angular spectrum,
-// is stopped where there is something, and what shines there is added. Source: Ichioka, Izumi and Suzuki, "Scanning
-// halftone plotter and computer-generated continuous-tone hologram", Applied Optics 10, 1971, as [K] 3.4.2 tells it;
-// with the angular spectrum in place of (3.13) it holds at any distance, in front of the hologram too.
+// Depth planes from the farthest to the nearest: the light of those behind is propagated to each plane by the angular
+// spectrum, blocked where the plane is solid, and the light of the plane is added. Source: Ichioka, Izumi and Suzuki,
+// "Scanning halftone plotter and computer-generated continuous-tone hologram", Applied Optics 10, 1971, as described in
+// [K] 3.4.2; with the angular spectrum in place of (3.13) it holds at any distance, in front of the hologram too.
 Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     const SliceDrawing drawing(scene);
     const std::vector<Slice> slices = slices_of(scene, options.planes);

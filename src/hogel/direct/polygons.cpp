@@ -5,6 +5,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/optics/tilt.h"
 #include "hogel/propagate.h"
@@ -74,9 +75,9 @@ void for_samples_inside(const std::array<Vec3, 3>& p, const Grid& grid,
         }
 }
 
-// A polygon's light on planes parallel to the hologram: its surface, with random phases, on samples of its own plane;
-// its plane waves turned to the hologram's axes, and on to where they are wanted. Sources: Leseberg and Frère,
-// "Computer- generated holograms of 3-D objects composed of tilted planar segments", Applied Optics 27, 1988; for any
+// A polygon's light on planes parallel to the hologram: its surface, with random phases, is sampled on its own plane;
+// its plane waves are rotated to the hologram's axes and propagated to the plane wanted. Sources: Leseberg and Frère,
+// "Computer-generated holograms of 3-D objects composed of tilted planar segments", Applied Optics 27, 1988; for any
 // distance Tommasi and Bianco, JOSA A 10, 1993; [K] 6.1.
 class PolygonLight {
   public:
@@ -108,13 +109,13 @@ class PolygonLight {
         const optics::Band around{surface.carrier_x - 0.5 / own.pitch_x, surface.carrier_x + 0.5 / own.pitch_x,
                                   surface.carrier_y - 0.5 / own.pitch_y, surface.carrier_y + 0.5 / own.pitch_y};
         const optics::Spectrum own_waves =
-            optics::spectrum_of(surface, optics::padded(own, own.size_x(), own.size_y()), around, anything_);
+            optics::spectrum_of(surface, optics::padded(own, own.size_x(), own.size_y()), around, in_memory_);
         optics::Spectrum waves =
-            optics::tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, optics::Band::of(plane), anything_);
+            optics::tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, optics::Band::of(plane), in_memory_);
         waves.window.center_x = origin.x;
         waves.window.center_y = origin.y;
         optics::propagate(waves, {-depth - origin.z, 0, 0, size_x, size_y, 0.5 * size_x, 0.5 * size_y});
-        const optics::Wave light = optics::wave_of(waves, waves.window.width, waves.window.height, anything_);
+        const optics::Wave light = optics::wave_of(waves, waves.window.width, waves.window.height, in_memory_);
         const auto first = [](double position) { return static_cast<std::size_t>(std::lround(position)); };
         Array<std::complex<float>, 2> values({plane.height, plane.width});
         light.read(
@@ -123,7 +124,7 @@ class PolygonLight {
         for (std::size_t i = 0; i < values.size(); ++i) field.samples.data()[i] += values.data()[i];
     }
 
-    // Makes a field on the polygon's middle plane dark where the polygon stands before it.
+    // Makes a field on the polygon's middle plane dark where the polygon covers it.
     void hide(const Polygon& polygon, Field& field) const {
         for (const std::size_t triangle : polygon.triangles)
             for_samples_inside(
@@ -151,7 +152,7 @@ class PolygonLight {
         };
         const FieldGrid own{{samples(reach_x, pitch_x), samples(reach_y, pitch_y), pitch_x, pitch_y, 0, 0},
                             grid_.wavelength};
-        optics::Wave surface(own, anything_);
+        optics::Wave surface(own, in_memory_);
         // Only what travels towards the viewer counts.
         surface.carrier_x = x.z / grid_.wavelength;
         surface.carrier_y = y.z / grid_.wavelength;
@@ -163,10 +164,10 @@ class PolygonLight {
             for_samples_inside(p, own.plane, [&](std::size_t column, std::size_t row, float b0, float b1, float b2) {
                 const Rgb colour = radiance_at(scene_, triangle, b0, b1, b2, {{0, 0, 1}, pitch_x});
                 const float radiance = options_.channel == 0 ? colour.r : options_.channel == 1 ? colour.g : colour.b;
-                const double turns = random_turns(options_, static_cast<std::uint32_t>(column),
-                                                  static_cast<std::uint32_t>(row), number ^ 0x80000000);
+                const double cycles = random_cycles(options_, static_cast<std::uint32_t>(column),
+                                                    static_cast<std::uint32_t>(row), number ^ 0x80000000);
                 surface.samples.view()(row, column) = std::complex<float>(
-                    std::polar(scale * std::sqrt(std::max(radiance, 0.0f)), 2 * std::numbers::pi * turns));
+                    std::polar(scale * std::sqrt(std::max(radiance, 0.0f)), 2 * std::numbers::pi * cycles));
             });
         }
         return surface;
@@ -175,13 +176,14 @@ class PolygonLight {
     const ShadedScene& scene_;
     FieldGrid grid_;
     SceneHologramOptions options_;
-    ScratchOptions anything_{SIZE_MAX, {}};
+    ScratchOptions in_memory_{SIZE_MAX, {}};
 };
 
 }  // namespace
 
 Field tilted_polygons(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                       const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     Field field(grid);
     const PolygonLight light(scene, grid, options);
@@ -194,9 +196,10 @@ Field tilted_polygons(const ShadedScene& scene, const FieldGrid& grid, const Sce
     return field;
 }
 
-// Each polygon stops the light of those behind it where its silhouette, drawn on a plane through its middle, stands.
+// Each polygon blocks the light of those behind it within its silhouette, drawn on a plane through its middle.
 Field occluding_polygons(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                          const Progress& progress) {
+    const core::StopScope scope(progress);
     validate(grid, ErrorCode::usage, "hologram");
     Field field(grid);
     const PolygonLight light(scene, grid, options);

@@ -34,7 +34,7 @@ constexpr double crease_cosine = 0.8660254037844387;
 
 double nearest_depth(const FieldGrid& grid) { return 8 * grid.plane.pitch_x * grid.plane.pitch_y / grid.wavelength; }
 
-double random_turns(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+double random_cycles(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return core::philox({a, b, c, static_cast<std::uint32_t>(options.channel)},
                         {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)})[0] /
            4294967296.0;
@@ -53,9 +53,10 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
         const double longest = std::max({length(b - a), length(c - b), length(a - c)});
         const auto n = static_cast<std::uint32_t>(std::max(1.0, std::ceil(longest / options.spacing)));
         const double cut = n;
-        for (std::uint32_t row = 0; row < n; ++row)
+        for (std::uint32_t row = 0; row < n; ++row) {
+            core::throw_if_stopped();
             for (std::uint32_t column = 0; column < 2 * (n - row) - 1; ++column) {
-                // Even columns stand upright, odd ones on their heads.
+                // Triangles of even columns stand upright, those of odd columns upside down.
                 const double third = column % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
                 const std::uint32_t pair = column / 2;
                 const double u = (pair + third) / cut, v = (row + third) / cut;
@@ -66,8 +67,9 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
                 const Vec3 at = a + u * (b - a) + v * (c - a);
                 points.push_back({away_from_plane(at, nearest_depth(grid)), at, across / (2 * area),
                                   static_cast<float>(std::sqrt(radiance * area)) / float(n),
-                                  random_turns(options, static_cast<std::uint32_t>(i), row, column)});
+                                  random_cycles(options, static_cast<std::uint32_t>(i), row, column)});
             }
+        }
     }
     return points;
 }
@@ -122,14 +124,14 @@ std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& g
                               at,
                               {},
                               static_cast<float>(std::sqrt(edge.radiance * area)),
-                              random_turns(options, number++, 0, 0xffffffff)});
+                              random_cycles(options, number++, 0, 0xffffffff)});
         }
     }
     return points;
 }
 
 double modulus(const ScenePoint& point, const Passage& passage) {
-    const double cosine = point.normal == Vec3{} ? 1 : std::abs(dot(point.normal, passage.way));
+    const double cosine = point.normal == Vec3{} ? 1 : std::abs(dot(point.normal, passage.direction));
     return point.amplitude * std::sqrt(cosine) / std::abs(passage.path);
 }
 
@@ -170,10 +172,12 @@ Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
                        const std::function<std::complex<double>(Vec3 place)>& wave) {
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         for (std::size_t row = 0; row < region.height; ++row)
-            for (std::size_t column = 0; column < region.width; ++column)
+            for (std::size_t column = 0; column < region.width; ++column) {
+                core::throw_if_stopped();
                 values(row, column) =
                     std::complex<float>(wave({grid.plane.x(static_cast<double>(region.x0 + column)),
                                               grid.plane.y(static_cast<double>(region.y0 + row)), 0}));
+            }
     });
 }
 

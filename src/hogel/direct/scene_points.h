@@ -15,9 +15,9 @@ namespace hogel::direct {
 struct ScenePoint {
     Vec3 position;    ///< where its wave starts
     Vec3 surface;     ///< where it is seen: the same, but for points moved away from the hologram's plane
-    Vec3 normal;      ///< of the surface, whose light falls off with the cosine; zero: all directions alike
-    float amplitude;  ///< √(L A) where it stands for an area A of radiance L
-    double turns;     ///< its phase
+    Vec3 normal;      ///< of the surface, whose light falls off with the cosine; zero: equal in all directions
+    float amplitude;  ///< √(L A) for an area A of radiance L
+    double cycles;    ///< its phase, [0, 1)
 };
 
 /// The triangles of a scene as points, no farther apart than `spacing` and at least one a triangle, with random phases.
@@ -32,7 +32,7 @@ struct SceneEdge {
 };
 std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologramOptions& options);
 
-/// Points along them as far apart as `spacing`, each for an area of its square.
+/// Points along the edges of a scene, `spacing` apart, each for an area of its square.
 std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& grid,
                                     const SceneHologramOptions& options);
 
@@ -41,46 +41,46 @@ std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& g
 double nearest_depth(const FieldGrid& grid);
 
 /// A random number in [0, 1), the same for the same numbers.
-double random_turns(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+double random_cycles(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-/// What of a point's light passes a place on the hologram: it travels towards the viewer, away from a point behind the
+/// The light of a point at a place on the hologram. It travels towards the viewer, away from a point behind the
 /// hologram and towards one in front of it.
 struct Passage {
-    double path;  ///< metres travelled since the point, negative before it
-    Vec3 way;     ///< unit length, towards the viewer
+    double path;     ///< metres travelled since the point, negative before it
+    Vec3 direction;  ///< unit length, towards the viewer
 };
 
 inline Passage unlimited_passage(Vec3 point, Vec3 place) {
-    const Vec3 way = point.z < 0 ? place - point : point - place;
-    const double distance = length(way);
-    return {point.z < 0 ? distance : -distance, (1 / distance) * way};
+    const Vec3 path = point.z < 0 ? place - point : point - place;
+    const double distance = length(path);
+    return {point.z < 0 ? distance : -distance, (1 / distance) * path};
 }
 
 /// Whether the light is too steep for the hologram's pitch.
 inline bool too_steep(const Passage& passage, const FieldGrid& grid) {
-    return std::abs(passage.way.x) * 2 * grid.plane.pitch_x > grid.wavelength ||
-           std::abs(passage.way.y) * 2 * grid.plane.pitch_y > grid.wavelength;
+    return std::abs(passage.direction.x) * 2 * grid.plane.pitch_x > grid.wavelength ||
+           std::abs(passage.direction.y) * 2 * grid.plane.pitch_y > grid.wavelength;
 }
 
-/// Nothing where it is.
+/// Nothing where the light is too steep.
 inline std::optional<Passage> passage(Vec3 point, Vec3 place, const FieldGrid& grid) {
     const Passage passage = unlimited_passage(point, place);
     if (too_steep(passage, grid)) return {};
     return passage;
 }
 
-/// The modulus of a point's wave there.
+/// The modulus of a point's wave at that place.
 double modulus(const ScenePoint& point, const Passage& passage);
 
 /// Whether a viewer sees points of a scene.
 class Visibility {
   public:
     explicit Visibility(const ShadedScene& scene);
-    /// Whether nothing lies between the point and a viewer far along the way.
-    bool sees(Vec3 point, Vec3 way) const { return !caster_.occluded(point, way, margin_, far_); }
-    /// Which of many viewers does not.
-    void hide(Vec3 point, std::span<const Vec3> ways, std::span<bool> hidden) const {
-        caster_.occluded(point, ways, margin_, far_, hidden);
+    /// Whether nothing lies between the point and a viewer far away in a direction.
+    bool sees(Vec3 point, Vec3 direction) const { return !caster_.occluded(point, direction, margin_, far_); }
+    /// sees() for many directions: sets hidden[i] where something lies between.
+    void hide(Vec3 point, std::span<const Vec3> directions, std::span<bool> hidden) const {
+        caster_.occluded(point, directions, margin_, far_, hidden);
     }
     const trace::RayCaster& caster() const { return caster_; }
 
@@ -92,15 +92,15 @@ class Visibility {
 /// The side of a tile of sum_over_tiles().
 inline constexpr std::size_t tile_side = 32;
 
-/// Sums what `add` says over all tiles of a field, on all threads: add(region, values of the region).
+/// A field that is computed tile by tile on all threads: add(region, values of the region) fills a tile.
 Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
                      const std::function<void(const Region&, View<std::complex<float>, 2>)>& add);
 
-/// The same, sample by sample: `wave` is what arrives at a place on the hologram.
+/// A field that is computed sample by sample on all threads: wave(place) is its value at a place on the hologram.
 Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
                        const std::function<std::complex<double>(Vec3 place)>& wave);
 
-// The methods; scene_methods.cpp lists them by name.
+// The methods, which scene_hologram_methods() lists by name.
 Field exact_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field exact_visible_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field tiled_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);

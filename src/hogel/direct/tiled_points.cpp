@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/direct/exact_sums.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/hologram/unit_roots.h"
@@ -12,7 +13,7 @@ namespace hogel::direct {
 namespace {
 
 constexpr std::size_t side = tile_side;
-constexpr double max_turns_wrong = 0.01;  // a quarter of a degree in the mean
+constexpr double max_cycles_wrong = 0.01;  // a quarter of a degree in the mean
 
 // How much of a tile a point's light reaches.
 enum class Zone { dark, edge, lit };
@@ -55,7 +56,7 @@ class Tile {
     }
 
     void add(const ScenePoint& point, const Passage& ray) {
-        const double path = ray.path, gx = ray.way.x, gy = ray.way.y;
+        const double path = ray.path, gx = ray.direction.x, gy = ray.direction.y;
         const double curve_x = (1 - gx * gx) / (2 * path), curve_y = (1 - gy * gy) / (2 * path);
         const double k = 1 / grid_.wavelength;
         const double mixed = std::abs(gx * gy / path) * reach_x_ * reach_y_;
@@ -64,11 +65,11 @@ class Tile {
                              std::abs(path);
         const double fourth =
             std::pow(reach_x_ * reach_x_ + reach_y_ * reach_y_, 2) / (8 * std::pow(std::abs(path), 3));
-        if (k * (mixed + third + fourth) > max_turns_wrong) return add_exactly(point);
+        if (k * (mixed + third + fourth) > max_cycles_wrong) return add_exactly(point);
         const Chirp x(roots_, k * gx, k * curve_x, region_.width, grid_.plane.pitch_x);
         // Rows run down.
         const Chirp y(roots_, -k * gy, k * curve_y, region_.height, grid_.plane.pitch_y);
-        const std::complex<float> whole = static_cast<float>(modulus(point, ray)) * roots_(k * path + point.turns);
+        const std::complex<float> whole = static_cast<float>(modulus(point, ray)) * roots_(k * path + point.cycles);
         for (std::size_t row = 0; row < region_.height; ++row) {
             const std::complex<float> start = whole * std::complex<float>(y.real[row], y.imaginary[row]);
             const float real = start.real(), imaginary = start.imag();
@@ -104,16 +105,18 @@ class Tile {
 // Points with visibility, one ray for each point and tile of 32×32 samples.
 Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
+    const core::StopScope scope(progress);
     const Visibility visibility(scene);
     const std::vector<ScenePoint> points = surface_points(scene, grid, options);
     const hologram::UnitRoots roots;
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         Tile tile(roots, grid, region);
         for (const ScenePoint& point : points) {
+            core::throw_if_stopped();
             const Zone zone = tile.zone(point.position);
             if (zone == Zone::dark) continue;
             const Passage ray = unlimited_passage(point.position, tile.middle());
-            if (!visibility.sees(point.surface, ray.way)) continue;
+            if (!visibility.sees(point.surface, ray.direction)) continue;
             zone == Zone::lit ? tile.add(point, ray) : tile.add_exactly(point);
         }
         tile.write(values);

@@ -28,16 +28,16 @@ constexpr double max_bytes = 4.0 * (std::size_t{1} << 30);
 class BasisSynthesis final : public HogelSynthesis {
   public:
     BasisSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
-                   RayValues values)
+                   const Basis& method, RayValues values)
         : light_field_(light_field),
           values_(values),
-          pieces_(options.transform == "pieces"),
-          tolerance_(options.tolerance),
-          transform_(hogel::transform::transform(pieces_ ? "haar" : options.transform)),
-          frequencies_(light_field, samples, options.wavelength,
+          pieces_(method.transform == "pieces"),
+          tolerance_(method.tolerance),
+          transform_(hogel::transform::transform(pieces_ ? "haar" : method.transform)),
+          frequencies_(light_field, samples, options.channel.wavelength,
                        pieces_ ? Interpolation::constant : Interpolation::linear),
           fft_(samples, samples),
-          phases_(direction_phases(frequencies_, fft_, options)) {
+          phases_(direction_phases(frequencies_, fft_, options, method.phases == SharedPhases::designed)) {
         const double bytes =
             static_cast<double>(light_field.directions() * samples * samples * options.looks) * sizeof(Complex);
         if (bytes > max_bytes)
@@ -133,8 +133,9 @@ class BasisSynthesis final : public HogelSynthesis {
 }  // namespace
 
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                     const HologramOptions& options, RayValues values) {
-    return std::make_unique<BasisSynthesis>(light_field, samples, options, values);
+                                                     const HologramOptions& options, const Basis& method,
+                                                     RayValues values) {
+    return std::make_unique<BasisSynthesis>(light_field, samples, options, method, values);
 }
 
 }  // namespace hogel::hologram

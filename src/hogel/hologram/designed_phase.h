@@ -8,8 +8,8 @@
 
 namespace hogel::hologram {
 
-/// Changes the phases of a spectrum of given moduli until its fringe is nearly as strong everywhere, so that no bit of
-/// a modulator's range is kept for rare peaks: alternating projections between the moduli and a flat fringe, from the
+/// Changes the phases of a spectrum of given moduli until the modulus of its fringe is nearly constant, so that a
+/// modulator's range is not spent on rare peaks: alternating projections between the moduli and a flat fringe, from the
 /// phases given. Source: Lucente, "Diffraction-specific fringe computation for electro-holography", MIT 1994; Gerchberg
 /// and Saxton 1972.
 /// @param moduli  of the DFT coefficients, shape of the transform

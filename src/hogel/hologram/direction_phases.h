@@ -14,10 +14,11 @@ namespace hogel::hologram {
 /// The counter of the random phases of a hogel.
 PhaseSeries phase_series(const HologramOptions& options, std::size_t s, std::size_t t, std::size_t look);
 
-/// Phases that all hogels share, for each look those of the frequencies of a hogel's Fourier transform, as unit
-/// numbers. Random, or where the options say so designed for a flat fringe.
+/// Phases that all hogels share: for each look those of the frequencies of a hogel's Fourier transform, as unit
+/// numbers.
+/// @param flat  designed for a flat fringe; otherwise random
 using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
 DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft,
-                                 const HologramOptions& options);
+                                 const HologramOptions& options, bool flat);
 
 }  // namespace hogel::hologram

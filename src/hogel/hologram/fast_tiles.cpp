@@ -66,7 +66,7 @@ void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& ser
         else
             shared_waves({phases_[look].data() + 2 * row * side_, columns}, some, waves);
         fft_.backward_apart(waves);
-        turn_rows(waves, side_, square + row * square_column, columns);
+        transpose_rows(waves, side_, square + row * square_column, columns);
     }
     fft_.backward_apart(square, to, to_row, side_);
 }

@@ -14,7 +14,7 @@
 namespace hogel::hologram {
 
 /// Phases and one FFT for hogels whose sides are powers of two. Sixteen rows of frequencies lie side by side, so that
-/// phases and transforms along rows are those of whole vectors; they are turned as they go to a square that stays in
+/// phases and transforms along rows are those of whole vectors; they are transposed into a square that stays in
 /// the cache, and the transforms of its columns write a hogel's samples where they are wanted.
 class FastTiles {
   public:

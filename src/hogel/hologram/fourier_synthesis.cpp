@@ -14,20 +14,23 @@ using Complex = std::complex<float>;
 
 class FourierSynthesis final : public HogelSynthesis {
   public:
-    /// @param lines  lines of each hogel, with horizontal parallax only; 0: a square with both
-    FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options)
+    /// @param lines  of each hogel, for horizontal parallax only; 0: a square with both parallaxes
+    FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options, Phases phases,
+                     LobeAverage average)
         : options_(options),
+          average_(average),
           frequencies_(std::move(frequencies)),
           lines_(lines),
           fft_(frequencies_.rows(), frequencies_.columns()) {
-        if (options.phases != Phases::random) directions_ = direction_phases(frequencies_, fft_, options);
+        if (phases != Phases::random)
+            directions_ = direction_phases(frequencies_, fft_, options, phases == Phases::designed);
         if (lines == 0 && FastTiles::can(frequencies_.columns())) fast_.emplace(frequencies_.columns(), directions_);
     }
 
     std::size_t prepared_size() const override { return frequencies_.coefficients(); }
 
     void prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const override {
-        if (options_.average == LobeAverage::radiance) return prepare(radiances, false, prepared);
+        if (average_ == LobeAverage::radiance) return prepare(radiances, false, prepared);
         Array<float, 2> roots(radiances.shape());
         for (std::size_t i = 0; i < roots.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
         prepare(roots, true, prepared);
@@ -44,7 +47,7 @@ class FourierSynthesis final : public HogelSynthesis {
             return fast_->synthesise(moduli, phase_series(options_, place.s, place.t, place.look), place.look, to,
                                      to_row);
         if (lines_ == 0) return transform(moduli, place, room, to, to_row);
-        // Lines do not know of each other.
+        // Lines are independent.
         for (std::size_t line = 0; line < lines_; ++line)
             transform(moduli, {place.s, place.t * lines_ + line, place.look},
                       {&room(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
@@ -72,7 +75,8 @@ class FourierSynthesis final : public HogelSynthesis {
         fft_.backward(values, to, to_row);
     }
 
-    // Where all hogels have the same phases, lines still differ: alike they would send light straight ahead alone.
+    // Where all hogels share phases, each line still has one of its own: equal lines would send light straight ahead
+    // alone.
     Complex phase_of_line(const HogelPlace& place) const {
         const float one = 1;
         Complex phase;
@@ -81,28 +85,31 @@ class FourierSynthesis final : public HogelSynthesis {
     }
 
     HologramOptions options_;
+    LobeAverage average_;
     FrequencyGrid frequencies_;
     std::size_t lines_;
     math::Fft2 fft_;
     DirectionPhases directions_;     // empty where every hogel has phases of its own
-    std::optional<FastTiles> fast_;  // where a hogel's side is one of its own
+    std::optional<FastTiles> fast_;  // for the sides of hogels that it supports
 };
 
 }  // namespace
 
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                       const HologramOptions& options) {
+                                                       const HologramOptions& options, const Fourier& method) {
     return std::make_unique<FourierSynthesis>(faces.size() == 1
-                                                  ? FrequencyGrid(faces.front(), samples, options.wavelength)
-                                                  : FrequencyGrid(faces, samples, options.wavelength),
-                                              0, options);
+                                                  ? FrequencyGrid(faces.front(), samples, options.channel.wavelength)
+                                                  : FrequencyGrid(faces, samples, options.channel.wavelength),
+                                              0, options, method.phases, method.average);
 }
 
 std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                    std::size_t lines, const HologramOptions& options) {
+                                                    std::size_t lines, const HologramOptions& options,
+                                                    const Lines& method) {
     return std::make_unique<FourierSynthesis>(
-        FrequencyGrid::of_line(faces, samples, faces.front().pitch / static_cast<double>(lines), options.wavelength),
-        lines, options);
+        FrequencyGrid::of_line(faces, samples, faces.front().pitch / static_cast<double>(lines),
+                               options.channel.wavelength),
+        lines, options, method.phases, method.average);
 }
 
 }  // namespace hogel::hologram

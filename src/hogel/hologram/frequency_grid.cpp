@@ -11,7 +11,7 @@ namespace hogel::hologram {
 namespace {
 
 // Rays and lobes of a band, sixteen hogels of each: 128 KiB.
-constexpr std::size_t max_of_band = 2048;
+constexpr std::size_t max_band_size = 2048;
 
 // Integral from −∞ to x of the hat function max(0, 1 − |x|).
 double hat_integral(double x) {
@@ -20,17 +20,17 @@ double hat_integral(double x) {
     return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
 }
 
-struct LobeAverage {
+struct LobeWeights {
     std::size_t first = 0;
     std::vector<float> weights;  // empty: outside
 };
 
-// The weights with which the mean over [low, high] of the piecewise linear function through samples 0..count−1 is made
-// of these samples. The end samples hold to the ends of their cells; beyond them the function is zero.
-LobeAverage average_of_lines(double low, double high, std::size_t count) {
+// The weights of samples 0..count−1 in the mean over [low, high] of the piecewise linear function through them. The end
+// samples hold to the ends of their cells; beyond them the function is zero.
+LobeWeights average_of_lines(double low, double high, std::size_t count) {
     const double begin = -0.5, end = static_cast<double>(count) - 0.5;
     const double inside_low = std::max(low, begin), inside_high = std::min(high, end);
-    LobeAverage result;
+    LobeWeights result;
     if (!(inside_low < inside_high)) return result;
     const double last = static_cast<double>(count) - 1;
     const double first = std::clamp(std::floor(inside_low), 0.0, last),
@@ -51,10 +51,10 @@ LobeAverage average_of_lines(double low, double high, std::size_t count) {
     return result;
 }
 
-// The same of the function that has each sample's value over its cell.
-LobeAverage average_of_pieces(double low, double high, std::size_t count) {
+// Weights of the mean of the function that has each sample's value over its cell.
+LobeWeights average_of_pieces(double low, double high, std::size_t count) {
     const double begin = std::max(low, -0.5), end = std::min(high, static_cast<double>(count) - 0.5);
-    LobeAverage result;
+    LobeWeights result;
     if (!(begin < end)) return result;
     const double first = std::floor(begin + 0.5),
                  final = std::min(std::floor(end + 0.5), static_cast<double>(count) - 1);
@@ -65,8 +65,8 @@ LobeAverage average_of_pieces(double low, double high, std::size_t count) {
     return result;
 }
 
-// As many weights in every lobe, some of them nought: a loop that is always as long is one that processors foresee.
-void widen(LobeAverage& average, std::size_t weights, std::size_t count) {
+// Pads with zeros to the same number of weights in every lobe, because processors predict a loop of constant length.
+void widen(LobeWeights& average, std::size_t weights, std::size_t count) {
     const std::size_t first = std::min(average.first, count - weights);
     average.weights.insert(average.weights.begin(), average.first - first, 0.0f);
     average.weights.resize(weights);
@@ -107,7 +107,7 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
                           ? average_of_pieces
                           : average_of_lines;
     struct Averages {
-        LobeAverage u, v;
+        LobeWeights u, v;
         std::uint32_t coefficient;
         float scale;
     };
@@ -125,11 +125,11 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
             // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
             const double wu = 0.5 * step * (sines ? 1 : (1 + U * U) / cosine);
             const double wv = 0.5 * step * (sines ? 1 : (1 + V * V) / cosine);
-            const LobeAverage u =
+            const LobeWeights u =
                 mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
             // A line has one row of directions, whatever is above and below.
-            const LobeAverage v =
-                rows == 1 ? LobeAverage{0, {1.0f}}
+            const LobeWeights v =
+                rows == 1 ? LobeWeights{0, {1.0f}}
                           : mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
             if (u.weights.empty() || v.weights.empty()) continue;
             // Rows run down while y runs up, so a row of the DFT is −j_y.
@@ -153,7 +153,7 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     list_runs();
 }
 
-// Rows of frequencies, whose lobes see neighbouring rows of directions, are put together as long as there is room.
+// Joins rows of frequencies, whose lobes see neighbouring rows of directions, as long as they fit into a band.
 void FrequencyGrid::list_bands() {
     for (std::size_t first = 0, end = 0; first < lobes_.size(); first = end) {
         const std::size_t row = lobes_[first].coefficient / columns_;
@@ -165,7 +165,7 @@ void FrequencyGrid::list_bands() {
         if (!bands_.empty()) {
             Band& last = bands_.back();
             const std::size_t from = std::min(last.ray0, low), to = std::max(last.ray0 + last.rays, high);
-            if (to - from + end - last.lobe0 <= max_of_band) {
+            if (to - from + end - last.lobe0 <= max_band_size) {
                 last = {last.lobe0, end - last.lobe0, from, to - from};
                 continue;
             }

@@ -12,7 +12,7 @@
 
 namespace hogel::hologram {
 
-/// What a light field is between its samples.
+/// The values of a light field between its samples.
 enum class Interpolation {
     linear,    ///< linear interpolation
     constant,  ///< the nearest sample: pieces as large as a sample's cell
@@ -31,33 +31,34 @@ class FrequencyGrid {
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength,
                   Interpolation between = Interpolation::linear);
 
-    /// Of several faces of a hemicube. The rays of a hogel are then those of all faces, one after the other.
+    /// From several faces of a hemicube. The rays of a hogel are then those of all faces, one after the other.
     FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
 
-    /// Of one line of a hologram with horizontal parallax only, whose light field has one row of directions:
+    /// The grid of one line of a hologram with horizontal parallax only, whose light field has one row of directions:
     /// frequencies along x alone. A line takes the place of `line_pitch` in the amplitude: √(λ/d · λ/line_pitch), so
-    /// that lines whose phases do not know of each other have the same radiance in all directions up and down. Of a
-    /// front alone, or with sides that have one row too.
+    /// that lines with independent phases have the same radiance in all directions up and down. `faces` is a front
+    /// alone, or with sides that have one row too.
     static FrequencyGrid of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                  double wavelength);
 
-    /// Turns the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a backward
-    /// FFT wants them ([j_y mod n][j_x mod n], rows running down): (λ/d) √(L cos θ) / cos θ.
-    /// This is [K] (4.2) with a² = L cos θ, the radiant intensity of a piece of surface of radiance L, and with the
-    /// DFT's 1/n and Δ drawn together; see docs/notation.md.
+    /// Converts the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a
+    /// backward FFT takes them ([j_y mod n][j_x mod n], rows running down): (λ/d) √(L cos θ) / cos θ. This is [K] (4.2)
+    /// with a² = L cos θ, the radiant intensity of a piece of surface of radiance L, and with the DFT's 1/n and Δ drawn
+    /// together; see docs/notation.md.
     void amplitudes(std::span<const float> radiance, std::span<float> moduli) const;
 
-    /// The same for many hogels, radiances[hogel][v u] to moduli[hogel][j_y j_x], sixteen at once.
+    /// amplitudes() for many hogels, radiances[hogel][v u] to moduli[hogel][j_y j_x], sixteen at once.
     void amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const;
 
-    /// Where a row of frequencies of sixteen hogels goes, [j_x mod n][hogel]. The row before is complete when the next
-    /// is asked for.
+    /// Destination of a row of frequencies of sixteen hogels, [j_x mod n][hogel]. The row before is complete when the
+    /// next is asked for.
     using PlaceOfRow = std::function<float*(std::size_t row)>;
-    /// The same for up to sixteen hogels row by row of those frequencies that carry light, which are neighbours but
-    /// once; hogels that do not exist have anything. Where `of_roots`, radiances are roots: see amplitudes_of_roots.
+    /// amplitudes() for up to sixteen hogels, row by row of the frequencies that carry light. Rows come in order, but
+    /// for one jump. Columns of hogels beyond the last have undefined values. Where `of_roots`, the values are roots:
+    /// see amplitudes_of_roots.
     void amplitudes_by_rows(View<const float, 2> radiances, bool of_roots, const PlaceOfRow& place) const;
 
-    /// From amplitudes √L instead of radiances, which are averaged as they are: λ/d · √(cos θ)/cos θ times the lobe's
+    /// From amplitudes √L instead of radiances, averaged without squaring: λ/d · √(cos θ)/cos θ times the lobe's
     /// mean of √L. A linear map, which basis fringes need; darker than amplitudes() where the radiance varies in a
     /// lobe.
     void amplitudes_of_roots(View<const float, 2> roots, View<float, 2> moduli) const;

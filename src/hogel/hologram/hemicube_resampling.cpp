@@ -11,23 +11,23 @@ namespace {
 // More points would follow the side faces' rays closer to the hologram's plane, where they crowd in frequency.
 constexpr double max_points = 12;
 
-// How many of a face's directions a cell of direction sines is wide around a way of unit length, by differences.
-double width_in_rays(const LightFieldGrid& face, Vec3 way, double step, bool line) {
+// The width of a cell of direction sines around a direction of unit length, in rays of the face, by differences.
+double width_in_rays(const LightFieldGrid& face, Vec3 direction, double step, bool line) {
     const auto place = [&](double sx, double sy) {
         const Vec3 q = to_face(face.face(), {sx, sy, std::sqrt(std::max(1e-6, 1 - sx * sx - sy * sy))});
         return Vec3{face.column(q.x / q.z), line ? 0 : face.row(q.y / q.z), 0};
     };
     constexpr double little = 0.05;
-    const Vec3 here = place(way.x, way.y);
-    return std::max(length(place(way.x + little * step, way.y) - here),
-                    length(place(way.x, way.y + little * step) - here)) /
+    const Vec3 here = place(direction.x, direction.y);
+    return std::max(length(place(direction.x + little * step, direction.y) - here),
+                    length(place(direction.x, direction.y + little * step) - here)) /
            little;
 }
 
-// Adds the four rays around a place of a face with their bilinear weights; those of the border hold to its end.
-void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 way, double weight,
+// Adds the four rays around a direction with their bilinear weights; the rays of the border hold to the face's edge.
+void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, double weight,
               std::map<std::uint32_t, double>& sum) {
-    const Vec3 q = to_face(face.face(), way);
+    const Vec3 q = to_face(face.face(), direction);
     const auto inside = [](double at, std::size_t count) {
         return std::clamp(at, 0.0, static_cast<double>(count) - 1);
     };
@@ -68,11 +68,11 @@ HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::siz
                 const double x = sx + step * ((across + 0.5) / points - 0.5);
                 const double y = line ? 0 : sy + step * ((down + 0.5) / points - 0.5);
                 if (x * x + y * y >= 1) continue;
-                const Vec3 way{x, y, std::sqrt(1 - x * x - y * y)};
+                const Vec3 direction{x, y, std::sqrt(1 - x * x - y * y)};
                 std::size_t first = 0;
                 for (const LightFieldGrid& face : faces) {
-                    if (face.covers(way)) {
-                        add_rays(face, first, way, 1.0 / all, sum);
+                    if (face.covers(direction)) {
+                        add_rays(face, first, direction, 1.0 / all, sum);
                         break;
                     }
                     first += face.directions();

@@ -12,8 +12,8 @@ namespace hogel::hologram {
 
 /// The lobes of a hogel's frequencies that take their light from the rays of several faces of a hemicube. A lobe is the
 /// mean over points of its cell in frequency, two or more for each ray that it covers; each point is looked up, with
-/// bilinear interpolation, in the first face that has its direction. Points of no face, and those where the cell ends
-/// at the plane of the hologram, are dark.
+/// bilinear interpolation, in the first face that has its direction. Points of no face, and those
+/// beyond the plane of the hologram, are dark.
 struct HemicubeResampling {
     struct Lobe {
         std::uint32_t coefficient;   // of the DFT: [j_y mod n][j_x mod n], rows running down

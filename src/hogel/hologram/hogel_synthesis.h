@@ -10,28 +10,28 @@
 
 namespace hogel::hologram {
 
-/// Which hogel, and which of the sets of random phases.
+/// A hogel and one of the sets of random phases.
 struct HogelPlace {
     std::size_t s = 0, t = 0;  ///< column and row of the hogel
     std::size_t look = 0;
 };
 
-/// From the rays of hogels to their squares of n×n samples, in two steps: what all looks share, and the rest.
-/// Phases are counted from the hogel's centre or from its first sample, as each synthesis says.
+/// Computes the square of n×n samples of a hogel from its rays, in two steps: one that all looks share, and the rest.
+/// Each synthesis defines whether phases are counted from the hogel's centre or from its first sample.
 class HogelSynthesis {
   public:
     virtual ~HogelSynthesis() = default;
-    /// How many values `prepare` makes.
+    /// How many values a hogel prepare() makes.
     virtual std::size_t prepared_size() const = 0;
-    /// For some hogels at once.
+    /// The step that all looks share, for some hogels at once.
     /// @param radiances  [hogel][n_V n_U] of this wavelength
-    /// @param depths     [hogel][n_V n_U], or empty where needs_depth() says no
+    /// @param depths     [hogel][n_V n_U], or empty where the method needs no depth
     /// @param prepared   [hogel][prepared_size()]
     virtual void prepare(View<const float, 2> radiances, View<const float, 2> depths,
                          View<float, 2> prepared) const = 0;
     virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
                             View<std::complex<float>, 2> hogel) const = 0;
-    /// The same with the hogel's rows elsewhere, row y at to + y·to_row, and `room` of the hogel's shape in between.
+    /// synthesise() to other rows, row y at to + y·to_row, with `room` of the hogel's shape as a buffer.
     virtual void synthesise_to(std::span<const float> prepared, const HogelPlace& place,
                                View<std::complex<float>, 2> room, std::complex<float>* to, std::size_t to_row) const {
         synthesise(prepared, place, room);
@@ -42,13 +42,14 @@ class HogelSynthesis {
 /// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2). The rays of a
 /// hogel are those of all faces, one face after the other.
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                       const HologramOptions& options);
+                                                       const HologramOptions& options, const Fourier& method);
 
-/// The same with horizontal parallax only: each of a hogel's lines for itself, by one FFT along it, [K] (3.23).
+/// Horizontal parallax only: each of a hogel's lines by one FFT along it, independently, [K] (3.23).
 std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
-                                                    std::size_t lines, const HologramOptions& options);
+                                                    std::size_t lines, const HologramOptions& options,
+                                                    const Lines& method);
 
-/// What a synthesis gets as the values of a light field's rays.
+/// The values of a light field's rays that a synthesis gets.
 enum class RayValues {
     radiance,
     coefficients,  ///< of a transform of each hogel's directions' √L
@@ -57,10 +58,11 @@ enum class RayValues {
 /// A sum of basis fringes weighted with coefficients: [K] (3.24).
 /// Throws Error(usage) for a transform that does not exist, and where the fringes would not fit into memory.
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                     const HologramOptions& options, RayValues values);
+                                                     const HologramOptions& options, const Basis& method,
+                                                     RayValues values);
 
 /// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                           const HologramOptions& options);
+                                                           const HologramOptions& options, bool exact);
 
 }  // namespace hogel::hologram

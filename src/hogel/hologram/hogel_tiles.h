@@ -14,8 +14,8 @@ inline constexpr std::size_t rows_at_once = 16;
 inline constexpr std::size_t square_column = 2 * rows_at_once;
 
 /// out[x] = moduli[x] · e^{2πi b/256} with the bytes b that spread_random_phases gives to a square of `columns`
-/// columns, a multiple of sixteen, in its rows first_row, first_row + 1, …; plain, and as fast as this processor
-/// allows. The twins agree to rounding.
+/// columns, a multiple of sixteen, in its rows first_row, first_row + 1, …; as a plain version and a fast one.
+/// The twins agree to rounding.
 /// @param moduli  [columns][row]
 /// @param out     [columns][part][row]
 void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
@@ -26,12 +26,12 @@ void random_waves(const PhaseSeries& series, std::size_t first_row, const float*
 /// out = moduli · phases, with phases as numbers of `out`.
 void shared_waves(std::span<const float> phases, const float* moduli, float* out);
 
-/// Sixteen rows [columns][part][row] turned: columns x, x + 1, … x + 15, x a multiple of sixteen, become rows
+/// Transposes sixteen rows [columns][part][row]: columns x, x + 1, … x + 15, x a multiple of sixteen, become rows
 /// [row][part][column] that begin at to + x/16 · to_sixteen.
-void turn_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen);
+void transpose_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen);
 
-/// The same rows of sixteen hogels turned, [row][columns][hogel]: hogel h becomes [columns][row] at to + h·to_hogel,
-/// for h < hogels.
+/// Transposes the same rows of sixteen hogels, [row][columns][hogel]: hogel h becomes [columns][row] at to +
+/// h·to_hogel, for h < hogels.
 void transpose_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel);
 
 }  // namespace hogel::hologram

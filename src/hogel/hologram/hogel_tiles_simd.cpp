@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of what hogel_tiles.h declares, compiled for every instruction set and chosen when first called.
+// The vector twins of the functions of hogel_tiles.h, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/hogel_tiles_simd.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
 
-#include "hogel/hologram/cycle_lanes.h"
 #include "hogel/hologram/hogel_tiles.h"
 #include "hogel/hologram/philox_lanes.h"
+#include "hogel/hologram/transpose_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::hologram {
@@ -24,7 +24,7 @@ void RandomWaves(const PhaseSeries& series, const PhaseRoots&, std::size_t first
 using D = hn::CappedTag<float, rows_at_once>;
 using V = hn::Vec<D>;
 
-// The root that a byte of each word says, the byte's lowest bit being bit `shift`.
+// The root of unity of a byte of each word, the byte's lowest bit being bit `shift`.
 template <int shift>
 HWY_INLINE void Root(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsigned<D> > words, V& re, V& im) {
     const hn::RebindToUnsigned<D> whole;
@@ -93,17 +93,17 @@ void RandomWaves(const PhaseSeries& series, const PhaseRoots& roots, std::size_t
 }
 #endif
 
-void TurnRows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
+void TransposeRows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
     for (std::size_t x0 = 0; x0 < columns; x0 += 16, to += to_sixteen)
         for (const std::size_t part : {std::size_t{0}, rows_at_once})
-            turn_sixteen([&](std::size_t i) { return from + (x0 + i) * square_column + part; }, rows_at_once,
-                         [&](std::size_t row) { return to + row * square_column + part; });
+            transpose_sixteen([&](std::size_t i) { return from + (x0 + i) * square_column + part; }, rows_at_once,
+                              [&](std::size_t row) { return to + row * square_column + part; });
 }
 
-void TurnHogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
+void TransposeHogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
     for (std::size_t x = 0; x < columns; ++x)
-        turn_sixteen([&](std::size_t row) { return from + (row * columns + x) * 16; }, hogels,
-                     [&](std::size_t h) { return to + h * to_hogel + x * rows_at_once; });
+        transpose_sixteen([&](std::size_t row) { return from + (row * columns + x) * 16; }, hogels,
+                          [&](std::size_t h) { return to + h * to_hogel + x * rows_at_once; });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -114,20 +114,20 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::hologram {
 
 HWY_EXPORT(RandomWaves);
-HWY_EXPORT(TurnRows);
-HWY_EXPORT(TurnHogels);
+HWY_EXPORT(TransposeRows);
+HWY_EXPORT(TransposeHogels);
 
 void random_waves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
                   float* out) {
     HWY_DYNAMIC_DISPATCH(RandomWaves)(series, phase_roots(), first_row, moduli, columns, out);
 }
 
-void turn_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
-    HWY_DYNAMIC_DISPATCH(TurnRows)(from, columns, to, to_sixteen);
+void transpose_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
+    HWY_DYNAMIC_DISPATCH(TransposeRows)(from, columns, to, to_sixteen);
 }
 
 void transpose_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
-    HWY_DYNAMIC_DISPATCH(TurnHogels)(from, columns, hogels, to, to_hogel);
+    HWY_DYNAMIC_DISPATCH(TransposeHogels)(from, columns, hogels, to, to_hogel);
 }
 
 }  // namespace hogel::hologram

@@ -5,11 +5,16 @@
 
 #include <random>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/hologram/designed_phase.h"
 #include "hogel/hologram/fast_tiles.h"
 
 namespace hogel::hologram {
 namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(RandomWaves);
+HOGEL_TEST_ON_EVERY_TARGET(Turns);
+HOGEL_TEST_ON_EVERY_TARGET(FastTileKernels);
 
 using Complex = std::complex<float>;
 
@@ -20,7 +25,7 @@ Array<float, 1> noise(std::size_t count, unsigned seed) {
     return values;
 }
 
-TEST(RandomWaves, twins_agree_and_take_the_bytes_of_their_rows) {
+TEST_P(RandomWaves, equal_their_plain_version_and_take_the_bytes_of_their_rows) {
     const PhaseSeries series{{0xdeadbeefu, 7}, {5, 0xffffffffu, 13}};
     for (const std::size_t columns : {16, 64}) {
         const Array<float, 1> moduli = noise(columns * rows_at_once, 1);
@@ -39,15 +44,15 @@ TEST(RandomWaves, twins_agree_and_take_the_bytes_of_their_rows) {
     }
 }
 
-TEST(Turns, put_every_number_in_its_place) {
+TEST_P(Turns, puts_every_number_in_its_place) {
     constexpr std::size_t columns = 32;
     const Array<float, 1> rows = noise(columns * square_column, 2);
-    Array<float, 1> turned({2 * 600});
-    turn_rows(rows.data(), columns, turned.data(), 600);
+    Array<float, 1> transposed({2 * 600});
+    transpose_rows(rows.data(), columns, transposed.data(), 600);
     for (std::size_t x = 0; x < columns; ++x)
         for (std::size_t part = 0; part < 2; ++part)
             for (std::size_t row = 0; row < 16; ++row)
-                ASSERT_EQ(turned.data()[x / 16 * 600 + row * 32 + part * 16 + x % 16],
+                ASSERT_EQ(transposed.data()[x / 16 * 600 + row * 32 + part * 16 + x % 16],
                           rows.data()[x * 32 + part * 16 + row]);
     for (const std::size_t hogels : {1, 7, 16}) {
         const Array<float, 1> sixteen = noise(16 * columns * 16, 3);
@@ -61,10 +66,10 @@ TEST(Turns, put_every_number_in_its_place) {
     }
 }
 
-// The plain way: all amplitudes, a phase each, one FFT.
-TEST(FastTiles, make_what_amplitudes_phases_and_one_fft_make) {
+// The plain version: all amplitudes, a phase each, one FFT.
+TEST_P(FastTileKernels, equal_one_fft_of_amplitudes_with_phases) {
     for (const std::size_t side : {16, 32, 128}) {
-        if (!FastTiles::can(side)) GTEST_SKIP() << "without vectors there is nothing to test";
+        if (!FastTiles::can(side)) return;  // a target without vectors makes holograms the plain way
         // Fields of view that leave rows dark, some of them sixteen side by side.
         const double tangent = side == 128 ? 0.02 : 0.06;
         const LightFieldGrid grid{1, 1, static_cast<double>(side) * 2e-6, 21, 19, Perspective{tangent, tangent}, 1};

@@ -9,8 +9,8 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
-#include "hogel/hologram/cycle_lanes.h"
 #include "hogel/hologram/lobes.h"
+#include "hogel/hologram/transpose_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::hologram {
@@ -32,7 +32,7 @@ HWY_INLINE hn::Vec<D> Mean(D d, std::uint32_t across, std::uint32_t down, const 
     return sum;
 }
 
-// All lobes have as many directions, most often few, and then the compiler knows how many; 0: any number.
+// All lobes have the same number of directions. For the usual small numbers it is a constant; 0: any number.
 template <std::uint32_t side>
 void LobeAverage(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
                  std::size_t row_length, bool of_roots, float* out) {
@@ -72,8 +72,8 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
     transpose_plain(from, from_row, rows, columns, to, to_row);
 #else
     const auto four = [&](const float* in, float* out) {
-        turn_four(in, in + from_row, in + 2 * from_row, in + 3 * from_row, out, out + to_row, out + 2 * to_row,
-                  out + 3 * to_row);
+        transpose_four(in, in + from_row, in + 2 * from_row, in + 3 * from_row, out, out + to_row, out + 2 * to_row,
+                       out + 3 * to_row);
     };
     // In squares of sixteen, along the lines that lie farther apart: whole cache lines of those are done with at once,
     // which at distances of powers of two would not stay in the cache until they are needed again.
@@ -82,8 +82,8 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
         for (std::size_t column = 0; column < whole_columns; column += 16) {
             const std::size_t end_row = std::min(row + 16, whole_rows), end = std::min(column + 16, whole_columns);
             if (end_row == row + 16 && end == column + 16) {
-                turn_sixteen([&](std::size_t i) { return from + (row + i) * from_row + column; }, 16,
-                             [&](std::size_t j) { return to + (column + j) * to_row + row; });
+                transpose_sixteen([&](std::size_t i) { return from + (row + i) * from_row + column; }, 16,
+                                  [&](std::size_t j) { return to + (column + j) * to_row + row; });
                 continue;
             }
             if (from_row >= to_row) {

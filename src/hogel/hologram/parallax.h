@@ -5,12 +5,12 @@
 
 namespace hogel::hologram {
 
-/// More than about this many samples of parallax between neighbouring directions is more than overlapping windows bear:
-/// the windows that show one point no longer touch, and its focus gets side lobes.
+/// The parallax between neighbouring directions, in samples, that overlapping windows bear: beyond it the windows that
+/// show one point no longer touch, and its focus gets side lobes.
 inline constexpr double max_parallax = 4;
 
 /// How far, in samples of a hologram of this pitch, neighbouring directions see the same surface apart: |ζ|ΔU/Δ for the
-/// largest depth that some hogels spread over the light field meet. Nought without depth.
+/// largest depth that some hogels spread over the light field meet. Zero without depth.
 double neighbouring_parallax(const LightFieldSource& light_field, double pitch);
 
 }  // namespace hogel::hologram

@@ -19,14 +19,15 @@ using Complex = std::complex<float>;
 // is what the frequency grid sums over its lobes (docs/notation.md, section 3).
 class PhaseAddedSynthesis final : public HogelSynthesis {
   public:
-    PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options)
+    PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
+                        bool exact)
         : light_field_(light_field),
-          options_(options),
+          wavelength_(options.channel.wavelength),
           samples_(samples),
           pitch_(light_field.pitch / static_cast<double>(samples)),
-          cells_(light_field.step_u(), light_field.step_v(), options.seed, options.channel),
+          cells_(light_field.step_u(), light_field.step_v(), options.seed, options.channel.index),
           fft_(samples, samples) {
-        if (options.phases == Phases::phase_added_exact) waves_.emplace(samples);
+        if (exact) waves_.emplace(samples);
         for (std::size_t l = 0; l < light_field.directions_v; ++l)
             for (std::size_t k = 0; k < light_field.directions_u; ++k) {
                 const double U = light_field.u(static_cast<double>(k)), V = light_field.v(static_cast<double>(l));
@@ -74,38 +75,38 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
   private:
     struct Wave {
         double columns, rows;  // frequency, cycles a sample, along a row and down a column
-        double turns;          // phase at the hogel's centre
+        double cycles;         // phase at the hogel's centre
     };
 
     Wave wave_of(std::size_t k, std::size_t l, double depth, double s, double t, std::size_t look) const {
         double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));
-        double turns = 0;
+        double cycles = 0;
         if (std::isfinite(depth)) {
-            // On the plane itself the rays of a hogel meet one point, but are no more in phase than nearby.
+            // On the plane itself all rays of a hogel meet one point; they stay as independent as close to it.
             if (std::abs(depth) < SurfaceCells::shallowest) depth = std::copysign(SurfaceCells::shallowest, depth);
-            const SurfacePoint point = cells_.find(s + U * depth, t + V * depth, depth, look);
-            U = (point.x - s) / point.depth;
-            V = (point.y - t) / point.depth;
-            turns = point.turns + point.depth * std::sqrt(1 + U * U + V * V) / options_.wavelength;
+            const SurfaceCell cell = cells_.find(s + U * depth, t + V * depth, depth, look);
+            U = (cell.x - s) / cell.depth;
+            V = (cell.y - t) / cell.depth;
+            cycles = cell.cycles + cell.depth * std::sqrt(1 + U * U + V * V) / wavelength_;
         } else {
-            // Nothing is a surface far away: neighbouring hogels see different cells of it.
-            turns = cells_.find(s + U, t + V, 1.0, look).turns;
+            // A ray that meets nothing sees a surface far away, of which neighbouring hogels see different cells.
+            cycles = cells_.find(s + U, t + V, 1.0, look).cycles;
         }
-        const double to_frequency = pitch_ / (options_.wavelength * std::sqrt(1 + U * U + V * V));
-        return {-U * to_frequency, V * to_frequency, turns};
+        const double to_frequency = pitch_ / (wavelength_ * std::sqrt(1 + U * U + V * V));
+        return {-U * to_frequency, V * to_frequency, cycles};
     }
 
     // A cell at the border of the field of view may lie just beyond what the pitch diffracts to.
     static bool beyond(const Wave& wave) { return std::abs(wave.columns) > 0.5 || std::abs(wave.rows) > 0.5; }
 
-    static Complex at_phase(float amplitude, double turns) {
-        const auto angle = static_cast<float>(2 * std::numbers::pi * (turns - std::round(turns)));
+    static Complex at_phase(float amplitude, double cycles) {
+        const auto angle = static_cast<float>(2 * std::numbers::pi * (cycles - std::round(cycles)));
         return {amplitude * std::cos(angle), amplitude * std::sin(angle)};
     }
 
     void add_exactly(float amplitude, const Wave& wave, View<Complex, 2> spectrum) const {
         if (beyond(wave)) return;
-        waves_->add(at_phase(amplitude, wave.turns), wave.columns, wave.rows, spectrum);
+        waves_->add(at_phase(amplitude, wave.cycles), wave.columns, wave.rows, spectrum);
     }
 
     void add(float amplitude, const Wave& wave, View<Complex, 2> spectrum) const {
@@ -114,13 +115,13 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
         const double reach = std::floor(0.5 * (n - 1));
         if (std::abs(column) > reach || std::abs(row) > reach) return;
         const double first = -0.5 * (n - 1);  // the first sample, counted from the centre
-        const double turns = wave.turns + (column + row) * first / n;
+        const double cycles = wave.cycles + (column + row) * first / n;
         spectrum(static_cast<std::size_t>(row < 0 ? row + n : row),
-                 static_cast<std::size_t>(column < 0 ? column + n : column)) += at_phase(amplitude, turns);
+                 static_cast<std::size_t>(column < 0 ? column + n : column)) += at_phase(amplitude, cycles);
     }
 
     LightFieldGrid light_field_;
-    HologramOptions options_;
+    double wavelength_;
     std::size_t samples_;
     double pitch_;
     SurfaceCells cells_;
@@ -132,8 +133,8 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
 }  // namespace
 
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                           const HologramOptions& options) {
-    return std::make_unique<PhaseAddedSynthesis>(light_field, samples, options);
+                                                           const HologramOptions& options, bool exact) {
+    return std::make_unique<PhaseAddedSynthesis>(light_field, samples, options, exact);
 }
 
 }  // namespace hogel::hologram

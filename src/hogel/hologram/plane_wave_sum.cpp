@@ -52,8 +52,8 @@ void PlaneWaveSum::add(std::complex<float> amplitude, double column_frequency, d
                        View<std::complex<float>, 2> spectrum) const {
     // The middle of the square lies half a sample before the sample that the transform counts from, if n is even.
     const double offset = samples_ % 2 == 0 ? 0.5 : 0.0;
-    const double turns = offset * (column_frequency + row_frequency);
-    amplitude *= std::complex<float>(std::polar(1.0, 2 * std::numbers::pi * turns));
+    const double cycles = offset * (column_frequency + row_frequency);
+    amplitude *= std::complex<float>(std::polar(1.0, 2 * std::numbers::pi * cycles));
     const Spread columns = spread(column_frequency), rows = spread(row_frequency);
     for (std::size_t j = 0; j < width; ++j) {
         const std::complex<float> line = amplitude * rows.weights[j];

@@ -11,7 +11,7 @@ namespace {
 
 class PlaneWaves : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(PlaneWaves, add_up_as_a_direct_sum_does) {
+TEST_P(PlaneWaves, equal_a_direct_sum) {
     const std::size_t n = GetParam();
     const PlaneWaveSum sum(n);
     Array<std::complex<float>, 2> spectrum = sum.make_spectrum(), samples({n, n});

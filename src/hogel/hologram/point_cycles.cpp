@@ -9,18 +9,18 @@ constexpr std::int64_t margin = 32;  // hogels around the region's
 
 }  // namespace
 
-double TurnSeries::operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction) const {
+double CycleSeries::operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction) const {
     return core::philox({column, row, direction, series}, key)[0] / 4294967296.0;
 }
 
-PointCycles::PointCycles(const TurnSeries& series, const HogelRange& hogels)
+PointCycles::PointCycles(const CycleSeries& series, const HogelRange& hogels)
     : series_(series),
       column0_(static_cast<std::int64_t>(hogels.s0) - margin),
       row0_(static_cast<std::int64_t>(hogels.t0) - margin),
-      turns_({hogels.nt + 2 * margin, hogels.ns + 2 * margin}) {
-    for (std::size_t row = 0; row < turns_.extent(0); ++row)
-        for (std::size_t column = 0; column < turns_.extent(1); ++column)
-            turns_(row, column) =
+      cycles_({hogels.nt + 2 * margin, hogels.ns + 2 * margin}) {
+    for (std::size_t row = 0; row < cycles_.extent(0); ++row)
+        for (std::size_t column = 0; column < cycles_.extent(1); ++column)
+            cycles_(row, column) =
                 draw(column0_ + static_cast<std::int64_t>(column), row0_ + static_cast<std::int64_t>(row));
 }
 

@@ -9,11 +9,12 @@
 
 namespace hogel::hologram {
 
-/// Random phases in turns, of a look and a colour.
-struct TurnSeries {
+/// Random phases in cycles, for one look and colour.
+struct CycleSeries {
     std::array<std::uint32_t, 2> key;  ///< the seed
     std::uint32_t series;              ///< look and colour
-    /// Of the surface's point at a hogel's place; or for a direction of the hogel that sees nothing, counted from one.
+    /// The phase of the surface's point at a hogel's place; or, with `direction` counted from one, of a direction of
+    /// the hogel that meets nothing.
     double operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction = 0) const;
 };
 
@@ -21,11 +22,11 @@ struct TurnSeries {
 /// hogels see each.
 class PointCycles {
   public:
-    PointCycles(const TurnSeries& series, const HogelRange& hogels);
+    PointCycles(const CycleSeries& series, const HogelRange& hogels);
 
     double operator()(std::int64_t column, std::int64_t row) const {
         const auto x = static_cast<std::size_t>(column - column0_), y = static_cast<std::size_t>(row - row0_);
-        return x < turns_.extent(1) && y < turns_.extent(0) ? turns_(y, x) : draw(column, row);
+        return x < cycles_.extent(1) && y < cycles_.extent(0) ? cycles_(y, x) : draw(column, row);
     }
 
   private:
@@ -33,9 +34,9 @@ class PointCycles {
         return series_(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
     }
 
-    TurnSeries series_;
+    CycleSeries series_;
     std::int64_t column0_, row0_;
-    Array<double, 2> turns_;
+    Array<double, 2> cycles_;
 };
 
 }  // namespace hogel::hologram

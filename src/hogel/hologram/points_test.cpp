@@ -36,7 +36,7 @@ Spot measure(const Image& image, const Grid& picture) {
     for (std::size_t row = 0; row < image.height(); ++row)
         for (std::size_t column = 0; column < image.width(); ++column) {
             const double value = image.pixels(row, column, 0);
-            // The rings of the spot do not end; its core is what an eye calls its place.
+            // The rings of the spot do not end; its core gives its place.
             if (value < 0.3 * spot.peak) continue;
             sum += value;
             spot.x += value * picture.x(double(column));
@@ -78,8 +78,8 @@ class PointPhotograph : public ::testing::TestWithParam<Case> {
     }
 };
 
-// Where geometry says, as narrow as diffraction allows, and sharpest at its own depth.
-TEST_P(PointPhotograph, is_where_geometry_says_and_as_sharp_as_diffraction_allows) {
+// At its geometric place, as narrow as diffraction allows, and sharpest at its own depth.
+TEST_P(PointPhotograph, lies_where_geometry_says_and_is_diffraction_limited) {
     const auto [depth, eye] = GetParam();
     const Vec3 point{0.2e-3, -0.3e-3, -depth};
     const Field field = point_hologram(std::span<const PointSource>(std::array{PointSource{point, 1, 0}}), grid);

@@ -8,7 +8,7 @@
 
 namespace hogel::hologram {
 
-/// Which random phases: a key, and what the counter of the generator says beside the number of the draw.
+/// A series of random phases: a key, and the words of the generator's counter beside the number of the draw.
 struct PhaseSeries {
     std::array<std::uint32_t, 2> key;       ///< the seed
     std::array<std::uint32_t, 3> position;  ///< look and colour, column and row of the hogel
@@ -21,7 +21,7 @@ struct PhaseSeries {
 void spread_random_phases(const PhaseSeries& series, std::span<const float> moduli,
                           std::span<std::complex<float>> values, std::uint32_t first_draw = 0);
 
-/// e^{2πi b/256} with parts in arrays of their own: of all bytes, and of those of which one half is zero.
+/// e^{2πi b/256} as real and imaginary parts: for all bytes, and for bytes with one half zero.
 struct PhaseRoots {
     alignas(64) float re[256], im[256];
     alignas(64) float upper_re[16], upper_im[16], lower_re[16], lower_im[16];

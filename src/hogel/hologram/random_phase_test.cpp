@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hogel/core/random.h"
+#include "hogel/core/test_targets.h"
 #include "hogel/hologram/random_bytes.h"
 #include "hogel/hologram/unit_roots.h"
 
@@ -30,7 +31,9 @@ TEST(RandomPhase, keeps_moduli_and_takes_phases_from_the_bytes_of_the_draws) {
     }
 }
 
-TEST(RandomBytes, are_the_same_many_draws_at_once) {
+HOGEL_TEST_ON_EVERY_TARGET(RandomBytes);
+
+TEST_P(RandomBytes, equal_their_plain_version) {
     const PhaseSeries series{{0xdeadbeefu, 0x80000001u}, {5, 0xffffffffu, 13}};
     for (const std::size_t size : {0, 1, 16, 130, 512, 1000}) {
         std::vector<std::uint8_t> plain(size), fast(size);
@@ -42,15 +45,16 @@ TEST(RandomBytes, are_the_same_many_draws_at_once) {
 
 TEST(UnitRoots, are_right_to_half_a_step_for_phases_of_either_sign) {
     const UnitRoots roots;
-    for (double turns = -20000; turns < 20000; turns += 123.456) {
-        const double angle = 2 * std::numbers::pi * (turns - std::round(turns));
-        EXPECT_LT(std::abs(std::complex<double>(roots(turns)) - std::polar(1.0, angle)), 1e-6 + std::numbers::pi / 4096)
-            << turns;
+    for (double cycles = -20000; cycles < 20000; cycles += 123.456) {
+        const double angle = 2 * std::numbers::pi * (cycles - std::round(cycles));
+        EXPECT_LT(std::abs(std::complex<double>(roots(cycles)) - std::polar(1.0, angle)),
+                  1e-6 + std::numbers::pi / 4096)
+            << cycles;
     }
 }
 
 // Uniform over the circle: the moments e^{ikφ}, k = 1..3, average to zero as fast as independent phases do, and phases
-// of neighbouring coefficients, hogels and looks do not know of each other.
+// of neighbouring coefficients, hogels and looks are independent.
 TEST(RandomPhase, is_uniform_and_independent) {
     const std::size_t count = 4096;
     const std::vector<float> ones(count, 1);

@@ -17,7 +17,7 @@ std::uint32_t word(double whole) { return static_cast<std::uint32_t>(static_cast
 SurfaceCells::SurfaceCells(double step_u, double step_v, std::uint64_t seed, std::size_t channel)
     : step_u_(step_u), step_v_(step_v), seed_(seed), channel_(channel) {}
 
-SurfacePoint SurfaceCells::find(double x, double y, double depth, std::size_t look) const {
+SurfaceCell SurfaceCells::find(double x, double y, double depth, std::size_t look) const {
     const double level = std::round(steps_of_depth * std::log(std::abs(depth) / shallowest));
     const double distance = shallowest * std::exp(level / steps_of_depth);
     const double width = distance * step_u_, height = distance * step_v_;

@@ -17,15 +17,15 @@ class UnitRoots {
             roots_[i] = std::complex<float>(
                 std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(steps)));
     }
-    /// @param turns  of a magnitude below 2³⁰
-    std::complex<float> operator()(double turns) const {
-        const double nearest = (turns + whole_turns) * steps + 0.5;
+    /// @param cycles  of a magnitude below 2³⁰
+    std::complex<float> operator()(double cycles) const {
+        const double nearest = (cycles + whole_cycles) * steps + 0.5;
         return roots_[static_cast<std::size_t>(static_cast<std::int64_t>(nearest)) % steps];
     }
 
   private:
     static constexpr std::size_t steps = 4096;
-    static constexpr double whole_turns = 0x1p30;  // makes numbers positive, whose fraction is then what is cut off
+    static constexpr double whole_cycles = 0x1p30;  // makes numbers positive, whose fraction is then what is cut off
     alignas(64) std::array<std::complex<float>, steps> roots_;
 };
 

@@ -43,8 +43,8 @@ TEST(Camera, validate_names_what_is_wrong) {
     EXPECT_NE(refusal([](Camera& c) { c.picture.center_y = nan; }).find("centre"), std::string::npos);
 }
 
-// In focus is what lies on the line of sight and on the plane.
-TEST(Camera, focus_ratio_leads_to_the_plane_in_focus) {
+// The point in focus lies on the line of sight and on the plane in focus.
+TEST(Camera, focus_ratio_gives_the_point_in_focus) {
     Camera camera;
     camera.eye = {0.02, -0.01, 0.25};
     camera.focus_depth = 4e-3;

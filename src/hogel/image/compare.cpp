@@ -14,7 +14,7 @@
 namespace hogel {
 namespace {
 
-// Display values [y][x] of one channel, or their luma (the Rec. 709 weights, which belong to the sRGB primaries).
+// [y][x], for instance the luma of display values (Rec. 709 weights, which belong to the sRGB primaries).
 using Plane = Array<double, 2>;
 
 float display(float linear, double exposure) { return srgb_encode(static_cast<float>(linear * exposure)); }
@@ -30,7 +30,7 @@ Plane display_luma(const Image& image, double exposure) {
     return luma;
 }
 
-// The window of Wang et al., or its middle where the picture is narrower than that.
+// The window of Wang et al., 11 taps, or the largest odd number of taps that fits into the picture.
 std::vector<double> gaussian_window(std::size_t extent) {
     const std::size_t taps = std::min<std::size_t>(11, extent % 2 == 1 ? extent : extent - 1);
     std::vector<double> window(taps);

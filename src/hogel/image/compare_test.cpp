@@ -89,7 +89,7 @@ TEST(Compare, constant_pictures_have_the_analytic_values) {
         }
 }
 
-TEST(Compare, ssim_is_that_of_the_definition) {
+TEST(Compare, ssim_follows_its_definition) {
     for (std::size_t channels : {1, 3}) {
         const Image a = noise(31, 24, channels, 1);
         Image b = noise(31, 24, channels, 2);
@@ -113,7 +113,7 @@ TEST(Compare, linear_psnr_does_not_depend_on_the_units_of_light) {
     const ImageComparison one = compare(a, b), four = compare(a4, b4, 0.25);
     EXPECT_NEAR(one.linear_psnr, four.linear_psnr, 1e-9);
     EXPECT_NEAR(one.psnr, four.psnr, 1e-9);
-    // What display clamps, linear light does not.
+    // Display values are clamped: all that is brighter than white is white.
     EXPECT_EQ(compare(constant(4, 4, 1, 1),
                       [] {
                           Image bright(4, 4, 1);

@@ -21,8 +21,8 @@ using namespace image;
 
 namespace {
 
-// A picture that claims more than this many bytes a byte of its file (and some for the smallest) is damaged: deflate
-// reaches 1032. Checked so that a few bytes cannot ask for gigabytes.
+// A picture of more bytes than this for each byte of its file is refused as damaged, so that a few bytes cannot ask for
+// gigabytes: deflate reaches 1032. Pictures below the second limit are exempt.
 constexpr std::uint64_t max_expansion = 4096;
 constexpr std::uint64_t always_allowed = std::uint64_t{16} << 20;
 
@@ -55,7 +55,7 @@ void check_size(const OIIO::ImageSpec& spec, const std::string& name, std::size_
         fail_read(name, fmt::format("{} bytes are too few for {}x{} pixels", file_bytes, width, height));
 }
 
-// Linear light for each 16-bit display value; 8-bit values are among them, as multiples of 257.
+// Linear light of each 16-bit display value; 8-bit values are the multiples of 257 among them.
 const std::vector<float>& linear_of_display() {
     static const std::vector<float> table = [] {
         std::vector<float> values(65536);
@@ -84,7 +84,8 @@ Image read_pixels(OIIO::ImageInput& in, const std::string& name) {
     return image;
 }
 
-// OpenImageIO reports errors by return values, the libraries below it also by exceptions.
+// Turns exceptions into Error(bad_input): OpenImageIO reports errors by return values, but the libraries below it
+// throw.
 template <class F>
 auto guarded(const std::string& name, const F& body) {
     try {
@@ -98,11 +99,11 @@ auto guarded(const std::string& name, const F& body) {
     }
 }
 
-// A picture that is being read, with the memory that it is read from.
+// A picture that is being read and the memory that it is read from.
 struct OpenPicture {
     std::vector<unsigned char> bytes;
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
-    std::unique_ptr<OIIO::ImageInput> in;  // last, so that it is closed before its memory goes
+    std::unique_ptr<OIIO::ImageInput> in;  // last, so that it is closed before its memory is freed
 };
 
 OpenPicture open_bytes(std::span<const unsigned char> bytes, const std::string& format, const std::string& name) {
@@ -137,7 +138,7 @@ OpenPicture open_file(const std::filesystem::path& path, std::uint64_t& file_byt
         bytes.resize(file_bytes);
         read(8);
         OpenPicture picture = open_bytes(bytes, format, name);
-        picture.bytes = std::move(bytes);  // moving leaves them where they are
+        picture.bytes = std::move(bytes);  // moving a vector leaves its elements in place
         return picture;
     }
     OpenPicture picture;
@@ -177,25 +178,25 @@ RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pix
         const OpenPicture picture = open_file(path, file_bytes);
         const OIIO::ImageSpec& spec = picture.in->spec();
         check_size(spec, name, max_pixels, file_bytes);
-        // Grey with or without alpha, or three channels that say the same.
+        // Grey with or without alpha, or three equal channels.
         const std::size_t channels = spec.nchannels >= 3 ? 3 : 1;
         std::vector<float> values(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                                   channels);
-        RawPixels codes;
+        RawPixels pixels;
         const bool whole = !spec.format.is_floating_point() && spec.format.size() <= 2;
-        // As floats, whole numbers are read as fractions of the largest.
-        if (whole) codes.levels = spec.format.size() == 1 ? 256 : 65536;
-        const float scale = whole ? static_cast<float>(codes.levels - 1) : 1.0f;
+        // OpenImageIO converts whole numbers to fractions of the largest.
+        if (whole) pixels.levels = spec.format.size() == 1 ? 256 : 65536;
+        const float scale = whole ? static_cast<float>(pixels.levels - 1) : 1.0f;
         if (!picture.in->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::FLOAT, values.data()))
             fail_read(name, picture.in->geterror());
-        codes.values = Array<float, 2>({static_cast<std::size_t>(spec.height), static_cast<std::size_t>(spec.width)});
-        for (std::size_t i = 0; i < codes.values.size(); ++i) {
+        pixels.values = Array<float, 2>({static_cast<std::size_t>(spec.height), static_cast<std::size_t>(spec.width)});
+        for (std::size_t i = 0; i < pixels.values.size(); ++i) {
             const float* pixel = &values[i * channels];
             if (channels == 3 && (pixel[0] != pixel[1] || pixel[0] != pixel[2]))
                 fail_read(name, "its channels differ, but one number a pixel was expected");
-            codes.values.data()[i] = whole ? std::round(pixel[0] * scale) : pixel[0];
+            pixels.values.data()[i] = whole ? std::round(pixel[0] * scale) : pixel[0];
         }
-        return codes;
+        return pixels;
     });
 }
 
@@ -203,11 +204,11 @@ Metadata read_metadata(const std::filesystem::path& path) {
     return guarded(path.string(), [&] {
         std::uint64_t file_bytes = 0;
         const OpenPicture picture = open_file(path, file_bytes);
-        Metadata words;
+        Metadata metadata;
         for (const OIIO::ParamValue& attribute : picture.in->spec().extra_attribs)
             if (attribute.type() == OIIO::TypeDesc::STRING)
-                words.emplace_back(attribute.name().string(), attribute.get_string());
-        return words;
+                metadata.emplace_back(attribute.name().string(), attribute.get_string());
+        return metadata;
     });
 }
 

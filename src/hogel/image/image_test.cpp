@@ -27,7 +27,7 @@ class ImageFile : public testing::Test {
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_image_" + std::to_string(::getpid()));
 };
 
-// RayValues of every size that half floats keep exactly.
+// Values that half floats keep exactly.
 Image ramp(std::size_t width, std::size_t height, std::size_t channels) {
     Image image(width, height, channels);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels.data()[i] = static_cast<float>(i % 1024) / 512;
@@ -78,18 +78,18 @@ TEST(Srgb, has_the_published_values) {
     }
 }
 
-TEST_F(ImageFile, exr_keeps_linear_values_and_words) {
+TEST_F(ImageFile, exr_keeps_linear_values_and_metadata) {
     for (std::size_t channels : {1, 3}) {
         const Image image = ramp(37, 23, channels);
         write_image(directory_ / "a.exr", image, 5, {{"hogel_command", "photo --eye 0,0,300mm"}, {"hogel_note", "ζ"}});
         const Image back = read_image(directory_ / "a.exr");
         ASSERT_EQ(back.pixels.shape(), image.pixels.shape());
         EXPECT_TRUE(std::ranges::equal(back.pixels.elements(), image.pixels.elements()));
-        const Metadata words = read_metadata(directory_ / "a.exr");
+        const Metadata metadata = read_metadata(directory_ / "a.exr");
         EXPECT_EQ(
-            std::ranges::count(words, std::pair<std::string, std::string>{"hogel_command", "photo --eye 0,0,300mm"}),
+            std::ranges::count(metadata, std::pair<std::string, std::string>{"hogel_command", "photo --eye 0,0,300mm"}),
             1);
-        EXPECT_EQ(std::ranges::count(words, std::pair<std::string, std::string>{"hogel_note", "ζ"}), 1);
+        EXPECT_EQ(std::ranges::count(metadata, std::pair<std::string, std::string>{"hogel_note", "ζ"}), 1);
     }
 }
 
@@ -111,12 +111,12 @@ TEST_F(ImageFile, png_and_tiff_keep_every_display_value) {
             }
 }
 
-TEST_F(ImageFile, png_and_tiff_carry_words) {
-    const Metadata words{{"hogel_command", "render scene.glb --hogels 64x64"}, {"hogel_version", "1.2.3"}};
-    write_image(directory_ / "a.png", ramp(3, 2, 3), 1, words);
+TEST_F(ImageFile, png_and_tiff_keep_metadata) {
+    const Metadata metadata{{"hogel_command", "render scene.glb --hogels 64x64"}, {"hogel_version", "1.2.3"}};
+    write_image(directory_ / "a.png", ramp(3, 2, 3), 1, metadata);
     const Metadata png = read_metadata(directory_ / "a.png");
-    for (const auto& word : words) EXPECT_EQ(std::ranges::count(png, word), 1) << word.first;
-    write_image(directory_ / "a.tif", ramp(3, 2, 3), 1, words);
+    for (const auto& entry : metadata) EXPECT_EQ(std::ranges::count(png, entry), 1) << entry.first;
+    write_image(directory_ / "a.tif", ramp(3, 2, 3), 1, metadata);
     const Metadata tiff = read_metadata(directory_ / "a.tif");
     EXPECT_EQ(std::ranges::count(
                   tiff,
@@ -135,7 +135,7 @@ TEST_F(ImageFile, values_beyond_display_are_clamped) {
     EXPECT_TRUE(std::ranges::equal(back.pixels.elements(), expected));
 }
 
-TEST_F(ImageFile, pictures_in_memory_are_those_in_files) {
+TEST_F(ImageFile, pictures_in_memory_equal_those_in_files) {
     const Image image = ramp(19, 7, 3);
     const std::vector<unsigned char> png = encode_png(image, 0.5);
     write_image(directory_ / "a.png", image, 0.5);
@@ -210,7 +210,7 @@ TEST_F(ImageFile, truncated_and_damaged_pictures_never_crash) {
     }
 }
 
-TEST_F(ImageFile, writing_says_what_is_wrong_and_leaves_nothing) {
+TEST_F(ImageFile, a_failed_write_says_why_and_leaves_no_file) {
     const auto code = [&](const fs::path& path, const Image& image, double exposure) -> int {
         try {
             write_image(path, image, exposure);

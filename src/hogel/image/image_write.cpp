@@ -26,7 +26,7 @@ unsigned char quantise(float linear, double exposure) {
     return static_cast<unsigned char>(std::lround(255 * srgb_encode(static_cast<float>(linear * exposure))));
 }
 
-// TIFF keeps no free text fields, so there the words go into its description, a line each.
+// TIFF has no free text fields: there the metadata goes into its description, a line for each entry.
 void add_metadata(OIIO::ImageSpec& spec, const std::string& format, const Metadata& metadata) {
     if (format == "tiff") {
         std::string lines;
@@ -50,7 +50,7 @@ void check_writable(const Image& image, double exposure, const std::string& name
         throw Error(ErrorCode::usage, fmt::format("the exposure is {}, but must be positive and finite", exposure));
 }
 
-// Writes to `memory`, or to the file `path` where there is none.
+// Writes to `memory`, or to the file `path` where `memory` is null.
 void encode(const Image& image, double exposure, const std::string& format, const Metadata& metadata,
             const std::string& name, OIIO::Filesystem::IOProxy* memory, const std::string& path) {
     const bool linear = format == "openexr";
@@ -109,7 +109,7 @@ void write_image(const std::filesystem::path& path, const Image& image, double e
     check_writable(image, exposure, path.string());
     core::OutputFile file(path);
     if (format == "tiff") {
-        // OpenImageIO cannot write TIFF to memory: the directory, which is written last, gets lost.
+        // OpenImageIO cannot write TIFF to memory: the directory, which is written last, is lost.
         encode(image, exposure, format, metadata, path.string(), nullptr, file.temporary().string());
         file.commit();
     } else {

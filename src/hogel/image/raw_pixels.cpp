@@ -28,7 +28,7 @@ std::string format_of(const std::filesystem::path& path) {
     throw Error(ErrorCode::usage, fmt::format("'{}': patterns are written as .png, .bmp or .tif", path.string()));
 }
 
-// A bitmap without compression: a file header, BITMAPINFOHEADER, 256 greys where there is one channel, and rows from
+// An uncompressed Windows bitmap: a file header, BITMAPINFOHEADER, 256 greys where there is one channel, and rows from
 // the bottom up, padded to four bytes, colours as blue, green, red.
 std::vector<unsigned char> encode_bmp(View<const std::uint8_t, 3> levels) {
     const std::size_t height = levels.extent(0), width = levels.extent(1), channels = levels.extent(2);

@@ -12,18 +12,23 @@
 namespace hogel::image {
 namespace {
 
-class Levels : public testing::TestWithParam<std::tuple<const char*, std::size_t>> {};
+struct Storage {
+    std::string format;
+    std::size_t channels;
+};
 
-TEST_P(Levels, are_read_back_as_they_were_written) {
-    const auto [extension, channels] = GetParam();
+class RawPixelFiles : public testing::TestWithParam<Storage> {};
+
+TEST_P(RawPixelFiles, are_read_back_as_they_were_written) {
+    const auto& [format, channels] = GetParam();
     Array<std::uint8_t, 3> levels({7, 37, channels});
     for (std::size_t i = 0; i < levels.size(); ++i) levels.data()[i] = static_cast<std::uint8_t>(i * 151);
-    const auto path = std::filesystem::path(testing::TempDir()) / ("levels" + std::to_string(channels) + extension);
+    const auto path = std::filesystem::path(testing::TempDir()) / ("levels" + std::to_string(channels) + "." + format);
     write_raw_pixels(path, levels, {{"encoding", "phase"}});
     const Image image = read_image(path);
     ASSERT_EQ(image.width(), 37u);
     ASSERT_EQ(image.height(), 7u);
-    // read_image takes integers for sRGB; a bitmap's greys may come as three equal channels.
+    // read_image() takes integers as sRGB; a grey bitmap may be read as three equal channels.
     for (std::size_t y = 0; y < 7; ++y)
         for (std::size_t x = 0; x < 37; ++x)
             for (std::size_t c = 0; c < image.channels(); ++c)
@@ -32,11 +37,14 @@ TEST_P(Levels, are_read_back_as_they_were_written) {
     std::filesystem::remove(path);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, Levels,
-                         testing::Combine(testing::Values(".png", ".bmp", ".tif"),
-                                          testing::Values(std::size_t{1}, std::size_t{3})));
+INSTANTIATE_TEST_SUITE_P(Formats, RawPixelFiles,
+                         testing::Values(Storage{"png", 1}, Storage{"png", 3}, Storage{"bmp", 1}, Storage{"bmp", 3},
+                                         Storage{"tif", 1}, Storage{"tif", 3}),
+                         [](const auto& test) {
+                             return test.param.format + "_" + std::to_string(test.param.channels) + "_channels";
+                         });
 
-TEST(LevelsFile, is_refused_by_name_and_place) {
+TEST(RawPixelFile, with_an_unknown_extension_or_in_no_directory_is_refused) {
     const Array<std::uint8_t, 3> levels({2, 2, 1});
     EXPECT_THROW(write_raw_pixels("pattern.exr", levels), Error);
     EXPECT_THROW(require_raw_pixels_name("pattern"), Error);

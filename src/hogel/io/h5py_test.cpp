@@ -10,18 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "hogel/error.h"
-#include "hogel/files.h"
+#include "hogel/io/test_files.h"
 
 namespace hogel::io {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 class H5py : public testing::Test {
   protected:
@@ -79,7 +71,7 @@ Field numbered(const FieldGrid& grid) {
 
 void write_hemicube(const fs::path& path, const LightFieldGrid& grid) {
     const std::vector<LightFieldGrid> grids = hemicube(grid);
-    const auto sinks = create_light_field_faces(path, grids, {SampleType::half, true, {}});
+    const auto sinks = create_light_field(path, grids, {SampleType::half, true, {}});
     for (std::size_t i = 0; i < grids.size(); ++i) copy(numbered(grids[i]), *sinks[i]);
 }
 
@@ -96,14 +88,14 @@ std::vector<std::string> examples() {
 
 TEST_F(H5py, runs_the_examples_of_the_documentation) {
     ASSERT_EQ(examples().size(), 3u);
-    copy(numbered(small_grid()), *create_light_field(directory_ / "l.h5", small_grid(), {SampleType::half, true, {}}));
+    copy(numbered(small_grid()), *create_front(directory_ / "l.h5", small_grid(), {SampleType::half, true, {}}));
     // Largest of the view: sample (2, 3, 4, 1, 1) = 358; mean of hogel (0, 0): mean of 0..5, 120..125 and 240..245.
     EXPECT_EQ(run(examples()[0], directory_ / "l.h5"),
               "(3, 4, 5, 2, 3) float16 -0.002 -0.19999999999999998 358.0 122.5\n");
     LightFieldGrid even = small_grid();
     even.directions_u = 4;
     write_hemicube(directory_ / "h.h5", even);
-    // Of 4x2 directions in front and 2x2 or 4x1 at the sides; the way along the last sample of each.
+    // 4x2 directions in front and 2x2 or 4x1 at the sides; the direction of the last sample of each.
     EXPECT_EQ(run(examples()[1], directory_ / "h.h5"),
               "front (3, 4, 5, 2, 4) [0.75, -0.5, 1.0]\n"
               "left (3, 4, 5, 2, 2) [-1.0, -0.5, 0.75]\n"
@@ -119,7 +111,7 @@ TEST_F(H5py, runs_the_examples_of_the_documentation) {
 TEST_F(H5py, reads_every_value_and_attribute) {
     const LightFieldGrid grid = small_grid();
     for (const SampleType type : {SampleType::half, SampleType::single}) {
-        copy(numbered(grid), *create_light_field(directory_ / "l.h5", grid, {type, true, {{"hogel_note", "ζ = 1"}}}));
+        copy(numbered(grid), *create_front(directory_ / "l.h5", grid, {type, true, {{"hogel_note", "ζ = 1"}}}));
         run(std::string("import sys, h5py, numpy as np\n"
                         "f = h5py.File(sys.argv[1], 'r')\n"
                         "r, d = f['radiance'], f['depth']\n"
@@ -196,14 +188,14 @@ TEST_F(H5py, writes_light_fields_that_are_read) {
                 "r.attrs.update(axis_order='c,t,s,v,u', channels=3, hogels_s=5, hogels_t=4, hogel_pitch_m=0.001,\n"
                 "               directions_u=3, directions_v=2, tan_half_u=0.3, tan_half_v=0.2)\n",
             directory_ / "l.h5");
-        const auto source = open_light_field(directory_ / "l.h5");
-        EXPECT_EQ(source->grid(), small_grid());
+        const LightField source = open_light_field(directory_ / "l.h5");
+        EXPECT_EQ(source.grid(), small_grid());
         LightFieldBuffer back(small_grid(), true);
-        copy(*source, back);
+        copy(source.front(), back);
         EXPECT_TRUE(std::ranges::equal(back.radiance.elements(), expected.radiance.elements())) << storage;
         EXPECT_TRUE(std::ranges::equal(back.depth.elements(), expected.depth.elements())) << storage;
         LightFieldTile one(small_grid(), {3, 2, 1, 2}, true), same(small_grid(), {3, 2, 1, 2}, true);
-        source->read(one);
+        source.front().read(one);
         expected.read(same);
         EXPECT_TRUE(std::ranges::equal(one.radiance.elements(), same.radiance.elements())) << storage;
         EXPECT_EQ(std::ranges::count(summarize(directory_ / "l.h5").text,
@@ -237,68 +229,71 @@ TEST_F(H5py, writes_holograms_that_are_read) {
     }
 }
 
-// Each of these is a complete light field but for one thing; the message names it.
+// Python functions that write a light field, with changes to it.
+const std::string make_light_field =
+    "import sys, h5py, numpy as np\n"
+    "A = dict(axis_order='c,t,s,v,u', channels=1, hogels_s=2, hogels_t=2, hogel_pitch_m=0.001,\n"
+    "         directions_u=2, directions_v=2, tan_half_u=0.3, tan_half_v=0.2)\n"
+    "def make(libver='v108', format='hogel light field', version=1, name='radiance', **change):\n"
+    "    global f\n"
+    "    f = h5py.File(sys.argv[1], 'w', libver=libver)\n"
+    "    if format: f.attrs['format'] = format\n"
+    "    f.attrs['format_version'] = version\n"
+    "    storage = {k: v for k, v in change.items() if k not in A}\n"
+    "    if 'shape' not in storage: storage = dict(shape=(1, 2, 2, 2, 2), data=np.ones((1, 2, 2, 2, 2)), "
+    "**storage) if 'data' not in storage else dict(shape=(1, 2, 2, 2, 2), **storage)\n"
+    "    r = f.create_dataset(name, **dict(dict(dtype='f4'), **storage))\n"
+    "    r.attrs.update({**A, **{k: v for k, v in change.items() if k in A}})\n"
+    "    return r\n"
+    "def make_side(face, **change):\n"
+    "    r = f.create_dataset(face + '/radiance', data=np.ones((1, 2, 2, 2, 2), 'f4'))\n"
+    "    r.attrs.update({**A, 'face': face, **change})\n";
+
+// What to do to a complete light field, and what its error then says.
+const std::pair<const char*, const char*> faults[] = {
+    {"make()", ""},
+    {"make(libver='earliest')", "superblock has version 0"},
+    {"make(format=None)", "not a hogel light field"},
+    {"make(format='other')", "'other'"},
+    {"make(format=3)", "not a text"},
+    {"make(version=2)", "format_version is 2, but this program reads version 1"},
+    {"make(version='1')", "not a whole number"},
+    {"make(name='radiant')", "no dataset 'radiance'"},
+    {"make(axis_order='u,v,s,t,c')", "axis_order is 'u,v,s,t,c'"},
+    {"make(hogels_s=3)", "shape"},
+    {"make(hogels_s=2.0)", "'hogels_s' is not a whole number"},
+    {"make(hogels_s=[2, 2])", "'hogels_s' is not a single value"},
+    {"make(hogels_s=-2)", "0x2 hogels"},
+    {"make(hogels_s=2**62, hogels_t=2**62)", "addressed"},
+    {"make(hogel_pitch_m=float('nan'))", "pitch"},
+    {"make(tan_half_v=-1.0)", "tan_half_v"},
+    {"make(tan_half_v='wide')", "not a number"},
+    {"del make().attrs['tan_half_u']", "'tan_half_u' is missing"},
+    {"make().attrs['face'] = 'left'", "says that it is the face 'left'"},
+    {"make().attrs['center_u'] = float('inf')", "center_u"},
+    {"make(); make_side('left', center_u=0.3)", ""},
+    {"make(); make_side('left', center_u=0.2)", "reaches beyond the hologram plane"},
+    {"make(); make_side('right', center_u=-0.3, hogel_pitch_m=0.002)", "other hogels or channels"},
+    {"make(); make_side('top', center_v=-0.2); del f['top/radiance'].attrs['face']", "says that it is the face"},
+    {"make(); f.create_group('left')", "no dataset 'left/radiance'"},
+    {"make(); f['left'] = 1", "damaged"},
+    {"make(data=None)", "not wholly written"},
+    {"make(data=None, chunks=(1, 1, 1, 2, 2))[0, 0, 0] = 1", "not wholly written"},
+    {"make(dtype='i4')", "floating point"},
+    {"make(data=np.ones((1, 2, 2, 4)), shape=(1, 2, 2, 4))", "shape"},
+    {"make(); f.create_dataset('depth', data=np.ones(3))", "'depth' does not have the shape"},
+    {"make(name='other'); f['radiance'] = h5py.ExternalLink('elsewhere.h5', 'x')", "no dataset 'radiance'"},
+    {"make(name='other'); f.create_group('radiance')", "damaged"},
+    // 16 TB in a few bytes: refused before any memory is taken.
+    {"make(shape=(1, 2**20, 2**20, 2, 2), hogels_s=2**20, hogels_t=2**20, chunks=(1, 1, 1, 2, 2))",
+     "not wholly written"},
+    {"make(shape=(1, 2, 2, 2**14, 2**14), directions_u=2**14, directions_v=2**14, chunks=(1, 1, 1, 2**14, 2**14))",
+     "chunks of more than"},
+};
+
 TEST_F(H5py, what_is_wrong_with_a_file_is_named) {
-    const std::string base =
-        "import sys, h5py, numpy as np\n"
-        "A = dict(axis_order='c,t,s,v,u', channels=1, hogels_s=2, hogels_t=2, hogel_pitch_m=0.001,\n"
-        "         directions_u=2, directions_v=2, tan_half_u=0.3, tan_half_v=0.2)\n"
-        "def make(libver='v108', format='hogel light field', version=1, name='radiance', **change):\n"
-        "    global f\n"
-        "    f = h5py.File(sys.argv[1], 'w', libver=libver)\n"
-        "    if format: f.attrs['format'] = format\n"
-        "    f.attrs['format_version'] = version\n"
-        "    storage = {k: v for k, v in change.items() if k not in A}\n"
-        "    if 'shape' not in storage: storage = dict(shape=(1, 2, 2, 2, 2), data=np.ones((1, 2, 2, 2, 2)), "
-        "**storage) if 'data' not in storage else dict(shape=(1, 2, 2, 2, 2), **storage)\n"
-        "    r = f.create_dataset(name, **dict(dict(dtype='f4'), **storage))\n"
-        "    r.attrs.update({**A, **{k: v for k, v in change.items() if k in A}})\n"
-        "    return r\n"
-        "def make_side(face, **change):\n"
-        "    r = f.create_dataset(face + '/radiance', data=np.ones((1, 2, 2, 2, 2), 'f4'))\n"
-        "    r.attrs.update({**A, 'face': face, **change})\n";
-    const std::pair<const char*, const char*> wrong[] = {
-        {"make()", ""},
-        {"make(libver='earliest')", "superblock has version 0"},
-        {"make(format=None)", "not a hogel light field"},
-        {"make(format='other')", "'other'"},
-        {"make(format=3)", "not a text"},
-        {"make(version=2)", "format_version is 2, but this program reads version 1"},
-        {"make(version='1')", "not a whole number"},
-        {"make(name='radiant')", "no dataset 'radiance'"},
-        {"make(axis_order='u,v,s,t,c')", "axis_order is 'u,v,s,t,c'"},
-        {"make(hogels_s=3)", "shape"},
-        {"make(hogels_s=2.0)", "'hogels_s' is not a whole number"},
-        {"make(hogels_s=[2, 2])", "'hogels_s' is not a single value"},
-        {"make(hogels_s=-2)", "0x2 hogels"},
-        {"make(hogels_s=2**62, hogels_t=2**62)", "addressed"},
-        {"make(hogel_pitch_m=float('nan'))", "pitch"},
-        {"make(tan_half_v=-1.0)", "tan_half_v"},
-        {"make(tan_half_v='wide')", "not a number"},
-        {"del make().attrs['tan_half_u']", "'tan_half_u' is missing"},
-        {"make().attrs['face'] = 'left'", "says that it is the face 'left'"},
-        {"make().attrs['center_u'] = float('inf')", "center_u"},
-        {"make(); make_side('left', center_u=0.3)", ""},
-        {"make(); make_side('left', center_u=0.2)", "reaches beyond the hologram plane"},
-        {"make(); make_side('right', center_u=-0.3, hogel_pitch_m=0.002)", "other hogels or channels"},
-        {"make(); make_side('top', center_v=-0.2); del f['top/radiance'].attrs['face']", "says that it is the face"},
-        {"make(); f.create_group('left')", "no dataset 'left/radiance'"},
-        {"make(); f['left'] = 1", "damaged"},
-        {"make(data=None)", "not wholly written"},
-        {"make(data=None, chunks=(1, 1, 1, 2, 2))[0, 0, 0] = 1", "not wholly written"},
-        {"make(dtype='i4')", "floating point"},
-        {"make(data=np.ones((1, 2, 2, 4)), shape=(1, 2, 2, 4))", "shape"},
-        {"make(); f.create_dataset('depth', data=np.ones(3))", "'depth' does not have the shape"},
-        {"make(name='other'); f['radiance'] = h5py.ExternalLink('elsewhere.h5', 'x')", "no dataset 'radiance'"},
-        {"make(name='other'); f.create_group('radiance')", "damaged"},
-        // 16 TB in a few bytes: refused before any memory is taken.
-        {"make(shape=(1, 2**20, 2**20, 2, 2), hogels_s=2**20, hogels_t=2**20, chunks=(1, 1, 1, 2, 2))",
-         "not wholly written"},
-        {"make(shape=(1, 2, 2, 2**14, 2**14), directions_u=2**14, directions_v=2**14, chunks=(1, 1, 1, 2**14, 2**14))",
-         "chunks of more than"},
-    };
-    for (const auto& [change, part] : wrong) {
-        run(base + change + "\n", directory_ / "l.h5");
+    for (const auto& [change, part] : faults) {
+        run(make_light_field + change + "\n", directory_ / "l.h5");
         std::string message;
         try {
             open_light_field(directory_ / "l.h5");
@@ -351,7 +346,7 @@ with open(sys.argv[1], "r+b") as f:
     what.variable = "text";
     EXPECT_THROW(open_external_field(directory_ / "a.mat", what), Error);
     what.variable = "double";
-    what.values = ExternalField::RayValues::amplitude;
+    what.values = ExternalField::Values::amplitude;
     const auto real = open_external_field(directory_ / "a.mat", what);
     Array<std::complex<float>, 2> one({1, 1});
     real->read({1, 2, 1, 1}, 0, one);

@@ -7,15 +7,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "hogel/error.h"
-#include "hogel/files.h"
+#include "hogel/io/test_files.h"
 
 namespace hogel::io {
 namespace {
 
-namespace fs = std::filesystem;
-
-// RayValues that tell every sample from the others; read in small tiles, which are counted.
+// A different value for every sample; counts the small tiles that are read.
 class CountedLightField final : public LightFieldSource {
   public:
     const LightFieldGrid& grid() const override { return grid_; }
@@ -70,7 +67,7 @@ class Resume : public testing::Test {
         LightFieldFileOptions options;
         options.with_depth = true;
         options.resume = input;
-        return create_light_field(directory_ / name, CountedLightField().grid(), options);
+        return create_front(directory_ / name, CountedLightField().grid(), options);
     }
 
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_resume_" + std::to_string(::getpid()));
@@ -110,14 +107,14 @@ TEST_F(Resume, an_interrupted_hologram_becomes_the_same_file) {
     EXPECT_TRUE(bytes(directory_ / "x.h5") == bytes(directory_ / "whole.h5"));
 }
 
-TEST_F(Resume, other_work_is_refused_and_the_file_begun_stays) {
+TEST_F(Resume, other_work_is_refused_and_the_unfinished_file_stays) {
     EXPECT_THROW(copy(CountedLightField(), *light_field("x.h5", "a"), [](double done) { return done < 0.5; }), Error);
     const std::string begun = bytes(directory_ / "x.h5.part");
     EXPECT_THROW(light_field("x.h5", "b"), Error);
     EXPECT_TRUE(bytes(directory_ / "x.h5.part") == begun);
 }
 
-TEST_F(Resume, what_is_lost_is_begun_again) {
+TEST_F(Resume, without_one_of_its_files_work_begins_again) {
     const CountedLightField source;
     copy(source, *light_field("whole.h5", "a"));
     const std::size_t all = source.reads;

@@ -238,6 +238,7 @@ HogelRange default_tile(const LightFieldGrid& grid) {
 }
 
 void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress) {
+    const core::StopScope scope(progress);
     const LightFieldGrid& grid = source.grid();
     const HogelRange size = source.preferred_tile();
     const std::size_t across = (grid.hogels_s + size.ns - 1) / size.ns;

@@ -204,6 +204,7 @@ std::vector<Block> blocks(const LightFieldGrid& grid) {
 
 std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
                               const RayPhotographOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     const std::vector<LightFieldGrid> grids = light_field.grids();
     const std::span<const LightField::Source> faces = light_field.faces();
     std::vector<Exposure> exposures;

@@ -8,32 +8,35 @@
 
 namespace hogel::math {
 
-/// Transforms of columns whose length is a power of two, a vector of neighbouring columns at a time: nothing is ever
-/// shuffled but the two parts of a number, where they do not lie apart already. Decimation in frequency by fours, with
-/// a last step by two where the length is no power of four, on a copy of some columns that fits into the nearest cache.
-/// Not normalised, like Fft2.
+/// Fourier transforms of columns whose length is a power of two. Neighbouring columns lie side by side in a vector, so
+/// that no lanes are shuffled but to separate real and imaginary parts where they are interleaved. Decimation in
+/// frequency with radix 4, and a last step of radix 2 where the length is no power of four, on a copy of sixteen
+/// columns that fits into the first-level cache. Not normalised, like Fft2.
 class ColumnFft {
   public:
     static constexpr std::size_t shortest = 8;
-    /// Columns are taken this many together; parts that lie apart are as many real ones followed by the imaginary ones.
+    /// This many columns are transformed together. In a split layout this many real parts are followed by as many
+    /// imaginary parts.
     static constexpr std::size_t together = 16;
 
-    /// Whether this processor has vectors for it, the length is one of those, and no columns are left over.
+    /// Whether the SIMD target in use has vectors, the length is a power of two from `shortest` on, and the columns are
+    /// a multiple of `together`.
     static bool can(std::size_t length, std::size_t columns);
 
     explicit ColumnFft(std::size_t length);
 
-    /// Sums with e^{+2πi jm/n}, or e^{-2πi jm/n} if forward. Row r of the columns begins at from + r·from_row and goes
-    /// to to + r·to_row, counted in numbers; both may be the same place.
+    /// Sums with e^{+2πi jm/n}, or e^{-2πi jm/n} if forward. Row r of the columns begins at from + r·from_row and its
+    /// result at to + r·to_row, counted in complex numbers; `from` and `to` may be the same.
     void transform(bool forward, const std::complex<float>* from, std::size_t from_row, std::complex<float>* to,
                    std::size_t to_row, std::size_t columns) const;
 
-    /// Sums with e^{+2πi jm/n} down sixteen columns whose parts lie apart, in place: [row][part][column], at a multiple
-    /// of a cache line.
+    /// Sums with e^{+2πi jm/n} down sixteen columns in split layout, in place: [row][part][column], aligned to a cache
+    /// line.
     void backward_apart(float* columns) const;
 
-    /// The same down many columns [column/16][row][part][column mod 16], whose results lie like those of transform().
-    /// Where rows begin at cache lines and are part of a larger array, results pass by the caches.
+    /// The same down many columns [column/16][row][part][column mod 16], with the results interleaved as those of
+    /// transform(). Where rows of the result begin at cache lines and are part of a larger array, they are written past
+    /// the caches.
     void backward_apart(const float* from, std::complex<float>* to, std::size_t to_row, std::size_t columns) const;
 
     struct Factor {
@@ -41,9 +44,9 @@ class ColumnFft {
     };
     struct Plan {
         std::size_t length;
-        std::vector<std::uint32_t> order;  // the frequency at each place after the last step
+        std::vector<std::uint32_t> order;  // the frequency of each row after the last step
         std::vector<Factor>
-            factors[2];  // w^j, w^2j, w^3j for each j of each step by four but the last; backward, forward
+            factors[2];  // w^j, w^2j, w^3j for each j of each radix-4 step but the last; backward, forward
     };
 
   private:

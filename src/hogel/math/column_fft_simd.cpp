@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 
-// Compiled for every instruction set and chosen when first called. Its plain twin is FFTW.
+// Compiled for every SIMD target and dispatched at run time. The plain twin is FFTW.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/math/column_fft_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -22,8 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 bool HasVectors() { return false; }
 void TransformColumns(const ColumnFft::Plan&, bool, const float*, std::size_t, float*, std::size_t, std::size_t) {}
-void TransformApart(const ColumnFft::Plan&, float*) {}
-void TransformSquare(const ColumnFft::Plan&, const float*, float*, std::size_t, std::size_t) {}
+void TransformSplit(const ColumnFft::Plan&, float*) {}
+void TransformSplitToInterleaved(const ColumnFft::Plan&, const float*, float*, std::size_t, std::size_t) {}
 #else
 bool HasVectors() { return true; }
 
@@ -31,7 +31,7 @@ constexpr std::size_t together = ColumnFft::together;
 using D = hn::CappedTag<float, together>;
 using V = hn::Vec<D>;
 
-// As many numbers as a vector has lanes.
+// As many complex numbers as a vector has lanes.
 struct Numbers {
     V re, im;
 };
@@ -43,8 +43,8 @@ HWY_INLINE Numbers Times(D d, const Numbers& x, const ColumnFft::Factor& factor)
     return {hn::NegMulAdd(x.im, im, hn::Mul(x.re, re)), hn::MulAdd(x.im, re, hn::Mul(x.re, im))};
 }
 
-// How a row of columns lies in memory: the parts of a number side by side, or the parts of all numbers.
-struct Beside {
+// Layouts of a row in memory: real and imaginary parts interleaved, or sixteen real parts and then sixteen imaginary.
+struct Interleaved {
     static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
         Numbers x;
         hn::LoadInterleaved2(d, row + 2 * i, x.re, x.im);
@@ -55,8 +55,8 @@ struct Beside {
     }
 };
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-// Beside each other, whole cache lines past the caches. What is written to a large array is not read again soon, and
-// would first be fetched.
+// Interleaved, by whole cache lines past the caches: what is written to a large array is not read again soon, and a
+// normal store would first fetch the line.
 struct Streamed {
     static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
         alignas(64) static constexpr std::int32_t order[] = {0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15};
@@ -67,9 +67,9 @@ struct Streamed {
     }
 };
 #else
-using Streamed = Beside;
+using Streamed = Interleaved;
 #endif
-struct Apart {
+struct Split {
     static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
         return {hn::Load(d, row + i), hn::Load(d, row + together + i)};
     }
@@ -83,7 +83,7 @@ struct Four {
     Numbers a, b, c, d;
 };
 
-// Four rows and the sums of them with the powers of i, or of −i if forward.
+// The radix-4 butterfly of four rows: their sums with the powers of i, or of −i if forward.
 template <bool forward, class Layout>
 HWY_INLINE Four Butterfly(D d, const float* rows, std::size_t apart, std::size_t i) {
     const Numbers a = Layout::Load(d, rows, i), b = Layout::Load(d, rows + apart, i),
@@ -94,88 +94,88 @@ HWY_INLINE Four Butterfly(D d, const float* rows, std::size_t apart, std::size_t
     return {sum_ac + sum_be, forward ? minus : plus, sum_ac - sum_be, forward ? plus : minus};
 }
 
-constexpr std::size_t room_row = 2 * together;
+constexpr std::size_t scratch_row = 2 * together;
 
-// A step by four of all groups of rows.
+// One radix-4 step over all groups of `length` rows.
 template <bool forward, class Layout>
 HWY_INLINE void Step(const ColumnFft::Plan& plan, std::size_t length, const ColumnFft::Factor* factors, const float* in,
-                     std::size_t in_row, float* room) {
+                     std::size_t in_row, float* scratch) {
     const D d;
     const std::size_t part = length / 4;
     for (std::size_t group = 0; group < plan.length; group += length)
         for (std::size_t j = 0; j < part; ++j) {
             const ColumnFft::Factor* w = factors + 3 * j;
-            float* y = room + (group + j) * room_row;
+            float* y = scratch + (group + j) * scratch_row;
             for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
                 const Four four = Butterfly<forward, Layout>(d, in + (group + j) * in_row, part * in_row, i);
-                Apart::Store(d, four.a, y, i);
-                Apart::Store(d, Times(d, four.b, w[0]), y + part * room_row, i);
-                Apart::Store(d, Times(d, four.c, w[1]), y + 2 * part * room_row, i);
-                Apart::Store(d, Times(d, four.d, w[2]), y + 3 * part * room_row, i);
+                Split::Store(d, four.a, y, i);
+                Split::Store(d, Times(d, four.b, w[0]), y + part * scratch_row, i);
+                Split::Store(d, Times(d, four.c, w[1]), y + 2 * part * scratch_row, i);
+                Split::Store(d, Times(d, four.d, w[2]), y + 3 * part * scratch_row, i);
             }
         }
 }
 
-// The first step reads the columns where they are, the last one writes them where they go.
+// All steps of sixteen columns. The first reads them from their place, the last writes them to theirs.
 template <bool forward, class From, class To>
 void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t from_row, float* to, std::size_t to_row,
-                    float* room) {
+                    float* scratch) {
     const D d;
     const ColumnFft::Factor* factors = plan.factors[forward ? 1 : 0].data();
     std::size_t length = plan.length;
-    Step<forward, From>(plan, length, factors, from, from_row, room);
+    Step<forward, From>(plan, length, factors, from, from_row, scratch);
     for (factors += 3 * (length / 4), length /= 4; length > 4; factors += 3 * (length / 4), length /= 4)
-        Step<forward, Apart>(plan, length, factors, room, room_row, room);
+        Step<forward, Split>(plan, length, factors, scratch, scratch_row, scratch);
     const auto put = [&](const Numbers& x, std::size_t place, std::size_t i) {
         To::Store(d, x, to + plan.order[place] * to_row, i);
     };
     for (std::size_t row = 0; row < plan.length; row += length)
         for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
-            const float* x = room + row * room_row;
+            const float* x = scratch + row * scratch_row;
             if (length == 4) {
-                const Four four = Butterfly<forward, Apart>(d, x, room_row, i);
+                const Four four = Butterfly<forward, Split>(d, x, scratch_row, i);
                 put(four.a, row, i);
                 put(four.b, row + 1, i);
                 put(four.c, row + 2, i);
                 put(four.d, row + 3, i);
             } else {
-                const Numbers a = Apart::Load(d, x, i), b = Apart::Load(d, x + room_row, i);
+                const Numbers a = Split::Load(d, x, i), b = Split::Load(d, x + scratch_row, i);
                 put(a + b, row, i);
                 put(a - b, row + 1, i);
             }
         }
 }
 
-float* RoomFor(const ColumnFft::Plan& plan) {
-    thread_local Array<float, 1> room;
-    if (room.size() < plan.length * room_row) room = Array<float, 1>({plan.length * room_row});
-    return room.data();
+float* ScratchFor(const ColumnFft::Plan& plan) {
+    thread_local Array<float, 1> scratch;
+    if (scratch.size() < plan.length * scratch_row) scratch = Array<float, 1>({plan.length * scratch_row});
+    return scratch.data();
 }
 
 void TransformColumns(const ColumnFft::Plan& plan, bool forward, const float* from, std::size_t from_row, float* to,
                       std::size_t to_row, std::size_t floats) {
-    float* room = RoomFor(plan);
-    for (std::size_t i = 0; i < floats; i += room_row)
+    float* scratch = ScratchFor(plan);
+    for (std::size_t i = 0; i < floats; i += scratch_row)
         if (forward)
-            TransformBlock<true, Beside, Beside>(plan, from + i, from_row, to + i, to_row, room);
+            TransformBlock<true, Interleaved, Interleaved>(plan, from + i, from_row, to + i, to_row, scratch);
         else
-            TransformBlock<false, Beside, Beside>(plan, from + i, from_row, to + i, to_row, room);
+            TransformBlock<false, Interleaved, Interleaved>(plan, from + i, from_row, to + i, to_row, scratch);
 }
 
-void TransformApart(const ColumnFft::Plan& plan, float* columns) {
-    TransformBlock<false, Apart, Apart>(plan, columns, room_row, columns, room_row, RoomFor(plan));
+void TransformSplit(const ColumnFft::Plan& plan, float* columns) {
+    TransformBlock<false, Split, Split>(plan, columns, scratch_row, columns, scratch_row, ScratchFor(plan));
 }
 
-void TransformSquare(const ColumnFft::Plan& plan, const float* from, float* to, std::size_t to_row,
-                     std::size_t floats) {
-    float* room = RoomFor(plan);
+void TransformSplitToInterleaved(const ColumnFft::Plan& plan, const float* from, float* to, std::size_t to_row,
+                                 std::size_t floats) {
+    float* scratch = ScratchFor(plan);
     const bool lines = (reinterpret_cast<std::uintptr_t>(to) | to_row * sizeof(float)) % 64 == 0;
     const bool streamed = lines && to_row > floats;
-    for (std::size_t i = 0; i < floats; i += room_row, from += plan.length * room_row)
+    for (std::size_t i = 0; i < floats; i += scratch_row, from += plan.length * scratch_row)
         if (streamed)
-            TransformBlock<false, Apart, Streamed>(plan, from, room_row, to + i, to_row, room);
+            TransformBlock<false, Split, Streamed>(plan, from, scratch_row, to + i, to_row, scratch);
         else
-            TransformBlock<false, Apart, Beside>(plan, from, room_row, to + i, to_row, room);
+            TransformBlock<false, Split, Interleaved>(plan, from, scratch_row, to + i, to_row, scratch);
     if (streamed) hwy::FlushStream();
 }
 #endif
@@ -192,17 +192,17 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::math {
 namespace {
 
-ColumnFft::Factor factor_of(double turns) {
-    return {static_cast<float>(std::cos(2 * std::numbers::pi * turns)),
-            static_cast<float>(std::sin(2 * std::numbers::pi * turns))};
+ColumnFft::Factor factor_of(double cycles) {
+    return {static_cast<float>(std::cos(2 * std::numbers::pi * cycles)),
+            static_cast<float>(std::sin(2 * std::numbers::pi * cycles))};
 }
 
 }  // namespace
 
 HWY_EXPORT(HasVectors);
 HWY_EXPORT(TransformColumns);
-HWY_EXPORT(TransformApart);
-HWY_EXPORT(TransformSquare);
+HWY_EXPORT(TransformSplit);
+HWY_EXPORT(TransformSplitToInterleaved);
 
 bool ColumnFft::can(std::size_t length, std::size_t columns) {
     return length >= shortest && std::has_single_bit(length) && columns > 0 && columns % together == 0 &&
@@ -214,12 +214,12 @@ ColumnFft::ColumnFft(std::size_t length) : plan_{length, {0}, {}} {
     for (; rest > 4; rest /= 4)
         for (std::size_t j = 0; j < rest / 4; ++j)
             for (std::size_t k = 1; k < 4; ++k) {
-                const double turns = static_cast<double>(j * k) / static_cast<double>(rest);
-                plan_.factors[0].push_back(factor_of(turns));
-                plan_.factors[1].push_back(factor_of(-turns));
+                const double cycles = static_cast<double>(j * k) / static_cast<double>(rest);
+                plan_.factors[0].push_back(factor_of(cycles));
+                plan_.factors[1].push_back(factor_of(-cycles));
             }
-    // A step puts the frequencies that leave the remainder k when divided by four into the part k; so the places within
-    // a part, last step first, are followed by those of the other parts.
+    // A step sorts frequencies by their remainder when divided by its radix. From the last step backwards: frequency
+    // f of a part is frequency k + radix · f of the whole, where k is the number of the part.
     std::size_t parts = 1;
     for (std::size_t step = rest;; step = 4) {
         std::vector<std::uint32_t> order;
@@ -238,11 +238,12 @@ void ColumnFft::transform(bool forward, const std::complex<float>* from, std::si
      2 * columns);
 }
 
-void ColumnFft::backward_apart(float* columns) const { HWY_DYNAMIC_DISPATCH(TransformApart)(plan_, columns); }
+void ColumnFft::backward_apart(float* columns) const { HWY_DYNAMIC_DISPATCH(TransformSplit)(plan_, columns); }
 
 void ColumnFft::backward_apart(const float* from, std::complex<float>* to, std::size_t to_row,
                                std::size_t columns) const {
-    HWY_DYNAMIC_DISPATCH(TransformSquare)(plan_, from, reinterpret_cast<float*>(to), 2 * to_row, 2 * columns);
+    HWY_DYNAMIC_DISPATCH(TransformSplitToInterleaved)
+    (plan_, from, reinterpret_cast<float*>(to), 2 * to_row, 2 * columns);
 }
 
 }  // namespace hogel::math

@@ -25,10 +25,10 @@ std::mutex& planner() {
 
 fftwf_complex* fftw(std::complex<float>* p) { return reinterpret_cast<fftwf_complex*>(p); }
 
-// A plan for each direction, for data at a cache line and for data anywhere.
+// Plans for both directions, for aligned and for unaligned data.
 class Directions {
   public:
-    /// `make(scratch, sign, flags)` plans a transform in place of that many values.
+    // make(scratch, sign, flags) plans an in-place transform of that many values.
     template <class Make>
     Directions(std::size_t values, Make make) {
         Array<std::complex<float>, 1> scratch({values});
@@ -60,12 +60,12 @@ class Directions {
     fftwf_plan aligned_[2], unaligned_[2];
 };
 
-// Arrays from this size on are transformed line by line on all threads; smaller ones are most often one of many that
-// different threads transform.
+// Arrays from this size on are transformed line by line on all threads; smaller ones usually come in numbers, each
+// transformed by one thread.
 constexpr std::size_t large_array = std::size_t{1} << 16;
-// Up to this size one thread is the quickest where columns need not be copied one by one.
+// Up to this size one thread is fastest if ColumnFft can transform the columns.
 constexpr std::size_t max_by_columns = std::size_t{1} << 18;
-// Lines that are copied together into room of their own, so that columns are read a whole cache line at a time.
+// Lines copied together into a buffer, so that columns are read by whole cache lines.
 constexpr std::size_t lines_together = 16;
 
 }  // namespace
@@ -110,7 +110,7 @@ void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, boo
     const std::size_t height = values.extent(0), width = values.extent(1);
     if (fft.size() != height)
         throw Error(ErrorCode::internal, fmt::format("FFT of columns of {} with a plan for {}", height, fft.size()));
-    // Room between the lines, so that they do not all begin in the same places of the caches.
+    // Padding, so that the lines do not all begin in the same cache sets.
     const std::size_t stride = (height + 15) / 8 * 8;
     core::parallel_for((width + lines_together - 1) / lines_together, [&](std::size_t block) {
         const std::size_t x0 = block * lines_together, columns = std::min(lines_together, width - x0);
@@ -131,7 +131,7 @@ struct Fft2::Plans {
                 return fftwf_plan_many_dft(1, &length, static_cast<int>(h), p, nullptr, 1, length, p, nullptr, 1,
                                            length, sign, flags);
             });
-            upright.emplace(h);
+            column_fft.emplace(h);
         } else if (h * w >= large_array) {
             rows.emplace(w);
             columns.emplace(h);
@@ -147,7 +147,7 @@ struct Fft2::Plans {
                                                          values.extent(1), height, width));
         if (whole) {
             whole->run(forward, values.data());
-            if (upright) return upright->transform(forward, values.data(), width, to, to_row, width);
+            if (column_fft) return column_fft->transform(forward, values.data(), width, to, to_row, width);
         } else {
             transform_rows(values, *rows, forward);
             transform_columns(values, *columns, forward);
@@ -157,9 +157,9 @@ struct Fft2::Plans {
     }
 
     std::size_t height, width;
-    std::optional<Directions> whole;    // of a small array, or all of its rows
-    std::optional<ColumnFft> upright;   // what is left of it then
-    std::optional<Fft1> rows, columns;  // of a large one
+    std::optional<Directions> whole;      // a small array, or only its rows
+    std::optional<ColumnFft> column_fft;  // the columns where `whole` transforms only rows
+    std::optional<Fft1> rows, columns;    // a large array
 };
 
 Fft2::Fft2(std::size_t height, std::size_t width) {

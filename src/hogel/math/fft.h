@@ -10,8 +10,8 @@
 namespace hogel::math {
 
 /// Discrete Fourier transforms of one size, planned once and used from any number of threads. Neither direction is
-/// normalised: forward sums with e^{-2πi jm/n}, backward with e^{+2πi jm/n}. A plan depends on the size alone, never on
-/// timings, so equal input gives equal bytes in every run and for any number of threads.
+/// normalised: forward sums with e^{-2πi jm/n}, backward with e^{+2πi jm/n}. A plan depends on the size alone and never
+/// on timings, so that equal input gives equal bytes in every run and for any number of threads.
 
 /// Along one line.
 class Fft1 {
@@ -23,7 +23,7 @@ class Fft1 {
     Fft1& operator=(Fft1&&) noexcept;
 
     std::size_t size() const;
-    /// Transforms in place `size` values; fastest where they begin at a cache line.
+    /// Transforms size() values in place; fastest where they begin at a cache line.
     void forward(std::complex<float>* line) const;
     void backward(std::complex<float>* line) const;
 
@@ -44,7 +44,7 @@ class Fft2 {
     /// Transforms in place; the shape is that of the plan.
     void forward(View<std::complex<float>, 2> values) const;
     void backward(View<std::complex<float>, 2> values) const;
-    /// The same with the result elsewhere: row r at to + r·to_row. What is left in `values` means nothing.
+    /// The same with row r of the result at to + r·to_row; `values` is overwritten.
     void backward(View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const;
 
     std::size_t height() const;
@@ -55,12 +55,12 @@ class Fft2 {
     std::unique_ptr<Plans> plans_;
 };
 
-/// Transforms lines of an array that are not planned as a whole, by all threads together: rows [0, height) or every
-/// column. Throws Error(internal) where the plan has another size.
+/// Transforms all rows, or all columns, of an array, on all threads. Throws Error(internal) where the plan has another
+/// size.
 void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
 void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
 
-/// The smallest n' >= n that has no prime factor above 7: sizes that transform fast.
+/// The smallest size from n on without a prime factor above 7; such sizes transform fast.
 std::size_t good_fft_size(std::size_t n);
 
 }  // namespace hogel::math

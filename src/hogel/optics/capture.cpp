@@ -13,8 +13,8 @@
 namespace hogel::optics {
 namespace {
 
-// An eye as the cameras need it: its widest pupil and the focus farthest off in one camera, which bounds the memory;
-// and what spreads farthest on a film.
+// An eye as the cameras need it: its widest pupil and its farthest focus in one camera, which bounds the memory; and
+// the widest blur on a film.
 struct Eye {
     Camera widest;
     double blur;
@@ -62,8 +62,8 @@ Image CapturedEye::photograph(const Camera& camera) const {
     return picture;
 }
 
-std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress,
-                                 const PhotographOptions& options) {
+std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Camera> cameras,
+                                 const PhotographOptions& options, const Progress& progress) {
     const std::vector<Eye> eyes = eyes_of(cameras);
     std::vector<Camera> widest;
     for (const Eye& eye : eyes) widest.push_back(eye.widest);

@@ -6,8 +6,8 @@
 
 namespace hogel::optics {
 
-/// The light that enters the widest pupil of one eye, kept: all that photographs of any focus and any smaller pupil
-/// need, so that each takes a transform of the film a look, and the hologram is read no more. It takes a sixteenth of
+/// The light that enters the widest pupil of one eye. Photographs of any focus and any smaller pupil need nothing else,
+/// so each takes a transform of the film a look, and the hologram is not read again. It takes a sixteenth of
 /// the eye's band: about (1.1 D A/λR)² values a look, D the side of the hologram and A the pupil.
 class CapturedEye {
   public:
@@ -17,8 +17,8 @@ class CapturedEye {
     Vec3 eye() const { return eye_; }
 
   private:
-    friend std::vector<CapturedEye> capture(const FieldSource&, std::span<const Camera>, const Progress&,
-                                            const PhotographOptions&);
+    friend std::vector<CapturedEye> capture(const FieldSource&, std::span<const Camera>, const PhotographOptions&,
+                                            const Progress&);
     CapturedEye(const FieldGrid& hologram, const narrow_band::NarrowBand& band, double pupil, double blur)
         : plane_(hologram.plane),
           eye_(band.geometry.eye()),
@@ -33,10 +33,10 @@ class CapturedEye {
     std::vector<Array<std::complex<float>, 2>> looks_;  // waves over the pupil
 };
 
-/// Reads a hologram for a set of cameras, which stand for all that will be asked: one captured eye for every different
+/// Reads a hologram for a set of cameras, which represent all later ones: one captured eye for every different
 /// eye among them, in the order in which these first come, with its widest pupil and its farthest focus. All eyes share
 /// passes over the hologram as far as the options' memory allows. Throws Error(usage) as photograph() does.
 std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Camera> cameras,
-                                 const Progress& progress = {}, const PhotographOptions& options = {});
+                                 const PhotographOptions& options = {}, const Progress& progress = {});
 
 }  // namespace hogel::optics

@@ -38,13 +38,13 @@ std::vector<Camera> walk() {
 
 bool same(const Image& a, const Image& b) { return std::ranges::equal(a.pixels.elements(), b.pixels.elements()); }
 
-// What is kept of an eye is all that photographs need: they come out the same, to the last bit.
-TEST(Capture, photographs_are_those_of_the_hologram) {
+// Photographs from captured light are the same to the last bit.
+TEST(Capture, photographs_equal_those_of_the_hologram) {
     const Field field = speckle();
     const std::vector<Camera> cameras = walk();
     const std::vector<Image> direct = photograph(field, cameras);
     const auto check = [&](const PhotographOptions& options) {
-        const std::vector<CapturedEye> eyes = capture(field, cameras, {}, options);
+        const std::vector<CapturedEye> eyes = capture(field, cameras, options);
         ASSERT_EQ(eyes.size(), 2u);
         for (std::size_t c = 0; c < cameras.size(); ++c) {
             const CapturedEye& eye = eyes[c / 3];
@@ -58,7 +58,7 @@ TEST(Capture, photographs_are_those_of_the_hologram) {
     check({});
 }
 
-TEST(Capture, what_was_not_captured_is_refused) {
+TEST(Capture, refuses_cameras_beyond_those_captured) {
     const Field field = speckle();
     const std::vector<Camera> cameras = walk();
     const CapturedEye eye = std::move(capture(field, std::span(cameras).first(3)).front());
@@ -76,13 +76,13 @@ TEST(Capture, what_was_not_captured_is_refused) {
     EXPECT_TRUE(refused([](Camera& camera) { camera.eye.x = 1e-6; }));
     EXPECT_TRUE(refused([](Camera& camera) { camera.pupil = 3.1e-3; }));
     EXPECT_TRUE(refused([](Camera& camera) { camera.focus_depth = 3e-3; }));
-    EXPECT_THROW(capture(field, cameras, {}, {.memory = 1000}), Error);
+    EXPECT_THROW(capture(field, cameras, {.memory = 1000}), Error);
     // A focus far off takes a larger film, whichever camera asks for it.
     std::vector<Camera> far(2, cameras[0]);
     far[1].focus_depth = -0.95 * far[1].eye.z;
     far[1].pupil = 0.9 * far[0].pupil;
-    capture(field, std::span(far).first(1), {}, {.memory = 3 << 20});
-    EXPECT_THROW(capture(field, far, {}, {.memory = 3 << 20}), Error);
+    capture(field, std::span(far).first(1), {.memory = 3 << 20});
+    EXPECT_THROW(capture(field, far, {.memory = 3 << 20}), Error);
 }
 
 }  // namespace

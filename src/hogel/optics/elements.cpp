@@ -72,7 +72,7 @@ void thin_lens(Wave& wave, double center_x, double center_y, double diameter, do
         throw Error(ErrorCode::usage, fmt::format("a lens with a focal length of {} m", focal_length));
     const double wavelength = wave.grid().wavelength;
     const double pitch = std::max(wave.grid().plane.pitch_x, wave.grid().plane.pitch_y);
-    // The phase turns a/(λl) times a metre at its edge, of which samples tell half a turn each.
+    // At its edge the phase runs at a/(λl) cycles a metre, of which samples can hold half a cycle each.
     const double widest = wavelength * std::abs(focal_length) / pitch;
     if (diameter > widest)
         throw Error(

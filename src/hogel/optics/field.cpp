@@ -70,7 +70,8 @@ Field::Field(const FieldGrid& grid) : grid_(grid) {
 
 void Field::read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const {
     validate(region, grid_, out.shape());
-    if (look >= looks()) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a field that has one", look));
+    if (look >= looks())
+        throw Error(ErrorCode::usage, fmt::format("a field in memory has one look, but look {} was read", look));
     for (std::size_t y = 0; y < region.height; ++y)
         std::copy_n(&samples(region.y0 + y, region.x0), region.width, &out(y, 0));
 }
@@ -82,6 +83,7 @@ void Field::write(const Region& region, View<const std::complex<float>, 2> value
 }
 
 void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Progress& progress) {
+    const core::StopScope scope(progress);
     const Grid& plane = source.grid().plane;
     const std::size_t side = aligned_side(source.alignment());
     // Whole rows lie one after the other in memory, as a region's do, so a region of them can be read in place.

@@ -39,7 +39,7 @@ TEST(FieldGrid, coordinates_are_those_of_the_notation) {
     EXPECT_NEAR(plane.row(plane.y(1)), 1, 1e-9);
 }
 
-TEST(Field, every_region_reads_the_slice_and_writes_it_back) {
+TEST(Field, regions_read_and_write_their_slices) {
     const FieldGrid grid = plane_of(7, 5);
     const Field field = numbered(grid);
     for (std::size_t y0 = 0; y0 < 5; ++y0)
@@ -110,7 +110,7 @@ TEST(Field, copy_carries_every_sample_in_aligned_regions) {
     }
 }
 
-TEST(Field, rejects_regions_outside_arrays_of_another_shape_and_looks_it_lacks) {
+TEST(Field, refuses_regions_outside_and_arrays_of_another_shape_and_looks_beyond_the_first) {
     Field field(plane_of(7, 5));
     Array<std::complex<float>, 2> values({2, 2});
     constexpr std::size_t huge = std::numeric_limits<std::size_t>::max();
@@ -122,7 +122,7 @@ TEST(Field, rejects_regions_outside_arrays_of_another_shape_and_looks_it_lacks) 
     EXPECT_THROW(field.read({0, 0, 2, 2}, 1, values), Error);
 }
 
-TEST(FieldGrid, validate_names_what_is_wrong) {
+TEST(FieldGrid, validate_names_the_wrong_member) {
     const auto message = [](auto change) -> std::string {
         FieldGrid g = plane_of(4, 3);
         change(g);

@@ -16,7 +16,7 @@ constexpr std::size_t blocks_of(std::size_t lines, std::size_t size = lines_toge
 /// Room between lines of so many samples, so that they do not all begin in the same places of the caches.
 constexpr std::size_t stride_of(std::size_t samples) { return (samples + 15) / 8 * 8; }
 
-/// Where frequency j stands in a transform of n samples.
+/// The index of frequency j in a transform of n samples.
 constexpr std::size_t wrapped(std::ptrdiff_t j, std::size_t n) {
     const auto size = static_cast<std::ptrdiff_t>(n);
     return static_cast<std::size_t>(((j % size) + size) % size);

@@ -20,7 +20,7 @@ double response(double frequency) {
     return sum;
 }
 
-TEST(LowPass, passes_half_the_band_and_stops_what_would_fold_onto_it) {
+TEST(LowPass, passes_half_the_band_and_stops_its_aliases) {
     for (double f = 0; f <= LowPass::pass; f += 0.01) EXPECT_NEAR(response(f), 1, 4e-4) << f;
     for (double f = LowPass::stop; f < 8; f += 0.01) EXPECT_NEAR(response(f), 0, 4e-4) << f;
     EXPECT_NEAR(response(0.5), 0.5, 1e-3);

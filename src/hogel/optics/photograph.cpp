@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/parallel.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/units.h"
@@ -104,8 +105,9 @@ void require_light_towards(const FieldGrid& hologram, const Camera& camera) {
     check(std::max(-band.low_y, band.high_y), hologram.plane.pitch_y, "y");
 }
 
-std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras, const Progress& progress,
-                              const PhotographOptions& options) {
+std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
+                              const PhotographOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     const auto memory = static_cast<double>(options.memory);
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);
     std::vector<Image> images;

@@ -57,7 +57,7 @@ struct Need {
     double fixed = 0, a_look = 0;
 };
 
-// What one pass over a window keeps in memory.
+// The memory of one pass over a window.
 Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes) {
     Need bytes;
     double largest = 0;
@@ -65,7 +65,7 @@ Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std:
         const narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
         const film::FilmSize film(band, hologram, eye.pupil, eye.blur);
         bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
-        // Tiles on their way into the band.
+        // Tiles that are being added to the band.
         const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
                             2 * narrow_band::NarrowBand::margin;
         bytes.a_look += 8.0 * static_cast<double>(core::default_in_flight()) * tile * tile;
@@ -104,7 +104,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
             const double work =
                 static_cast<double>(passes.size()) * read / static_cast<double>(hologram.plane.samples());
             if (work >= min_work) continue;
-            // Windows at the ends and in the middle stand for all: what they take varies slowly from one to the next.
+            // Windows at the ends and in the middle represent all: their memory varies slowly from one to the next.
             std::set<std::size_t> probes{0, list.size() / 2, list.size() - 1, list.size() / 4, 3 * list.size() / 4};
             double fixed = 0, a_look = 0;
             for (const auto& pass : passes)
@@ -148,7 +148,7 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
     for (const Camera& camera : cameras) {
         validate(camera);
         narrow_band::NarrowBand(hologram, camera.eye,
-                                camera.pupil);  // says so where the pupil is too wide for the pitch
+                                camera.pupil);  // throws where the pupil is too wide for the pitch
     }
     if (cameras.empty()) return {};
     const std::span<const std::size_t> counts =

@@ -21,15 +21,15 @@ struct PhotographPlan {
     std::vector<Window> windows;
 
     double bytes = 0;         ///< at the most, with one look at a time
-    double bytes_a_look = 0;  ///< what each look more takes
+    double bytes_a_look = 0;  ///< for each further look
 
-    /// How many of so many looks there is memory for at a time; at least one.
+    /// How many of `looks` looks there is memory for at a time; at least one.
     std::size_t looks_at_once(double memory, std::size_t looks) const;
 
     enum class Windows { one, many };
 };
 
-/// The plan with least work. Throws Error(usage) with a pupil that would do where there is none.
+/// The plan with least work. Throws Error(usage) where there is none, naming a pupil that would do.
 /// @param windows  whether the hologram may be taken in parts
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                                 PhotographPlan::Windows windows = PhotographPlan::Windows::many);

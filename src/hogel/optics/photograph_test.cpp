@@ -122,7 +122,7 @@ TEST(Photograph, a_diffuse_field_has_its_radiance_from_everywhere) {
         }
 }
 
-TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
+TEST(Photograph, averages_looks) {
     const FieldGrid grid{{300, 200, 5_um, 5_um, 0, 0}, 532_nm};
     const Field field = spherical_wave(grid, {0, 0, -5e-3});
     // Two looks that are the same field: their average is each of them.
@@ -146,7 +146,7 @@ TEST(Photograph, is_the_same_for_every_look_order_and_averages_them) {
 }
 
 // The chain of plane waves against the narrow band: speckle for speckle the same picture, on axis and at 20°.
-TEST(Photograph, by_the_full_chain_is_the_same_picture) {
+TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera) {
     const FieldGrid grid{{1300, 1200, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
     const Field field = random_field(grid, 8);
     std::vector<Camera> cameras;
@@ -158,18 +158,18 @@ TEST(Photograph, by_the_full_chain_is_the_same_picture) {
             camera.focus_depth = focus;
             camera.picture = {52, 48, 20_um, 20_um, 0.1_mm, -0.1_mm};
         }
-    const auto narrow = photograph(field, cameras), full = photograph_fully(field, cameras);
+    const auto narrow = photograph(field, cameras), full = photograph_by_plane_waves(field, cameras);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         // Aslant it is 0.9994 where the pupil's disc is not bent among the frequencies.
         EXPECT_GT(correlation(narrow[c], full[c]), 0.9997) << c;
-        // What light leaves the film at one side comes in again at the other in the narrow band alone.
+        // Only in the narrow band, light that leaves the film at one side wraps around to the other.
         EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 7e-3) << c;
     }
 }
 
 // The waves behind the full chain's picture: their squares are its speckle, and of the wave that comes from a point the
-// phase is that of the light's way, once around for each wavelength, wherever the point lies.
-TEST(Photograph, waves_in_focus_have_the_phases_of_their_ways) {
+// phase is that of the light's path, a cycle for each wavelength, wherever the point lies.
+TEST(WavesInFocus, have_the_phases_of_their_paths) {
     Camera camera;
     camera.eye = {6_mm, -3_mm, 60_mm};
     camera.pupil = 3_mm;
@@ -191,15 +191,15 @@ TEST(Photograph, waves_in_focus_have_the_phases_of_their_ways) {
             if (std::hypot(x, y) > 0.6 * cell) continue;
             EXPECT_LT(std::abs(std::arg(here(row, column) / here(15, 15))), 0.2) << row << ' ' << column;
         }
-    FullCameraOptions film;
+    PlaneWaveCameraOptions film;
     film.film_distance = 10_mm;
     Field any({{64, 64, 0.8_um, 0.8_um, 0, 0}, 633_nm});
-    EXPECT_THROW(waves_in_focus(any, 0, std::span(&camera, 1), {}, film), Error);
+    EXPECT_THROW(waves_in_focus(any, 0, std::span(&camera, 1), film), Error);
 }
 
-// A plane in focus that is tilted is one plane wave for another in the full chain, and a phase of the pupil that
+// A plane in focus that is tilted is one plane wave for another in the plane-wave camera, and a phase of the pupil that
 // depends on the direction in the narrow band.
-TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
+TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera_on_a_tilted_plane) {
     const FieldGrid grid{{700, 640, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
     const Field field = random_field(grid, 9);
     for (const Vec3 eye : {Vec3{0, 0, 50_mm}, Vec3{12_mm, -4_mm, 50_mm}}) {
@@ -211,17 +211,17 @@ TEST(Photograph, by_the_full_chain_on_a_tilted_plane_is_the_same_picture) {
         camera.focus_slope_y = -0.8;
         camera.picture = {40, 36, 14_um, 14_um, 0.1_mm, -0.1_mm};
         const Image narrow = photograph(field, std::span(&camera, 1))[0],
-                    full = photograph_fully(field, std::span(&camera, 1))[0];
+                    full = photograph_by_plane_waves(field, std::span(&camera, 1))[0];
         EXPECT_GT(correlation(narrow, full), 0.999) << eye.x;
         EXPECT_NEAR(sum(narrow) / sum(full), 1, 1e-2) << eye.x;
         camera.focus_slope_y = 0.8;
-        EXPECT_LT(correlation(photograph_fully(field, std::span(&camera, 1))[0], full), 0.99) << eye.x;
+        EXPECT_LT(correlation(photograph_by_plane_waves(field, std::span(&camera, 1))[0], full), 0.99) << eye.x;
     }
 }
 
 // A thin lens and a film behind it make the picture that a perfect lens makes, where the pupil is so narrow that a
 // parabola is a sphere, whatever the film's distance; and another one through a wide pupil.
-TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
+TEST(PhotographByPlaneWaves, a_thin_lens_is_perfect_for_a_narrow_pupil) {
     const FieldGrid grid{{280, 250, 1.5_um, 1.5_um, 50_um, 0}, 633_nm};
     const Field field = random_field(grid, 10);
     const auto alike = [&](double pupil, double focus, double film_distance) {
@@ -230,8 +230,8 @@ TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
         camera.pupil = pupil;
         camera.focus_depth = focus;
         camera.picture = {40, 36, 10_um, 10_um, 50_um, 0};
-        const Image perfect = photograph_fully(field, std::span(&camera, 1))[0];
-        const Image thin = photograph_fully(field, std::span(&camera, 1), {}, {{}, film_distance})[0];
+        const Image perfect = photograph_by_plane_waves(field, std::span(&camera, 1))[0];
+        const Image thin = photograph_by_plane_waves(field, std::span(&camera, 1), {{}, film_distance})[0];
         // A blurred point sends some of its light beside the film.
         EXPECT_NEAR(sum(thin) / sum(perfect), 1, pupil < 1_mm ? 1e-2 : 3e-2) << pupil << " " << film_distance;
         return correlation(perfect, thin);
@@ -244,7 +244,7 @@ TEST(Photograph, a_thin_lens_is_perfect_for_a_narrow_pupil) {
 
 // With little memory a hologram is photographed window by window and a camera at a time: the same picture, but for what
 // light falls far from its place.
-TEST(Photograph, in_windows_is_the_same_picture) {
+TEST(Photograph, window_by_window_is_the_same_picture) {
     const FieldGrid grid{{8000, 150, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
     const Field field = random_field(grid, 6);
     std::vector<Camera> cameras(2);
@@ -259,7 +259,7 @@ TEST(Photograph, in_windows_is_the_same_picture) {
     const PhotographPlan plan = plan_photographs(grid, cameras, double(little.memory));
     EXPECT_LE(plan.bytes, double(little.memory));
     EXPECT_GT(plan.windows.size(), 1u);
-    const auto parts = photograph(field, cameras, {}, little);
+    const auto parts = photograph(field, cameras, little);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         EXPECT_GT(correlation(parts[c], whole[c]), 0.9998) << c;
         EXPECT_NEAR(sum(parts[c]) / sum(whole[c]), 1, 2e-3) << c;
@@ -270,8 +270,8 @@ TEST(Photograph, no_camera_takes_no_photograph) {
     EXPECT_TRUE(photograph(Field({{100, 100, 2_um, 2_um, 0, 0}, 633_nm}), {}).empty());
 }
 
-// What a wide lens takes of a large hologram: the plan keeps within its bound whatever is asked of it.
-TEST(Photograph, plans_keep_within_the_memory_or_say_which_pupil_does) {
+// A wide lens and a large hologram: every plan keeps within its bound.
+TEST(PhotographPlan, keeps_within_the_memory_or_names_a_pupil_that_does) {
     const FieldGrid grid{{12800, 12800, 1.5625_um, 1.5625_um, 0, 0}, 460_nm};
     std::vector<Camera> cameras(6);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -295,13 +295,13 @@ TEST(Photograph, plans_keep_within_the_memory_or_say_which_pupil_does) {
     }
 }
 
-TEST(Photograph, an_eye_where_no_light_goes_is_refused_with_a_pitch_that_would_do) {
+TEST(RequireLightTowards, names_a_pitch_that_sends_light_to_the_eye) {
     const FieldGrid grid{{100, 100, 2_um, 2_um, 0, 0}, 633_nm};
     Camera camera;
     camera.eye = {0, 30_mm, 100_mm};
     camera.picture = {8, 8, 20_um, 20_um, 0, 0};
     try {
-        photograph_fully(Field(grid), std::span(&camera, 1));
+        photograph_by_plane_waves(Field(grid), std::span(&camera, 1));
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -313,7 +313,7 @@ TEST(Photograph, an_eye_where_no_light_goes_is_refused_with_a_pitch_that_would_d
     require_light_towards(grid, camera);
 }
 
-TEST(Photograph, a_pupil_too_wide_for_the_pitch_is_refused_with_one_that_would_do) {
+TEST(Photograph, names_a_pupil_that_would_do_where_one_is_too_wide_for_the_pitch) {
     const FieldGrid grid{{64, 64, 20_um, 20_um, 0, 0}, 633_nm};
     const Field field(grid);
     Camera camera;

@@ -17,7 +17,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// 1 within reach, 0 beyond reach and fade, and a smooth way between.
+// 1 within reach, 0 beyond reach and fade, and smooth between.
 double passes(double distance, double reach, double fade) {
     if (distance <= reach) return 1;
     if (distance >= reach + fade) return 0;
@@ -25,49 +25,49 @@ double passes(double distance, double reach, double fade) {
     return c * c;
 }
 
-// The directions of one row of a spectrum, on their way.
+// The directions of one row of a spectrum, and how each is propagated.
 class RowOfDirections {
   public:
-    RowOfDirections(const Spectrum& spectrum, const PropagationOptions& way, double row)
+    RowOfDirections(const Spectrum& spectrum, const PropagationOptions& options, double row)
         : spectrum_(spectrum),
-          way_(way),
+          options_(options),
           frequency_(1 / spectrum.wavelength),
           fy_(spectrum.frequency_y(row)),
-          reach_x_(way.reach_x > 0 ? way.reach_x : 0.5 * spectrum.window.size_x()),
-          reach_y_(way.reach_y > 0 ? way.reach_y : 0.5 * spectrum.window.size_y()) {}
+          reach_x_(options.reach_x > 0 ? options.reach_x : 0.5 * spectrum.window.size_x()),
+          reach_y_(options.reach_y > 0 ? options.reach_y : 0.5 * spectrum.window.size_y()) {}
 
-    // The phase that a direction gains.
-    double turns(double column) const {
-        return along_z(column) * way_.distance + fx(column) * way_.shift_x + fy_ * way_.shift_y;
+    // The phase that a direction gains, in cycles.
+    double cycles(double column) const {
+        return along_z(column) * options_.distance + fx(column) * options_.shift_x + fy_ * options_.shift_y;
     }
 
-    // How far the phase of so many columns is from a parabola through both ends and the middle: the third derivative,
+    // How far the phase over `count` columns is from a parabola through both ends and the middle: the third derivative,
     // 3 z f_x f_z⁻⁵/λ² at most, times the cube of half of them and 0.065.
     double bend(double column, double count) const {
         const double fz = std::min(along_z(column), along_z(column + count));
         const double steepest = std::max(std::abs(fx(column)), std::abs(fx(column + count)));
         const double half = 0.5 * count / spectrum_.window.size_x();
-        return 0.2 * std::abs(way_.distance) * steepest * frequency_ * frequency_ / std::pow(fz, 5) * half * half *
+        return 0.2 * std::abs(options_.distance) * steepest * frequency_ * frequency_ / std::pow(fz, 5) * half * half *
                half;
     }
 
-    // How much of a direction stays.
+    // The share of a direction's amplitude that is kept.
     double stays(double column) const {
         const double fz = along_z(column);
         if (fz <= 0) return 0;
-        return passes(std::abs(aside_x(column, fz)), reach_x_, way_.fade_x) *
-               passes(std::abs(aside_y(fz)), reach_y_, way_.fade_y);
+        return passes(std::abs(aside_x(column, fz)), reach_x_, options_.fade_x) *
+               passes(std::abs(aside_y(fz)), reach_y_, options_.fade_y);
     }
 
-    // How far directions travel aside grows or falls all the way between two columns on the same side of f_x = 0: so
-    // where both ends stay whole, all between does, and where both are lost on the same side, all is.
+    // The sideways path of directions is monotonic between two columns on the same side of f_x = 0: so where both ends
+    // are kept whole, all between are, and where both are lost on the same side, all are.
     enum class Stays { whole, partly, lost };
     Stays between(double first, double last) const {
         const double fz0 = along_z(first), fz1 = along_z(last);
         if (fx(first) * fx(last) < 0 || fz0 <= 0 || fz1 <= 0) return Stays::partly;
         const auto [left, right] = std::minmax({aside_x(first, fz0), aside_x(last, fz1)});
         const auto [low, high] = std::minmax({aside_y(fz0), aside_y(fz1)});
-        const double lost_x = reach_x_ + way_.fade_x, lost_y = reach_y_ + way_.fade_y;
+        const double lost_x = reach_x_ + options_.fade_x, lost_y = reach_y_ + options_.fade_y;
         if (left > lost_x || right < -lost_x || low > lost_y || high < -lost_y) return Stays::lost;
         const bool whole = left >= -reach_x_ && right <= reach_x_ && low >= -reach_y_ && high <= reach_y_;
         return whole ? Stays::whole : Stays::partly;
@@ -78,19 +78,19 @@ class RowOfDirections {
     double along_z(double column) const {
         return std::sqrt(std::max(frequency_ * frequency_ - fx(column) * fx(column) - fy_ * fy_, 0.0));
     }
-    // Beside the window's own way.
-    double aside_x(double column, double fz) const { return way_.distance * fx(column) / fz - way_.shift_x; }
-    double aside_y(double fz) const { return way_.distance * fy_ / fz - way_.shift_y; }
+    // Sideways path, relative to the window's shift.
+    double aside_x(double column, double fz) const { return options_.distance * fx(column) / fz - options_.shift_x; }
+    double aside_y(double fz) const { return options_.distance * fy_ / fz - options_.shift_y; }
 
     const Spectrum& spectrum_;
-    const PropagationOptions& way_;
+    const PropagationOptions& options_;
     double frequency_, fy_, reach_x_, reach_y_;
 };
 
 void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
     using Stays = RowOfDirections::Stays;
     constexpr std::size_t stretch = 32;
-    constexpr double small = 1e-4;  // of a turn
+    constexpr double small = 1e-4;  // cycles
     for (std::size_t begin = 0; begin < samples.size(); begin += stretch) {
         const std::size_t count = std::min(stretch, samples.size() - begin);
         const double at = static_cast<double>(begin);
@@ -106,23 +106,24 @@ void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
         };
         if (row.bend(at, stretch) < small) {
             walk_phase(
-                count, [&](double step) { return row.turns(at + step); }, times_phase);
+                count, [&](double step) { return row.cycles(at + step); }, times_phase);
         } else {
-            for (std::size_t i = 0; i < count; ++i) times_phase(i, unit_phasor(row.turns(at + static_cast<double>(i))));
+            for (std::size_t i = 0; i < count; ++i)
+                times_phase(i, unit_phasor(row.cycles(at + static_cast<double>(i))));
         }
     }
 }
 
 }  // namespace
 
-void propagate(Spectrum& spectrum, const PropagationOptions& way) {
+void propagate(Spectrum& spectrum, const PropagationOptions& options) {
     core::parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
         for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
             propagate_row(spectrum.samples.view()[r].elements(),
-                          RowOfDirections(spectrum, way, static_cast<double>(r)));
+                          RowOfDirections(spectrum, options, static_cast<double>(r)));
     });
-    spectrum.window.center_x += way.shift_x;
-    spectrum.window.center_y += way.shift_y;
+    spectrum.window.center_x += options.shift_x;
+    spectrum.window.center_y += options.shift_y;
 }
 
 }  // namespace hogel::optics
@@ -131,14 +132,18 @@ namespace hogel {
 
 using namespace optics;
 
-void propagate(const FieldSource& source, double distance, FieldSink& sink, std::size_t look,
-               const ScratchOptions& scratch, const Progress& progress) {
+void propagate(const FieldSource& source, double distance, FieldSink& sink, const PropagateOptions& options,
+               const Progress& progress) {
+    const core::StopScope scope(progress);
+    const ScratchOptions& scratch = options.scratch;
     const Grid& plane = source.grid().plane;
     validate(source.grid(), ErrorCode::usage, "propagated field");
-    if (!std::isfinite(distance)) throw Error(ErrorCode::usage, fmt::format("a field cannot go on for {} m", distance));
+    if (!std::isfinite(distance))
+        throw Error(ErrorCode::usage,
+                    fmt::format("a field cannot be propagated by {} m; the distance must be finite", distance));
     Spectrum waves =
-        spectrum_of(source, look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane), scratch,
-                    [&](double done) { return !progress || progress(0.4 * done); });
+        spectrum_of(source, options.look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane),
+                    scratch, [&](double done) { return !progress || progress(0.4 * done); });
     propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
     progress.report(0.6);
     const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
@@ -154,9 +159,9 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, std:
     progress.report(1);
 }
 
-Field propagate(const FieldSource& source, double distance, std::size_t look) {
+Field propagate(const FieldSource& source, double distance, const PropagateOptions& options, const Progress& progress) {
     Field result(source.grid());
-    propagate(source, distance, result, look, {SIZE_MAX, {}});
+    propagate(source, distance, result, options, progress);
     return result;
 }
 

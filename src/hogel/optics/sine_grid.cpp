@@ -22,13 +22,13 @@ struct Range {
 // How fast the sines change over the plane, per metre, where that is slowest.
 double min_slope(const ViewGeometry& geometry, const Grid& plane) {
     // dn_x/dx = (1 - n_x²)/r, and the same in y, are least at the corners that are farthest from the eye.
-    double least = std::numeric_limits<double>::infinity();
+    double slope = std::numeric_limits<double>::infinity();
     for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
         for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2}) {
             const double sine = std::max(std::abs(geometry.sine_x(x, y)), std::abs(geometry.sine_y(x, y)));
-            least = std::min(least, (1 - sine * sine) / geometry.distance(x, y));
+            slope = std::min(slope, (1 - sine * sine) / geometry.distance(x, y));
         }
-    return least;
+    return slope;
 }
 
 }  // namespace
@@ -36,11 +36,11 @@ double min_slope(const ViewGeometry& geometry, const Grid& plane) {
 double defocus_blur(const Camera& camera) {
     const Grid& picture = camera.picture;
     const double R = camera.eye.z, half_x = 0.5 * picture.size_x(), half_y = 0.5 * picture.size_y();
-    double most = 0;
+    double max_change = 0;
     for (double x : {picture.center_x - half_x, picture.center_x + half_x})
         for (double y : {picture.center_y - half_y, picture.center_y + half_y})
-            most = std::max(most, std::abs(1 - 1 / focus_ratio(camera, x, y)));
-    return camera.pupil / R * most;
+            max_change = std::max(max_change, std::abs(1 - 1 / focus_ratio(camera, x, y)));
+    return camera.pupil / R * max_change;
 }
 
 SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, double blur) {
@@ -59,10 +59,10 @@ SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, doubl
         }
     }
     SineGrid grid;
-    // Nowhere coarser than the band itself, which has room for the pupil and its intensity: so nothing folds back.
+    // Nowhere coarser than the band itself, which has room for the pupil and its intensity, so that nothing aliases.
     grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(geometry, plane);
-    // What is out of focus spreads by the blur, and what is in focus by some resolution cells, four samples each; room
-    // for it keeps it from coming in again at the other side.
+    // Light out of focus spreads by the blur, light in focus by some resolution cells of four samples each; the room
+    // keeps both from wrapping around to the other side.
     constexpr double room = 64;
     const auto choose = [&](const Range& range, std::size_t& size, double& first) {
         const double wanted = (range.high - range.low + blur) / grid.step + room;

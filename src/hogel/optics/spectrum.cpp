@@ -21,7 +21,7 @@ namespace {
 using Complex = std::complex<float>;
 
 // e^{−2πi j (½ − N/2)/N} for j = first … first + count − 1: transforms count from the first sample, frequencies from
-// the window's middle. `samples` is N, `sign` −1 for the way into the spectrum.
+// the window's middle. `samples` is N, `sign` −1 for the transform to the spectrum.
 std::vector<Complex> centring(std::ptrdiff_t first, std::size_t count, std::size_t samples, double sign, double scale) {
     std::vector<Complex> phases(count);
     const double n = static_cast<double>(samples);
@@ -34,15 +34,14 @@ std::vector<Complex> centring(std::ptrdiff_t first, std::size_t count, std::size
 
 // The steps of frequency in [low, high] that n samples carry around a carrier.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> steps(double low, double high, double size, std::size_t n, double carrier) {
-    const double most = 0.5 * static_cast<double>(n), middle = std::round(carrier * size);
+    const double half = 0.5 * static_cast<double>(n), middle = std::round(carrier * size);
     constexpr double rounding = 1e-6;
-    const double first = std::max(std::ceil(low * size - rounding), middle - std::floor(most));
-    const double last = std::min(std::floor(high * size + rounding), middle + std::ceil(most) - 1);
+    const double first = std::max(std::ceil(low * size - rounding), middle - std::floor(half));
+    const double last = std::min(std::floor(high * size + rounding), middle + std::ceil(half) - 1);
     if (!(first <= last))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("no wave between {:.4g} and {:.4g} cycles per mm can be told from others at a pitch of {}",
-                        low * 1e-3, high * 1e-3, format_length(size / static_cast<double>(n))));
+        throw Error(ErrorCode::usage,
+                    fmt::format("a pitch of {2} cannot sample waves between {0:.4g} and {1:.4g} cycles per mm",
+                                low * 1e-3, high * 1e-3, format_length(size / static_cast<double>(n))));
     return {static_cast<std::ptrdiff_t>(first), static_cast<std::ptrdiff_t>(last)};
 }
 
@@ -60,7 +59,7 @@ Wave::Wave(const FieldGrid& grid, const ScratchOptions& scratch) : grid_(grid) {
 
 void Wave::read(const Region& region, std::size_t look, View<Complex, 2> out) const {
     validate(region, grid_, out.shape());
-    if (look != 0) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a wave that has one", look));
+    if (look != 0) throw Error(ErrorCode::usage, fmt::format("a wave has one look, but look {} was read", look));
     for (std::size_t y = 0; y < region.height; ++y)
         std::copy_n(&samples.view()(region.y0 + y, region.x0), region.width, &out(y, 0));
 }
@@ -70,7 +69,7 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
     const auto grown = [](std::size_t samples, double size, double pitch) {
         const auto wanted = static_cast<std::size_t>(std::ceil(size / pitch));
         std::size_t n = math::good_fft_size(std::max(wanted, samples));
-        // The samples stand in the middle, so what is added must be even.
+        // The samples lie in the middle, so an even number must be added.
         while ((n - samples) % 2 != 0) n = math::good_fft_size(n + 1);
         return n;
     };
@@ -101,15 +100,16 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const Grid& plane = source.grid().plane;
     if (window.width < plane.width || window.height < plane.height || (window.width - plane.width) % 2 != 0 ||
         (window.height - plane.height) % 2 != 0 || window.pitch_x != plane.pitch_x || window.pitch_y != plane.pitch_y)
-        throw Error(ErrorCode::usage, fmt::format("a window of {}x{} samples cannot stand around a field of {}x{}",
-                                                  window.width, window.height, plane.width, plane.height));
+        throw Error(ErrorCode::usage,
+                    fmt::format("a window of {}x{} samples cannot hold a field of {}x{} in its middle", window.width,
+                                window.height, plane.width, plane.height));
     Spectrum result = empty_spectrum(window, source.grid().wavelength, band, carrier_x, carrier_y, scratch);
     result.window.center_x = plane.center_x;
     result.window.center_y = plane.center_y;
     const std::ptrdiff_t first_column = result.first_column, first_row = result.first_row;
     const std::size_t columns = result.width(), rows = result.height();
 
-    // Along the rows, of which only the band's columns are kept.
+    // Transforms along the rows, of which the band's columns are kept.
     core::PagedArray half({plane.height, columns}, scratch);
     const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
@@ -139,7 +139,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
         tell();
     });
 
-    // Down the columns, of which only the band's rows are kept.
+    // Transforms down the columns, of which the band's rows are kept.
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
     core::parallel_for(blocks_of(columns), [&](std::size_t block) {
         const std::size_t x0 = block * lines_together, width = std::min(lines_together, columns - x0);
@@ -211,14 +211,15 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
 }
 
 Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength) {
-    const auto least = [](double low, double high) {
+    const auto min_offset = [](double low, double high) {
         return low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
     };
     const double dx_low = to.left - from.right, dx_high = to.right - from.left;
     const double dy_low = to.bottom - from.top, dy_high = to.top - from.bottom;
     const auto sines = [&](double low, double high, double other_low, double other_high) {
         // Outwards the sine is largest where the other offset is least, inwards where it is most.
-        const double near = least(other_low, other_high), far = std::max(std::abs(other_low), std::abs(other_high));
+        const double near = min_offset(other_low, other_high),
+                     far = std::max(std::abs(other_low), std::abs(other_high));
         const auto sine = [&](double offset, double other) { return offset / std::hypot(offset, other, distance); };
         return std::pair(sine(low, low < 0 ? near : far), sine(high, high > 0 ? near : far));
     };

@@ -15,9 +15,9 @@ struct Band {
 };
 
 /// A monochromatic wave as the sum of its plane waves: F(x) = Σ S(f) e^{2πi f·(x−c)} δf_x δf_y, f at steps
-/// δf = 1/size of a window around c that holds the wave. What leaves the window at one side comes in at the other, so
-/// a window is chosen wide enough, or the directions that would leave it are dropped. This is the form in which waves
-/// go from plane to plane ([K] 6.1): each step is a function of its own below.
+/// δf = 1/size of a window around c that holds the wave. Light that leaves the window at one side wraps around to the
+/// other, so a window is chosen wide enough, or the directions that would leave it are dropped. In this form waves are
+/// propagated from plane to plane ([K] 6.1); each step is a function below.
 struct Spectrum {
     Grid window;            ///< what was transformed: its count times its pitch is the window's size, its centre is c
     double wavelength = 0;  ///< metres
@@ -31,7 +31,7 @@ struct Spectrum {
 };
 
 /// A wave on a plane that may not fit into memory; a source like any other. Its samples may be too far apart for its
-/// carrier, but not for what varies around that: they stand for the frequencies that are nearest to the carrier.
+/// carrier, but not for the band around it: they represent the frequencies that are nearest to the carrier.
 class Wave final : public FieldSource {
   public:
     Wave(const FieldGrid& grid, const ScratchOptions& scratch);
@@ -62,19 +62,20 @@ Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, con
 /// carrier is the middle of the spectrum. Throws Error(usage) for fewer.
 Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch = {});
 
-/// How a wave goes on to a parallel plane. Its window moves along, for light that travels aslant.
+/// Propagation to a parallel plane; the window follows the off-axis carrier. All in metres.
 struct PropagationOptions {
-    double distance = 0;              ///< metres; negative goes back
-    double shift_x = 0, shift_y = 0;  ///< of the window
-    double reach_x = 0, reach_y = 0;  ///< directions that travel farther beside the window's own way are dropped
-    double fade_x = 0, fade_y = 0;    ///< and fade out over these metres beyond it
+    double distance = 0;              ///< along +z; negative: back
+    double shift_x = 0, shift_y = 0;  ///< by which the window's centre moves sideways
+    /// Directions that travel sideways by more than the window's shift ± reach are dropped; 0: half the window, beyond
+    /// which the phase is too steep for the steps.
+    double reach_x = 0, reach_y = 0;
+    /// Beyond the reach directions fade out over this distance, instead of ending there at once.
+    double fade_x = 0, fade_y = 0;
 };
 
-/// The angular spectrum, [K] 6.1.1: S e^{2πi f_z z}, f_z = √(1/λ² − f²). What decays instead of travelling is dropped.
-/// What leaves a window of size W comes in again at its other side; a wave D wide that reaches no farther than W − D
-/// does not, where it was. A reach of zero stands for half the window, beyond which the phase is too steep for the
-/// steps.
-void propagate(Spectrum& spectrum, const PropagationOptions& way);
+/// The angular spectrum, [K] 6.1.1: S e^{2πi f_z z}, f_z = √(1/λ² − f²). Evanescent waves are dropped. Light that
+/// leaves a window of size W wraps around; where a wave D wide was, none arrives if the reach is at most W − D.
+void propagate(Spectrum& spectrum, const PropagationOptions& options);
 
 /// The frequencies that light from one rectangle to another on a plane at this distance can have: [K] 6.1.3.
 Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength);

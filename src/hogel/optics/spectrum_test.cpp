@@ -40,13 +40,13 @@ double worst(const Source& field, const Value& value, const Where& where) {
     const Grid& plane = field.grid().plane;
     Array<std::complex<float>, 2> samples({plane.height, plane.width});
     field.read({0, 0, plane.width, plane.height}, 0, samples);
-    double most = 0;
+    double max_error = 0;
     for (std::size_t row = 0; row < plane.height; ++row)
         for (std::size_t column = 0; column < plane.width; ++column) {
             const double x = plane.x(double(column)), y = plane.y(double(row));
-            if (where(x, y)) most = std::max(most, std::abs(Complex(samples(row, column)) - value(x, y)));
+            if (where(x, y)) max_error = std::max(max_error, std::abs(Complex(samples(row, column)) - value(x, y)));
         }
-    return most;
+    return max_error;
 }
 template <class Source, class Value>
 double worst(const Source& field, const Value& value) {
@@ -97,7 +97,7 @@ TEST(Spectrum, a_gaussian_beam_widens_and_curves) {
 
 // The spherical wave e^{ikr}/r of a point at the complex place z = ib solves the wave equation exactly and is a beam
 // with wide tails: no paraxial form to hide behind.
-TEST(Spectrum, a_spherical_wave_stays_one) {
+TEST(Spectrum, a_spherical_wave_stays_spherical) {
     const Grid plane{600, 560, 0.4_um, 0.4_um, 0, 0};
     const double b = 12_um, k = 2 * pi / wavelength;
     const auto wave = [&](double x, double y, double z) {
@@ -202,7 +202,7 @@ TEST(Elements, a_rectangular_opening_makes_fresnels_pattern) {
               1e-3);
 }
 
-TEST(Elements, a_grating_sends_its_orders_where_they_belong) {
+TEST(Elements, a_grating_diffracts_into_its_orders) {
     const Grid plane{400, 32, 1_um, 1_um, 0, 0};
     const double period = 20_um, z = 1.7_mm;
     const Field grating =
@@ -230,7 +230,7 @@ TEST(Elements, a_grating_sends_its_orders_where_they_belong) {
               1e-5);
 }
 
-TEST(Elements, a_lens_too_steep_for_the_samples_is_refused_with_one_that_would_do) {
+TEST(Elements, names_a_lens_that_would_do_where_one_is_too_steep_for_the_samples) {
     Wave wave({{64, 64, 4_um, 4_um, 0, 0}, wavelength}, {});
     try {
         thin_lens(wave, 0, 0, 10_mm, 20_mm);
@@ -243,7 +243,8 @@ TEST(Elements, a_lens_too_steep_for_the_samples_is_refused_with_one_that_would_d
     EXPECT_THROW(circular_aperture(wave, 0, 0, -1_mm), Error);
 }
 
-// A Gaussian beam as a tilted plane cuts it, along both axes at once, with and without a way in between; and back.
+// A Gaussian beam as a tilted plane cuts it, along both axes at once, with and without propagation in between; and
+// back.
 TEST(Tilt, a_tilted_plane_cuts_a_gaussian_beam) {
     const Grid plane{256, 256, 0.8_um, 0.8_um, 0.1_mm, -0.2_mm};
     const double w = 15_um;
@@ -326,7 +327,7 @@ TEST(BandBetween, holds_every_direction_tightly) {
     }
 }
 
-TEST(Spectrum, what_cannot_be_is_refused) {
+TEST(Spectrum, refuses_invalid_windows_bands_and_distances) {
     const Grid plane{64, 64, 1_um, 1_um, 0, 0};
     const Field field(FieldGrid{plane, wavelength});
     EXPECT_THROW(hogel::propagate(field, std::nan("")), Error);

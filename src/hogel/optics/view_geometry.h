@@ -21,8 +21,8 @@ class ViewGeometry {
     double distance(double x, double y) const {
         return std::sqrt((x - eye_.x) * (x - eye_.x) + (y - eye_.y) * (y - eye_.y) + eye_.z * eye_.z);
     }
-    /// Phase kr in turns of the light's path from (x, y, 0) to the eye.
-    double turns(double x, double y) const { return distance(x, y) / wavelength_; }
+    /// Phase kr in cycles of the light's path from (x, y, 0) to the eye.
+    double cycles(double x, double y) const { return distance(x, y) / wavelength_; }
     double cosine(double x, double y) const { return eye_.z / distance(x, y); }
     double sine_x(double x, double y) const { return (x - eye_.x) / distance(x, y); }
     double sine_y(double x, double y) const { return (y - eye_.y) / distance(x, y); }

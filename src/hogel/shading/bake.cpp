@@ -72,7 +72,10 @@ void for_vertices(std::size_t n, const Progress& progress, double from, double t
     std::mutex mutex;
     std::size_t done = 0;
     core::parallel_for(tasks, [&](std::size_t task) {
-        for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) body(i);
+        for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) {
+            core::throw_if_stopped();
+            body(i);
+        }
         const std::lock_guard lock(mutex);
         progress.report(from + (to - from) * static_cast<double>(++done) / static_cast<double>(tasks));
     });
@@ -161,6 +164,7 @@ void require_normals(const Scene& scene) {
 }  // namespace
 
 Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
     require_normals(scene);

@@ -41,11 +41,6 @@ struct GlossyPoint {
 LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
 LightInLobe gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
 
-/// For tests: the instruction sets of this processor that the vector twin is built for, and a way to use one of them
-/// alone, or with 0 the best again. Not while it runs.
-std::vector<std::int64_t> gloss_targets();
-void use_gloss_target(std::int64_t target);
-
 /// A point's numbers in the form that the twins use.
 struct GlossyFloats {
     float px, py, pz, nx, ny, nz, vx, vy, vz;

@@ -81,12 +81,5 @@ LightInLobe gloss(const LampTable& lamps, const float* visibility, const GlossyP
     return HWY_DYNAMIC_DISPATCH(Gloss)(lamps, visibility, point);
 }
 
-std::vector<std::int64_t> gloss_targets() { return hwy::SupportedAndGeneratedTargets(); }
-
-void use_gloss_target(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 }  // namespace hogel::shading
 #endif

@@ -4,20 +4,16 @@
 #include <cmath>
 #include <random>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/shading/gloss.h"
 #include "hogel/shading/illumination.h"
 
 namespace hogel::shading {
 namespace {
 
-class EveryTargetOfGloss : public ::testing::TestWithParam<std::int64_t> {
-  protected:
-    void SetUp() override { use_gloss_target(GetParam()); }
-    void TearDown() override { use_gloss_target(0); }
-};
-INSTANTIATE_TEST_SUITE_P(Gloss, EveryTargetOfGloss, ::testing::ValuesIn(gloss_targets()));
+HOGEL_TEST_ON_EVERY_TARGET(GlossKernels);
 
-TEST_P(EveryTargetOfGloss, both_twins_give_the_sum_of_the_lobes_of_all_lamps_in_the_same_bits) {
+TEST_P(GlossKernels, both_twins_give_the_sum_of_the_lobes_of_all_lamps_in_the_same_bits) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> part(0, 1), coordinate(-0.05, 0.05);
     const auto unit = [&] {

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/shading/lighting.h"
 
@@ -103,6 +104,7 @@ double shadow_map_bytes(const Scene& scene, const ShadingOptions& options) {
 
 void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedScene& shaded,
                       const Progress& progress) {
+    const core::StopScope scope(progress);
     const ShadingInfo& model = shading_models().find(options.model);
     validate(scene);
     require_normals(scene);

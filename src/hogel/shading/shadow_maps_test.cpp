@@ -3,22 +3,17 @@
 
 #include <random>
 
-#include "hogel/shading/gloss.h"
+#include "hogel/core/test_targets.h"
 #include "hogel/shading/shadow_maps.h"
 #include "hogel/shading/test_scenes.h"
 
 namespace hogel::shading {
 namespace {
 
-class EveryTargetOfShadowMaps : public ::testing::TestWithParam<std::int64_t> {
-  protected:
-    void SetUp() override { use_gloss_target(GetParam()); }
-    void TearDown() override { use_gloss_target(0); }
-};
-INSTANTIATE_TEST_SUITE_P(ShadowMaps, EveryTargetOfShadowMaps, ::testing::ValuesIn(gloss_targets()));
+HOGEL_TEST_ON_EVERY_TARGET(ShadowMapKernels);
 
 // Random squares between point and directional lights on all sides, some without shadows.
-TEST_P(EveryTargetOfShadowMaps, vector_and_plain_twin_give_the_same_bits) {
+TEST_P(ShadowMapKernels, vector_and_plain_twin_give_the_same_bits) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> coordinate(-1, 1);
     const auto somewhere = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };

@@ -8,6 +8,7 @@
 
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/format/colour.h"
+#include "hogel/codec/format/unfolded.h"
 #include "hogel/coding/ezw.h"
 #include "hogel/coding/jpeg4d.h"
 #include "hogel/coding/quantise.h"
@@ -153,9 +154,7 @@ double usable_step(std::span<const float> values, double step) {
 
 class ThreePassCoder final : public ClassicCoder {
   public:
-    ThreePassCoder(std::string_view name, const DirectionCross& counted, Content content, std::uint32_t version)
-        : ClassicCoder(name, counted, content),
-          code_(version < 3 ? coding::ThreePassCode::alphabets : coding::ThreePassCode::bits) {}
+    using ClassicCoder::ClassicCoder;
 
   private:
     std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
@@ -164,14 +163,12 @@ class ThreePassCoder final : public ClassicCoder {
     }
     void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
-        coding::three_pass_decode(pyramid, code, values, code_);
+        coding::three_pass_decode(pyramid, code, values);
     }
     void round_channel(const transform::Pyramid&, std::span<const std::uint8_t> code,
                        std::span<float> values) const override {
         coding::three_pass_round(code, values);
     }
-
-    coding::ThreePassCode code_;
 };
 
 class EzwCoder final : public ClassicCoder {
@@ -199,8 +196,9 @@ class EzwCoder final : public ClassicCoder {
 
 class Jpeg4dCoder final : public ClassicCoder {
   public:
-    Jpeg4dCoder(std::string_view name, const DirectionCross& counted, coding::QuantisationTable table)
-        : ClassicCoder(name, counted), table_(table) {}
+    Jpeg4dCoder(std::string_view name, const DirectionCross& counted, QuantisationTable table)
+        : ClassicCoder(name, counted),
+          table_(table == QuantisationTable::jpeg ? coding::QuantisationTable::jpeg : coding::QuantisationTable::own) {}
 
   private:
     std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
@@ -217,21 +215,36 @@ class Jpeg4dCoder final : public ClassicCoder {
     coding::QuantisationTable table_;
 };
 
+// Throws Error(usage) unless the method's transform is a wavelet, or the cosine transform of blocks.
+void require_transform(const CodingMethod& method, bool wavelet) {
+    if (transform::transform(method.transform).is_wavelet() == wavelet) return;
+    throw Error(ErrorCode::usage, fmt::format("coder {} does not go with transform {}; expected {}", method.coder,
+                                              method.transform, wavelet ? "a wavelet" : "dct8"));
+}
+
 }  // namespace
 
-std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const DirectionCross& counted,
-                                              std::uint32_t version) {
-    const bool blocks = !transform::transform(method.transform).is_wavelet();
-    if (blocks != (method.coder == "jpeg4d"))
-        throw Error(ErrorCode::usage,
-                    fmt::format("coder {} does not go with transform {}; expected {}", method.coder, method.transform,
-                                blocks                     ? "jpeg4d with dct8"
-                                : method.coder == "jpeg4d" ? "dct8"
-                                                           : "a wavelet"));
-    if (method.coder == "ezw") return std::make_unique<EzwCoder>(method.transform, counted);
-    if (method.coder == "jpeg4d") return std::make_unique<Jpeg4dCoder>(method.transform, counted, method.table);
-    const Content content = method.coder == "fringes" ? Content::amplitude : Content::radiance;
-    return std::make_unique<ThreePassCoder>(method.transform, counted, content, version);
+std::unique_ptr<TileCoder> make_threepass(const CodingMethod& method, const LightFieldGrid&,
+                                          const DirectionCross& counted) {
+    require_transform(method, true);
+    return std::make_unique<ThreePassCoder>(method.transform, counted);
+}
+
+std::unique_ptr<TileCoder> make_ezw(const CodingMethod& method, const LightFieldGrid&, const DirectionCross& counted) {
+    require_transform(method, true);
+    return std::make_unique<EzwCoder>(method.transform, counted);
+}
+
+std::unique_ptr<TileCoder> make_jpeg4d(const CodingMethod& method, const LightFieldGrid&,
+                                       const DirectionCross& counted) {
+    require_transform(method, false);
+    return std::make_unique<Jpeg4dCoder>(method.transform, counted, method.table);
+}
+
+std::unique_ptr<TileCoder> make_fringes(const CodingMethod& method, const LightFieldGrid&,
+                                        const DirectionCross& counted) {
+    require_transform(method, true);
+    return std::make_unique<ThreePassCoder>(method.transform, counted, Content::amplitude);
 }
 
 }  // namespace hogel::codec::baselines

@@ -3,15 +3,21 @@
 
 #include <memory>
 
-#include "hogel/codec/tile_coder.h"
+#include "hogel/compress.h"
 
 namespace hogel::codec::baselines {
 
-// The coders of [K] chapter 4: a transform over all four dimensions of each colour channel of a tile, interleaved, and
-// its coefficients into a zerotree coder or, for the windowed DCT, JPEG in four dimensions.
+// The coders of [K] chapter 4: a transform over all four dimensions of each colour channel of a tile, whose
+// coefficients go into a zerotree coder or, for the windowed DCT, into JPEG in four dimensions.
 // Bytes of a tile: for each channel the length as 32 bits, and the coder's stream.
-// @param version   of the format
-std::unique_ptr<TileCoder> make_classic_coder(const CodingMethod& method, const format::DirectionCross& counted,
-                                              std::uint32_t version);
+// All throw Error(usage) for a transform that does not exist or does not suit the coder.
+std::unique_ptr<TileCoder> make_threepass(const CodingMethod& method, const LightFieldGrid& grid,
+                                          const DirectionCross& counted);
+std::unique_ptr<TileCoder> make_ezw(const CodingMethod& method, const LightFieldGrid& grid,
+                                    const DirectionCross& counted);
+std::unique_ptr<TileCoder> make_jpeg4d(const CodingMethod& method, const LightFieldGrid& grid,
+                                       const DirectionCross& counted);
+std::unique_ptr<TileCoder> make_fringes(const CodingMethod& method, const LightFieldGrid& grid,
+                                        const DirectionCross& counted);
 
 }  // namespace hogel::codec::baselines

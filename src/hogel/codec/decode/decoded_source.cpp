@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hogel/codec/format/stream_file.h"
+#include "hogel/codec/format/unfolded.h"
 #include "hogel/core/lru_cache.h"
 #include "hogel/error.h"
 
@@ -39,7 +40,7 @@ class DecodedStream {
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
                                     path.string(), info().method.coder));
-        if (info().mapping.changes())
+        if (info().companding.changes())
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is coded along a tone curve, or with coarser chrominance; expected radiances "
                                     "as they are",
@@ -49,7 +50,7 @@ class DecodedStream {
                         fmt::format("{}: is a hemicube; expected the directions of a single face", path.string()));
     }
 
-    const StreamInfo& info() const { return reader_.info(); }
+    const StreamHeader& info() const { return reader_.info(); }
 
     // Reads a face: as many directions as the tile has of a part, from a place on.
     void read(std::size_t part, Unfolding::Place place, LightFieldTile& tile) const {
@@ -183,7 +184,7 @@ class DecodedFace final : public LightFieldSource {
     void read(LightFieldTile& tile) const override {
         validate(tile, grid_);
         stream_->read(part_, place_, tile);
-        stream_->info().mapping.undo(tile.radiance.view());
+        stream_->info().companding.undo(tile.radiance.view());
         if (depth_ && tile.depth.size() > 0) read_depth(*depth_, stream_->info().depth.beyond, tile);
     }
 
@@ -197,27 +198,22 @@ class DecodedFace final : public LightFieldSource {
 
 }  // namespace
 
-std::unique_ptr<LightFieldSource> open_stream(const std::filesystem::path& path, const StreamOptions& options) {
-    return std::move(open_stream_faces(path, options).front());
-}
-
-std::vector<std::unique_ptr<LightFieldSource>> open_stream_faces(const std::filesystem::path& path,
-                                                                 const StreamOptions& options) {
+LightField open_stream(const std::filesystem::path& path, const StreamOptions& options) {
     const auto stream = std::make_shared<const DecodedStream>(path, options, false);
     const StreamInfo& info = stream->info();
     std::shared_ptr<const DecodedStream> depth;
     if (info.depth_there || (info.depth.bytes > 0 && options.layers == 0))
         depth = std::make_shared<const DecodedStream>(path, StreamOptions{.memory = options.memory}, false,
                                                       StreamReader::Content::its_depth);
-    std::vector<std::unique_ptr<LightFieldSource>> faces;
+    std::vector<LightField::Source> faces;
     for (std::size_t face = 0; face <= info.sides.size(); ++face)
-        faces.push_back(std::make_unique<DecodedFace>(
+        faces.push_back(std::make_shared<const DecodedFace>(
             stream, face, depth ? std::make_unique<DecodedFace>(depth, face) : std::unique_ptr<DecodedFace>()));
-    return faces;
+    return LightField(std::move(faces));
 }
 
-std::unique_ptr<LightFieldSource> open_coefficients(const std::filesystem::path& path) {
-    return std::make_unique<DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
+LightField open_coefficients(const std::filesystem::path& path) {
+    return std::make_shared<const DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
 }
 
 }  // namespace hogel

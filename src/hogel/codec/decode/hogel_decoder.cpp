@@ -18,26 +18,24 @@ namespace {
 
 constexpr std::size_t header_bytes = 9;
 
-TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
-                     std::uint32_t version) {
+TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range) {
     ByteReader header(bytes, "tile");
     if (!hogel_tile_fits(grid, range)) header.damaged("it is too large");
     const float step = header.take_float(), growth = header.take_float();
     if (!(step > 0 && std::isfinite(step) && growth >= 1 && growth <= 4)) header.damaged("its steps are no steps");
     const auto references = header.take<std::uint8_t>();
     if (references == 0) header.damaged("its hogels have no references");
-    return TileSetup(HogelOrder(range.ns, range.nt, references, tellers_a_side, begin_of_order(version)),
-                     grid.directions_u, grid.directions_v, grid.channels, step, growth,
-                     static_cast<float>(grid.step_u() / grid.step_v()), version);
+    return TileSetup(HogelOrder(range.ns, range.nt, references, tellers_a_side), grid.directions_u, grid.directions_v,
+                     grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()));
 }
 
 }  // namespace
 
 HogelDecoder::HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
-                           std::size_t levels, std::uint32_t version)
+                           std::size_t levels)
     : bytes_(std::move(bytes)),
       range_(range),
-      setup_(setup_from(bytes_, grid, range, version)),
+      setup_(setup_from(bytes_, grid, range)),
       place_(range.hogels()),
       coded_(range.hogels()),
       told_(range.hogels()),
@@ -55,10 +53,10 @@ void HogelDecoder::take_levels(std::size_t levels) {
     reader.take(header_bytes);
     const auto& waves = setup_.order.waves();
     const auto& waves_of_levels = setup_.order.waves_of_levels();
-    ModelStates before(setup_.grid.version);
+    ModelStates before;
     for (std::size_t level = 0; level < levels; ++level) {
         BlockReader side(reader.take(reader.take<std::uint32_t>()));
-        ModelStates states(setup_.grid.version);
+        ModelStates states;
         states.code(side, before);
         models_.push_back(states.models());
         before = states;

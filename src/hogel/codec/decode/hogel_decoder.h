@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "hogel/codec/format/reconstruct.h"
-#include "hogel/codec/tile_coder.h"
+#include "hogel/compress.h"
 
 namespace hogel::codec::decode {
 
@@ -16,7 +16,7 @@ class HogelDecoder final : public TileDecoder {
     // @param levels   of the order, that `bytes` have; hogels of the others are guessed
     // Throws Error(bad_input).
     HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
-                 std::size_t levels, std::uint32_t version = latest_version);
+                 std::size_t levels);
     void read(LightFieldTile& part) override;
 
     // What has been decoded so far: hogels of which all is told, and blocks made.
@@ -59,10 +59,5 @@ constexpr std::size_t max_hogel_tile_samples = std::size_t{1} << 28;
 
 // How many references of a side tell their disparities: more make them worse.
 constexpr std::size_t tellers_a_side = 1;
-
-// What comes first in a tile, in a version of the format.
-constexpr format::HogelOrder::Begin begin_of_order(std::uint32_t version) {
-    return version < 5 ? format::HogelOrder::Begin::corners : format::HogelOrder::Begin::middle;
-}
 
 }  // namespace hogel::codec::decode

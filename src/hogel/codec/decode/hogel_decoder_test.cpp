@@ -176,22 +176,22 @@ TEST(HogelDecoder, damage_does_no_harm_to_a_part) {
 // What models begin with is near to what was counted, and comes back.
 TEST(ModelStates, are_what_was_counted) {
     const BlockModelNumbers numbers;
-    std::vector<BitCount> counts(ModelStates(latest_version).count(), {300, 100});
+    std::vector<BitCount> counts(ModelStates().count(), {300, 100});
     counts[numbers.main.sign] = {0, 5000};
     counts[numbers.within[0]] = {0, 0};
     counts[numbers.within[1]] = {3, 2};  // too few to be worth telling
-    const ModelStates states(counts, ModelStates(latest_version));
+    const ModelStates states(counts, ModelStates());
     BlockModels models = states.models();
     EXPECT_NEAR(models.mode[0][1][2].zero(), 0.75 * 65536, 0.02 * 65536);
     EXPECT_LT(models.main.sign.zero(), 0.002 * 65536);
     EXPECT_EQ(models.within[0].zero(), 32768u);
     EXPECT_EQ(models.within[1].zero(), 32768u);
     BlockWriter writer;
-    ModelStates(states).code(writer, ModelStates(latest_version));
+    ModelStates(states).code(writer, ModelStates());
     const std::vector<std::uint8_t> bytes = writer.finish();
     BlockReader reader(bytes);
-    ModelStates back(latest_version);
-    back.code(reader, ModelStates(latest_version));
+    ModelStates back;
+    back.code(reader, ModelStates());
     std::vector<std::uint32_t> expected, found;
     models.for_each([&](coding::BitModel& model) { expected.push_back(model.zero()); });
     BlockModels of_back = back.models();

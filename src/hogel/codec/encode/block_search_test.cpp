@@ -12,10 +12,10 @@ using namespace format;
 
 namespace {
 
-// Three by three hogels that see a texture `disparity` 64ths of a direction away from each other; all but the last have
+// Five by five hogels that see a texture `disparity` 64ths of a direction away from each other; all but the last have
 // been coded, and that one is searched for.
 struct Views {
-    TileSetup setup{HogelOrder(3, 3, 3, 1, HogelOrder::Begin::corners), 32, 32, 1, 0.003f, 1.35f, 1, latest_version};
+    TileSetup setup{HogelOrder(5, 5, 1, 1), 32, 32, 1, 0.003f, 1.35f, 1};
     std::vector<Picture> pictures;
     const HogelOrder::Hogel& hogel = setup.order.hogels().back();
 

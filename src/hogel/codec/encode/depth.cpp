@@ -106,9 +106,9 @@ StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces,
     for (const LightFieldSource* face : faces)
         depths.push_back(sources.emplace_back(depth_as_radiance(*face, coding)).get());
     CompressionOptions exact;
-    exact.target.max_error = coding.error;
+    exact.target = MaxError{coding.error};
     exact.tile = options.tile;
-    return {compress(depths, path, exact).bytes, coding.error, coding.beyond};
+    return {compress(borrow(depths), path, exact).bytes, coding.error, coding.beyond};
 }
 
 }  // namespace hogel::codec::encode

@@ -36,7 +36,7 @@ std::vector<double> limited_slopes(const std::vector<double>& densities, const s
 
 }  // namespace
 
-std::optional<ToneCurve> adjusted_curve(const LuminanceHistogram& histogram, double decades) {
+std::optional<ToneCurve> tone_curve_of(const LuminanceHistogram& histogram, double decades) {
     // Bins of normal numbers.
     const std::span<const std::uint64_t> counts = histogram.counts().subspan(per_octave, 254 * per_octave);
     const auto some = [](std::uint64_t count) { return count > 0; };

@@ -13,6 +13,6 @@ namespace hogel::codec::encode {
 // from a bin, all others share. Two things are added, so that it can be inverted: a part of all samples is spread
 // evenly over the logarithm, and luminances six decades below the highest are left in proportion. The highest luminance
 // stays as it is. Nothing where the luminances span no more decades than are wanted.
-std::optional<format::ToneCurve> adjusted_curve(const format::LuminanceHistogram& histogram, double decades);
+std::optional<format::ToneCurve> tone_curve_of(const format::LuminanceHistogram& histogram, double decades);
 
 }  // namespace hogel::codec::encode

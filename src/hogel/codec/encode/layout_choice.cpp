@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "hogel/codec/encode/step_search.h"
+#include "hogel/codec/encode/target.h"
 #include "hogel/codec/format/stacked.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/error.h"
@@ -32,7 +32,7 @@ class Trial {
         : faces_(faces), info_(info), tile_(tile), coder_of_(coder_of) {
         for (const LightFieldSource* face : faces_) {
             const LightFieldGrid& grid = face->grid();
-            const Tiling tiling(grid, tile_size(*coder_in(StreamLayout::gathered, grid), grid));
+            const Tiling tiling(grid, tile_size(*coder_in(StreamLayout::stacked, grid), grid));
             const std::size_t count = std::min(tiling.count(), tried);
             for (std::size_t i = 0; i < count; ++i) {
                 const HogelRange range = tiling[(2 * i + 1) * tiling.count() / (2 * count)];
@@ -115,23 +115,24 @@ bool gathering_pays(const Trial& trial, const CompressionTarget& target) {
     const auto code_as = [&](StreamLayout layout) {
         return [&, layout](double step) { return trial.code(layout, step); };
     };
-    const auto gathered = code_as(StreamLayout::gathered), apart = code_as(StreamLayout::faces);
+    const auto gathered = code_as(StreamLayout::stacked), apart = code_as(StreamLayout::faces);
     if (!(trial.rms() > 0)) return true;
     const double step = likely_step(target, trial.rms());
-    if (target.lossless || target.max_error) return gathered(step).bytes <= apart(step).bytes;
+    if (is_exact(target)) return gathered(step).bytes <= apart(step).bytes;
     if (!trial.finite()) return true;  // it will be refused
-    StepSearch search(std::log2(step), [&](const CodingOutcome& outcome) {
-        return target.pixels_per_bit ? std::log2(outcome.bytes) : outcome.sqnr();
-    });
+    const auto* const rate = std::get_if<PixelsPerBit>(&target);
+    const bool fixed = std::holds_alternative<Step>(target);
+    StepSearch search(std::log2(step),
+                      [&](const CodingOutcome& outcome) { return rate ? std::log2(outcome.bytes) : outcome.sqnr(); });
     const CodingOutcome of_gathered = [&] {
-        if (target.step) return gathered(step);
-        if (target.sqnr)
-            search.run(near(*target.sqnr), gathered);
+        if (fixed) return gathered(step);
+        if (rate)
+            search.run(band_of_bytes(trial.rays() / rate->rate / 8, bytes_tolerance, false), gathered);
         else
-            search.run(band_of_bytes(trial.rays() / *target.pixels_per_bit / 8, bytes_tolerance, false), gathered);
+            search.run(near(std::get<Sqnr>(target).decibels), gathered);
         return search.outcome();
     }();
-    StepSearch same_quality(std::log2(apart_step * (target.step ? step : search.step())), &CodingOutcome::sqnr);
+    StepSearch same_quality(std::log2(apart_step * (fixed ? step : search.step())), &CodingOutcome::sqnr);
     same_quality.run(near(of_gathered.sqnr()), apart);
     return cost(of_gathered) <= cost(same_quality.outcome());
 }
@@ -141,12 +142,12 @@ bool gathering_pays(const Trial& trial, const CompressionTarget& target) {
 StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
                            const CompressionOptions& options, const CoderOfFace& coder_of) {
     const bool fits = can_gather(info.faces());
-    if (options.layout == StreamLayout::gathered && !fits)
+    if (options.layout == StreamLayout::stacked && !fits)
         throw Error(ErrorCode::usage, "only a light field with a single row or column of directions can be gathered");
     if (options.layout)
         return *options.layout == StreamLayout::unfolded && info.sides.empty() ? StreamLayout::faces : *options.layout;
     if (!fits || options.method.coder != "hogel") return StreamLayout::faces;
-    return gathering_pays(Trial(faces, info, options.tile, coder_of), options.target) ? StreamLayout::gathered
+    return gathering_pays(Trial(faces, info, options.tile, coder_of), options.target) ? StreamLayout::stacked
                                                                                       : StreamLayout::faces;
 }
 

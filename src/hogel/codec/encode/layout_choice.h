@@ -15,7 +15,7 @@ namespace hogel::codec::encode {
 // @param info      of which the layout is still open
 // @param coder_of  makes the coder of a face in a stream
 using CoderOfFace = std::function<std::unique_ptr<TileCoder>(const StreamInfo& info, const LightFieldGrid& face)>;
-format::StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
-                                   const CompressionOptions& options, const CoderOfFace& coder_of);
+StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
+                           const CompressionOptions& options, const CoderOfFace& coder_of);
 
 }  // namespace hogel::codec::encode

@@ -13,9 +13,6 @@ namespace {
 constexpr double sqnr_tolerance = 0.1;
 constexpr int max_passes = 12;
 constexpr double min_difference = 1e-5;
-constexpr double likely_bounded_step = 3;        // times the error
-constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
-constexpr double likely_step_of_rate = 0.1;      // times the same
 
 }  // namespace
 
@@ -28,14 +25,6 @@ void CodingOutcome::add(const CodingOutcome& other) {
     error += other.error;
     bytes += other.bytes;
     samples += other.samples;
-}
-
-double likely_step(const CompressionTarget& target, double rms) {
-    if (target.step) return *target.step;
-    if (target.max_error) return likely_bounded_step * *target.max_error;
-    if (target.lossless) return likely_lossless_step * rms;
-    // Detail of the step's size everywhere has an error of step²/12.
-    return rms * (target.sqnr ? std::sqrt(12) * std::pow(10, -*target.sqnr / 20) : likely_step_of_rate);
 }
 
 StepBand band_of_sqnr(double sqnr) { return {sqnr, sqnr + sqnr_tolerance, true, -5.5}; }

@@ -16,10 +16,6 @@ struct CodingOutcome {
     void add(const CodingOutcome& other);
 };
 
-// A step that may meet the target, to begin a search with.
-// @param rms   root mean square of the signal
-double likely_step(const CompressionTarget& target, double rms);
-
 // What the figure that is searched for must lie between: an SQNR, or the logarithm of the number of bytes. Both fall
 // with the logarithm of the step.
 struct StepBand {

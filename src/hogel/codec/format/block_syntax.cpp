@@ -18,13 +18,13 @@ std::size_t by_mode(const Block* moved) { return !moved ? 0 : moved->mode == 1 ?
 
 template <class Coder>
 void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, std::size_t context, bool first,
-               const BlockGrid& grid, Block& block) {
+               Block& block) {
     if (!first) {
         // The best of all sides, within, and then one side after the other.
         auto& model = models.mode[from][context];
         if (!coder.bit(model[0], block.mode != 1))
             block.mode = 1;
-        else if (grid.may_be_parted() && coder.bit(models.parts.parted[from][context], block.mode == parted))
+        else if (coder.bit(models.parts.parted[from][context], block.mode == parted))
             block.mode = parted;
         else if (!coder.bit(model[1], block.mode != 0))
             block.mode = 0;
@@ -36,7 +36,7 @@ void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, s
     }
     if (block.mode != 0) return;
     std::uint8_t within = 0;
-    while (within + 1 < grid.within_modes() && coder.bit(models.within[within], block.within != within)) ++within;
+    while (within + 1 < within_modes && coder.bit(models.within[within], block.within != within)) ++within;
     block.within = within;
 }
 
@@ -121,8 +121,7 @@ Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::v
     if (left && blocks[block - 1].mode == parted) candidates.add(blocks[block - 1].disparity_beyond);
     if (above && blocks[block - grid.columns].mode == parted)
         candidates.add(blocks[block - grid.columns].disparity_beyond);
-    const Block* teller = grid.tells_by_moved() ? moved : beside ? &(*beside)[block] : nullptr;
-    if (teller && teller->mode == parted) candidates.add(teller->disparity_beyond);
+    if (moved && moved->mode == parted) candidates.add(moved->disparity_beyond);
     if (candidates.count == 0) candidates.add(0);
     return candidates;
 }
@@ -170,8 +169,8 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
         const Block* left = k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr;
         const Block* above = k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr;
         const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
-        const Block* from = grid.tells_by_moved() ? moved[k] : nullptr;
-        code_mode(coder, models, by_mode(from), context, first, grid, block);
+        const Block* from = moved[k];
+        code_mode(coder, models, by_mode(from), context, first, block);
         const Candidates candidates =
             coded.candidates.empty() ? candidates_for(k, grid, coded.blocks, moved[k], beside) : coded.candidates[k];
         if (block.mode == 0 && !first) {
@@ -196,13 +195,9 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
             if (used == coded.levels.size()) coded.levels.emplace_back();
             Levels& levels = coded.levels[used++];
             const std::size_t within = block.mode == 0 ? 1 : 0;
-            if (grid.has_bases()) {
-                auto& of_basis = models.basis[chrominance][block.mode == parted ? 3 : kind];
-                block.basis[c] = code_basis(coder, of_basis, block.basis[c]);
-                code_levels(coder, models.levels[chrominance][within], bases[block.basis[c]], levels);
-            } else {
-                code_cosines(coder, models.cosines[chrominance][within], levels);
-            }
+            auto& of_basis = models.basis[chrominance][block.mode == parted ? 3 : kind];
+            block.basis[c] = code_basis(coder, of_basis, block.basis[c]);
+            code_levels(coder, models.levels[chrominance][within], bases[block.basis[c]], levels);
         }
         block.coded = flags;
     }

@@ -9,8 +9,8 @@
 
 #include "hogel/codec/format/partitions.h"
 #include "hogel/codec/format/prediction.h"
-#include "hogel/codec/tile_coder.h"
 #include "hogel/coding/arithmetic.h"
+#include "hogel/compress.h"
 
 namespace hogel::codec::format {
 
@@ -53,12 +53,7 @@ struct CodedHogel {
 // The blocks of a hogel, and what its place in the order makes of them.
 struct BlockGrid {
     std::size_t columns, rows, channels;
-    std::uint32_t version;  // of the format
     std::size_t count() const { return columns * rows; }
-    bool may_be_parted() const { return version >= 4; }   // blocks
-    bool tells_by_moved() const { return version >= 5; }  // what they are told, by what is moved here
-    bool has_bases() const { return version >= 6; }       // other than cosines
-    int within_modes() const { return version >= 6 ? format::within_modes : first_direction; }
 };
 
 // The blocks of the tellers, moved to where they are seen from this hogel: one for each block, or null.
@@ -114,13 +109,6 @@ struct ModelsOf {
         std::array<std::array<Model, max_number_bits + 1>, level_classes> rest;
         std::array<std::array<Model, 3>, 3> sign;  // of samples, by those on the right and below
     };
-    // Up to version 5.
-    struct ForCosines {
-        std::array<Model, block_samples> last;
-        std::array<std::array<Model, 6>, 8> significant;
-        std::array<Model, 8> beyond_one, beyond_two;
-        std::array<Model, max_number_bits + 1> rest;
-    };
     // What is told by the block that is moved here comes three times: for none, and for two sorts of such blocks.
     template <class Models>
     using ByMoved = std::array<Models, 3>;
@@ -147,34 +135,25 @@ struct ModelsOf {
     // By luminance or chrominance, kind of mode, whether the disparity is surprising.
     ByMoved<std::array<std::array<std::array<std::array<Model, 3>, 2>, 3>, 2>> coded;
     // By luminance or chrominance, within or across; of levels by whether they are cosines, samples, or half of each.
-    std::array<std::array<ForCosines, 2>, 2> cosines;
     std::array<std::array<std::array<ForLevels, 3>, 2>, 2> levels;
     std::array<std::array<std::array<Model, bases.size() - 1>, 4>, 2> basis;  // and kind of mode, parted last
 
     ForParts parts;
 
-    // All of them that a version of the format has, in its order.
+    // All of them, in the order of the format.
     template <class Use>
-    void for_each(Use&& use, std::uint32_t version = latest_version) {
-        visit(use, mode[0]);
-        for (std::size_t k = 0; k < (version < 6 ? first_direction - 1 : within.size()); ++k) use(within[k]);
+    void for_each(Use&& use) {
+        visit(use, mode[0], within);
         visit_disparity(use, main);
         visit(use, coded[0]);
-        if (version < 6) {
-            for (auto& of_channel : cosines)
-                for (ForCosines& l : of_channel) visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest);
-        } else {
-            for (auto& of_channel : levels)
-                for (auto& of_side : of_channel)
-                    for (ForLevels& l : of_side)
-                        visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest, l.sign);
-            visit(use, basis);
-        }
-        if (version < 4) return;
+        for (auto& of_channel : levels)
+            for (auto& of_side : of_channel)
+                for (ForLevels& l : of_side)
+                    visit(use, l.last, l.significant, l.beyond_one, l.beyond_two, l.rest, l.sign);
+        visit(use, basis);
         visit(use, parts.parted[0], parts.side, parts.angle, parts.place);
         visit_disparity(use, parts.beyond);
         visit(use, parts.coded[0]);
-        if (version < 5) return;
         for (std::size_t moved = 1; moved < mode.size(); ++moved) {
             visit(use, mode[moved], main.disparity[moved], coded[moved]);
             visit(use, parts.parted[moved], parts.beyond.disparity[moved], parts.coded[moved]);

@@ -9,16 +9,12 @@ namespace hogel::codec::format {
 namespace {
 
 // The level of each of n places in a row: of the ends and the middle one, then that of the halving that reaches it.
-std::vector<int> halving_levels(std::size_t n, HogelOrder::Begin begin) {
-    const bool middle_first = begin == HogelOrder::Begin::middle;
-    std::vector<int> levels(n, middle_first ? 1 : 0);
-    std::vector<std::size_t> ends{0, n - 1};
-    if (middle_first) {
-        levels[(n - 1) / 2] = 0;
-        ends.insert(ends.begin() + 1, (n - 1) / 2);
-        if (n < 3) return levels;
-    }
-    for (int level = middle_first ? 2 : 1;; ++level) {
+std::vector<int> halving_levels(std::size_t n) {
+    std::vector<int> levels(n, 1);
+    levels[(n - 1) / 2] = 0;
+    if (n < 3) return levels;
+    std::vector<std::size_t> ends{0, (n - 1) / 2, n - 1};
+    for (int level = 2;; ++level) {
         std::vector<std::size_t> next;
         for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
             next.push_back(ends[k]);
@@ -52,13 +48,13 @@ std::vector<HogelOrder::Reference> nearest(std::vector<HogelOrder::Reference> re
 
 }  // namespace
 
-int HogelOrder::levels(std::size_t columns, std::size_t rows, Begin begin) {
-    return 1 + std::ranges::max(halving_levels(std::max(columns, rows), begin));
+int HogelOrder::levels(std::size_t columns, std::size_t rows) {
+    return 1 + std::ranges::max(halving_levels(std::max(columns, rows)));
 }
 
-HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side, std::size_t tellers_a_side,
-                       Begin begin) {
-    const std::vector<int> of_column = halving_levels(columns, begin), of_row = halving_levels(rows, begin);
+HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side,
+                       std::size_t tellers_a_side) {
+    const std::vector<int> of_column = halving_levels(columns), of_row = halving_levels(rows);
     std::vector<std::vector<std::size_t>> in_row(rows), in_column(columns);  // places in the order
     const auto distance = [](std::size_t from, std::size_t to) {
         return static_cast<int>(to) - static_cast<int>(from);
@@ -78,15 +74,10 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t refere
         }
     };
     waves_of_levels_.push_back(0);
-    // What comes first one by one: each of four corners but the first leans on the ones before it.
-    for (std::size_t t = 0; t < rows; ++t)
-        for (std::size_t s = 0; s < columns; ++s)
-            if (of_column[s] == 0 && of_row[t] == 0) {
-                waves_.push_back(hogels_.size());
-                add(s, t, 0);
-                end_wave();
-            }
-    for (int level = 1; level < levels(columns, rows, begin); ++level) {
+    waves_.push_back(0);
+    add((columns - 1) / 2, (rows - 1) / 2, 0);
+    end_wave();
+    for (int level = 1; level < levels(columns, rows); ++level) {
         waves_of_levels_.push_back(waves_.size());
         for (const bool both : {false, true}) {  // new in one direction; then in both, between those
             waves_.push_back(hogels_.size());

@@ -11,8 +11,6 @@ namespace hogel::codec::format {
 // on each side from the nearest ones, so that a hogel can be decoded without most of the others.
 class HogelOrder {
   public:
-    // The corners, or one hogel in the middle and then the corners with what lies between them and it.
-    enum class Begin { corners, middle };
     struct Reference {
         std::size_t hogel;  // its place in order()
         int ds, dt;         // where it lies, in hogels
@@ -24,15 +22,12 @@ class HogelOrder {
         std::vector<Reference> references;
         std::vector<Reference> tellers;  // those of the references whose disparities are moved here
     };
-    static constexpr std::size_t all_of_a_side = 64;  // no side has more
 
     // @param references_a_side   how many there are at most to the left, to the right, above and below
     // @param tellers_a_side      and how many of these tell disparities
-    // @param begin               what comes first
-    HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side, std::size_t tellers_a_side,
-               Begin begin = Begin::middle);
+    HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side, std::size_t tellers_a_side);
     // Of a tile of that size, without making its order.
-    static int levels(std::size_t columns, std::size_t rows, Begin begin = Begin::middle);
+    static int levels(std::size_t columns, std::size_t rows);
     const std::vector<Hogel>& hogels() const { return hogels_; }
     int levels() const { return hogels_.back().level + 1; }
     // The first hogel of each wave, and the end of the last.

@@ -117,35 +117,4 @@ void code_levels(Coder& coder, std::array<typename Coder::Models::ForLevels, 3>&
     }
 }
 
-// Up to version 5.
-template <class Coder>
-void code_cosines(Coder& coder, typename Coder::Models::ForCosines& models, Levels& levels) {
-    const std::size_t last = code_last(coder, models.last, zigzag, levels);
-    // From there down to the lowest frequency; what stands at the next higher frequencies tells much.
-    std::array<std::array<std::uint8_t, block_side + 2>, block_side + 2> seen{};
-    for (std::size_t n = last + 1; n-- > 0;) {
-        const std::size_t row = zigzag[n] / block_side, column = zigzag[n] % block_side;
-        const int sum = seen[row][column + 1] + seen[row + 1][column] + seen[row + 1][column + 1] +
-                        seen[row][column + 2] + seen[row + 2][column];
-        const std::size_t around = static_cast<std::size_t>(std::min(sum, 7));
-        const std::size_t place = (row + column == 0 ? 0 : row + column < 3 ? 1 : 2) * 2 + (n < 3 ? 1 : 0);
-        std::int32_t& level = levels[zigzag[n]];
-        std::uint32_t magnitude = static_cast<std::uint32_t>(std::abs(level));
-        if (n == last || coder.bit(models.significant[around][place], magnitude > 0)) {
-            if (!coder.bit(models.beyond_one[around], magnitude > 1))
-                magnitude = 1;
-            else if (!coder.bit(models.beyond_two[static_cast<std::size_t>(std::min(sum / 2, 7))], magnitude > 2))
-                magnitude = 2;
-            else
-                magnitude = 3 + code_number(coder, models.rest, magnitude - 3);
-            const bool negative = coder.even(level < 0);
-            level = negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
-        } else {
-            level = 0;
-            magnitude = 0;
-        }
-        seen[row][column] = static_cast<std::uint8_t>(std::min(magnitude, 4u));
-    }
-}
-
 }  // namespace hogel::codec::format

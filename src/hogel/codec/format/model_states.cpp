@@ -40,11 +40,11 @@ double bits_for(const BitCount& count, int state) {
 
 }  // namespace
 
-ModelStates::ModelStates(std::uint32_t version) : version_(version) {
-    BlockModelNumbers().for_each([&](std::uint16_t) { states_.push_back(0); }, version);
+ModelStates::ModelStates() {
+    BlockModelNumbers().for_each([&](std::uint16_t) { states_.push_back(0); });
 }
 
-ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& before) : version_(before.version_) {
+ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& before) {
     for (const BitCount& count : counts) {
         const int old = before.states_[states_.size()];
         if (count[0] + count[1] == 0) {  // as of most in small tiles
@@ -68,7 +68,7 @@ std::vector<coding::BitModel> ModelStates::models_in_order() const {
 BlockModels ModelStates::models() const {
     BlockModels models;
     std::size_t at = 0;
-    models.for_each([&](coding::BitModel& model) { model = model_of(states_[at++]); }, version_);
+    models.for_each([&](coding::BitModel& model) { model = model_of(states_[at++]); });
     return models;
 }
 

@@ -13,8 +13,7 @@ namespace hogel::codec::format {
 class ModelStates {
   public:
     // Nothing is known.
-    // @param version   of the format
-    explicit ModelStates(std::uint32_t version);
+    ModelStates();
     // Those that suit what was counted of each; as before where another is not worth telling.
     ModelStates(std::span<const BitCount> counts, const ModelStates& before);
 
@@ -27,7 +26,6 @@ class ModelStates {
     void code(Coder& coder, const ModelStates& before);
 
   private:
-    std::uint32_t version_;
     std::vector<int> states_;
 };
 

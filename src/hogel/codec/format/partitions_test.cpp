@@ -38,19 +38,19 @@ TEST(Parts, main_part_holds_the_middle) {
 // A surface that moves by two directions from hogel to hogel covers one that does not move, from a column on.
 TEST(Parts, are_found_where_a_surface_ends) {
     constexpr int disparity = 2, edge = 13;
-    const HogelOrder order(3, 1, 3, 1, HogelOrder::Begin::corners);
+    const HogelOrder order(5, 1, 1, 1);
     const auto shown = [](int i, int u, int v) {
         const int on_near = u + disparity * i;
         return static_cast<float>(on_near >= edge ? 2 + std::sin(1.3 * on_near + v) : std::sin(0.9 * u - 2.0 * v));
     };
-    std::vector<Picture> pictures(3);
+    std::vector<Picture> pictures(5);
     for (Picture& picture : pictures) picture.emplace_back(32, 8);
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 5; ++k)
         for (std::size_t n = 0; n < 256; ++n)
             pictures[k][0].samples[n] = shown(int(order.hogels()[k].s) - 1, int(n % 32), int(n / 32));
-    const HogelOrder::Hogel& middle = order.hogels()[2];
+    const HogelOrder::Hogel& middle = order.hogels()[3];
     ASSERT_EQ(middle.s, 1u);
-    const std::array<float, 3> noise{1, 1, 1};
+    const std::array<float, 5> noise{1, 1, 1, 1, 1};
     ReferenceWeights weights(middle, noise, 1);
     BlockSamples wanted, prediction;
     for (std::size_t n = 0; n < block_samples; ++n) wanted[n] = shown(0, 8 + int(n % 8), int(n / 8));

@@ -40,10 +40,9 @@ void transform_along(Basis basis, const BlockSamples& matrix, const BlockSamples
 }  // namespace
 
 TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
-                     float finest_step, float step_growth, float v_per_u, std::uint32_t version)
+                     float finest_step, float step_growth, float v_per_u)
     : order(std::move(tile_order)),
-      grid{(directions_u + block_side - 1) / block_side, (directions_v + block_side - 1) / block_side, channels,
-           version},
+      grid{(directions_u + block_side - 1) / block_side, (directions_v + block_side - 1) / block_side, channels},
       width(directions_u),
       height(directions_v),
       aspect(v_per_u),

@@ -12,7 +12,7 @@ using Picture = std::vector<Plane>;
 // What all hogels of a tile share.
 struct TileSetup {
     TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
-              float finest_step, float step_growth, float v_per_u, std::uint32_t version);
+              float finest_step, float step_growth, float v_per_u);
     void set_steps(float finest, float growth);
 
     HogelOrder order;
@@ -22,7 +22,7 @@ struct TileSetup {
     std::vector<float> step;    // the quantiser's, of each level of the order
     std::vector<float> noise;   // (step / that of level 0)², of each hogel in the order
     // What a level is taken for is its number and this part of a step: more often than not it stands for more.
-    float beyond_level(bool within) const { return grid.version < 5 ? 0 : within ? 0.0625f : 0.1875f; }
+    float beyond_level(bool within) const { return within ? 0.0625f : 0.1875f; }
     bool whole_blocks() const { return width == grid.columns * block_side && height == grid.rows * block_side; }
     // A picture whose samples mean nothing yet. It must not outlive the setup, which keeps its memory.
     Picture blank() const;

@@ -134,7 +134,7 @@ bool can_gather(std::span<const LightFieldGrid> faces) {
 }
 
 std::unique_ptr<TileCoder> coder_in_layout(StreamLayout layout, const LightFieldGrid& grid, CoderOf coder_of) {
-    if (layout != StreamLayout::gathered) return coder_of(grid);
+    if (layout != StreamLayout::stacked) return coder_of(grid);
     return std::make_unique<GatheredCoder>(grid, std::move(coder_of));
 }
 

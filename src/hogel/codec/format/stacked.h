@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "hogel/codec/tile_coder.h"
+#include "hogel/compress.h"
 
 namespace hogel::codec::format {
 

@@ -9,6 +9,7 @@
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/test_damage.h"
 #include "hogel/codec/test_fields.h"
+#include "hogel/codec/tile_coder.h"
 #include "hogel/compress.h"
 #include "hogel/core/parallel.h"
 
@@ -22,7 +23,7 @@ struct Size {
 // In tiles of odd sizes.
 CompressionOptions in_layout(StreamLayout layout, std::optional<HogelRange> tile = HogelRange{0, 0, 7, 11}) {
     CompressionOptions options;
-    options.target.step = 0.05;
+    options.target = Step{0.05};
     options.layout = layout;
     options.tile = tile;
     return options;
@@ -65,12 +66,9 @@ TEST(Gathered, tiles_are_those_of_rows_of_directions) {
             for (std::size_t s = 0; s < 13; ++s)
                 std::copy_n(&field.radiance(c, t, s, 0, 0), 24, &flat.radiance(c, 0, s, t, 0));
     for (const bool lossless : {false, true}) {
-        CompressionOptions options = in_layout(StreamLayout::gathered, HogelRange{0, 0, 13, 19});
+        CompressionOptions options = in_layout(StreamLayout::stacked, HogelRange{0, 0, 13, 19});
         CompressionOptions plain = in_layout(StreamLayout::faces, HogelRange{0, 0, 13, 1});
-        for (CompressionOptions* o : {&options, &plain}) {
-            o->target.lossless = lossless;
-            if (lossless) o->target.step.reset();
-        }
+        if (lossless) options.target = plain.target = Lossless{};
         compress(field, folder / "a.hgl", options);
         compress(flat, folder / "b.hgl", plain);
         const StreamReader a(folder / "a.hgl"), b(folder / "b.hgl");
@@ -93,8 +91,8 @@ TEST(Gathered, tiles_are_those_of_rows_of_directions) {
 TEST(Gathered, columns_of_directions_are_rows_lying_on_their_side) {
     const TestFolder folder;
     const LightFieldBuffer rows = textured_planes(13, 19, 24, 1, 1), columns = transposed(rows);
-    compress(rows, folder / "a.hgl", in_layout(StreamLayout::gathered));
-    compress(columns, folder / "b.hgl", in_layout(StreamLayout::gathered, HogelRange{0, 0, 11, 7}));
+    compress(rows, folder / "a.hgl", in_layout(StreamLayout::stacked));
+    compress(columns, folder / "b.hgl", in_layout(StreamLayout::stacked, HogelRange{0, 0, 11, 7}));
     expect_same(decoded(folder / "a.hgl"), transposed(decoded(folder / "b.hgl")));
     EXPECT_NEAR(double(std::filesystem::file_size(folder / "a.hgl")),
                 double(std::filesystem::file_size(folder / "b.hgl")), 0);
@@ -106,14 +104,14 @@ TEST(Gathered, reads_any_range_the_same) {
     for (const bool by_columns : {false, true}) {
         LightFieldBuffer field = textured_planes(13, 19, 24, 1, 1);
         if (by_columns) field = transposed(field);
-        compress(field, folder / "a.hgl", in_layout(StreamLayout::gathered));
+        compress(field, folder / "a.hgl", in_layout(StreamLayout::stacked));
         const std::size_t layers = read_stream_info(folder / "a.hgl").layer_ends.size();
         ASSERT_EQ(layers, by_columns ? 5u : 4u);
         for (std::size_t layer = 1; layer <= layers; ++layer) {
             LightFieldBuffer whole(field.grid());
-            copy(*open_stream(folder / "a.hgl", {.layers = layer}), whole);
+            copy(*open_front(folder / "a.hgl", {.layers = layer}), whole);
             EXPECT_GE(sqnr_of(field, whole), layer == layers ? 25 : 5);
-            const auto source = open_stream(folder / "a.hgl", {.memory = 1, .layers = layer});
+            const auto source = open_front(folder / "a.hgl", {.memory = 1, .layers = layer});
             core::parallel_for(60, [&](std::size_t i) {
                 HogelRange range{i % field.grid().hogels_s, i * 7 % field.grid().hogels_t, 0, 0};
                 range.ns = 1 + i % (field.grid().hogels_s - range.s0);
@@ -144,19 +142,19 @@ TEST(Gathered, is_chosen_where_rows_are_alike) {
     for (const bool lossless : {false, true})
         for (const LightFieldBuffer* field : {&alike, &apart}) {
             CompressionOptions options;
-            options.target.lossless = lossless;
-            if (!lossless) options.target.sqnr = 35;
+            options.target = Sqnr{35};
+            if (lossless) options.target = Lossless{};
             std::map<StreamLayout, std::uint64_t> bytes;
-            for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::gathered}) {
+            for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::stacked}) {
                 options.layout = layout;
                 bytes[layout] = compress(*field, folder / "a.hgl", options).bytes;
             }
             options.layout.reset();
             const CompressionResult chosen = compress(*field, folder / "a.hgl", options);
             EXPECT_LE(double(chosen.bytes),
-                      1.02 * double(std::min(bytes[StreamLayout::faces], bytes[StreamLayout::gathered])));
+                      1.02 * double(std::min(bytes[StreamLayout::faces], bytes[StreamLayout::stacked])));
             EXPECT_EQ(read_stream_info(folder / "a.hgl").layout,
-                      field == &alike ? StreamLayout::gathered : StreamLayout::faces)
+                      field == &alike ? StreamLayout::stacked : StreamLayout::faces)
                 << lossless;
         }
 }
@@ -176,7 +174,7 @@ TEST(Gathered, needs_a_single_row_or_column_of_directions) {
     EXPECT_FALSE(fits({1, 4, 1, 8}));
     const TestFolder folder;
     const auto refused = [&](const LightFieldBuffer& field) {
-        return code_of([&] { compress(field, folder / "a.hgl", in_layout(StreamLayout::gathered)); });
+        return code_of([&] { compress(field, folder / "a.hgl", in_layout(StreamLayout::stacked)); });
     };
     EXPECT_EQ(refused(textured_planes(5, 4, 8, 2, 1)), ErrorCode::usage);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
@@ -185,7 +183,7 @@ TEST(Gathered, needs_a_single_row_or_column_of_directions) {
 // A header may not gather what has several rows of directions.
 TEST(Gathered, header_that_lies_is_refused) {
     const TestFolder folder;
-    compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::gathered));
+    compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::stacked));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
     EXPECT_EQ(outcome_of(folder, good), ErrorCode{0});
     EXPECT_EQ(outcome_of(folder, with_number(good, 16 + 8 * 4, 2)), ErrorCode::bad_input);  // n_V
@@ -195,7 +193,7 @@ TEST(Gathered, header_that_lies_is_refused) {
 // Damage ends in an error, also where checksums are right.
 TEST(Gathered, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
-    compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::gathered));
+    compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::stacked));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
     for (std::size_t length = 0; length < good.size(); length += 3)
         ASSERT_EQ(outcome_of(folder, {good.begin(), good.begin() + std::ptrdiff_t(length)}), ErrorCode::bad_input)
@@ -206,7 +204,7 @@ TEST(Gathered, every_truncation_and_every_flipped_byte_is_noticed) {
         ASSERT_EQ(outcome_of(folder, bad), ErrorCode::bad_input) << at;
     }
     const LightFieldBuffer field = textured_planes(5, 9, 8, 1, 1);
-    const auto coder = coder_in_layout(StreamLayout::gathered, field.grid(),
+    const auto coder = coder_in_layout(StreamLayout::stacked, field.grid(),
                                        [](const LightFieldGrid& grid) { return make_tile_coder({}, grid); });
     LightFieldTile tile(field.grid(), {0, 0, 5, 9}, false);
     field.read(tile);
@@ -228,12 +226,12 @@ TEST(Gathered, hemisquares_come_back) {
         for (std::size_t i = 0; i < field.depth.size(); ++i)
             field.depth.data()[i] = i % 5 == 0 ? std::numeric_limits<float>::infinity() : 1e-3f * float(i % 3);
     }
-    CompressionOptions options = in_layout(StreamLayout::gathered);
+    CompressionOptions options = in_layout(StreamLayout::stacked);
     options.with_depth = true;
     options.depth_error = 1e-5;
     const std::vector<const LightFieldSource*> sources{&faces[0], &faces[1], &faces[2]};
     compress(sources, folder / "a.hgl", options);
-    const auto opened = open_stream_faces(folder / "a.hgl");
+    const auto opened = open_faces(folder / "a.hgl");
     ASSERT_EQ(opened.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
         LightFieldBuffer back(opened[k]->grid(), true);

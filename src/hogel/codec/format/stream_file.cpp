@@ -8,6 +8,8 @@
 #include "hogel/codec/format/stacked.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/stream_header.h"
+#include "hogel/codec/format/unfolded.h"
+#include "hogel/codec/tile_coder.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -48,10 +50,9 @@ DirectionCross counted(const StreamInfo& info) {
 }
 
 std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part) {
-    return coder_in_layout(info.layout, part,
-                           [method = info.method, counted = counted(info), version = info.version](const auto& grid) {
-                               return make_tile_coder(method, grid, counted, version);
-                           });
+    return coder_in_layout(info.layout, part, [method = info.method, counted = counted(info)](const auto& grid) {
+        return make_tile_coder(method, grid, counted);
+    });
 }
 
 Tiling::Tiling(const LightFieldGrid& grid, const HogelRange& size)
@@ -66,12 +67,12 @@ HogelRange Tiling::operator[](std::size_t tile) const {
     return {s0, t0, std::min(size_.ns, hogels_s_ - s0), std::min(size_.nt, hogels_t_ - t0)};
 }
 
-StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamInfo& info, std::filesystem::path depth)
+StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth)
     : output_(path),
       spool_(path),
       spooled_(spool_.temporary(), core::RawFile::Mode::create, path),
       info_(info),
-      header_bytes_(header_of(info).size()),
+      header_bytes_(header_bytes(info).size()),
       layers_(info.layer_ends.size()),
       depth_(std::move(depth)) {
     for (const LightFieldGrid& part : coded_parts(info))
@@ -104,7 +105,7 @@ std::uint64_t StreamWriter::overhead(std::size_t tiles) const {
 
 void StreamWriter::finish(std::uint64_t filler) {
     info_.filler = filler;
-    const Bytes header = header_of(info_);
+    const Bytes header = header_bytes(info_);
     std::vector<StreamEntry> entries;  // layer by layer
     for (std::size_t layer = 0; layer < layers_; ++layer)
         for (std::size_t k = layer; k < entries_.size(); k += layers_) entries.push_back(entries_[k]);
@@ -140,16 +141,16 @@ StreamReader::StreamReader(const std::filesystem::path& path, Content content)
     : file_(path, core::RawFile::Mode::read, path),
       what_(fmt::format("cannot read '{}'", path.string())),
       end_(file_.size()) {
-    const std::uint64_t all = end_, index = read_header(0);
-    info_.version < 3 ? read_index_at_end(index) : read_index(index);
+    const std::uint64_t all = end_;
+    read_index(read_header(0));
     if (content == Content::light_field) return;
     if (!info_.depth_there)
         damaged(info_.depth.bytes > 0 ? "it is truncated: its depth is missing" : "it has no depth");
-    const StreamInfo outer = std::move(info_);
+    const StreamHeader outer = std::move(info_);
     end_ = all;
     index_.clear();
     read_index(read_header(all - outer.depth.bytes));
-    if (info_.grid.channels != 1 || !same_faces(info_, outer) || info_.depth.bytes > 0 || info_.version < 5)
+    if (info_.grid.channels != 1 || !same_faces(info_, outer) || info_.depth.bytes > 0)
         damaged("what stands behind it is not its depth");
 }
 
@@ -163,8 +164,8 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
         damaged("it is not a compressed light field");
     ByteReader begin(std::span<const std::uint8_t>(header).subspan(stream_magic.size()), what_);
     const auto version = begin.take<std::uint32_t>();
-    if (version == 0 || version > latest_version)
-        damaged(fmt::format("it has version {} of the format, expected 1 to {}", version, latest_version));
+    if (version != stream_version)
+        damaged(fmt::format("it has version {} of the format, expected version {}", version, stream_version));
     const auto length = begin.take<std::uint32_t>();
     if (length > max_header || length + prefix + 4 > size) damaged("its header is longer than the file");
     header.resize(prefix + length + 4);
@@ -173,10 +174,10 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
     if (end.take<std::uint32_t>() != core::checksum(std::span(header).first(prefix + length)))
         damaged("its header is damaged");
     ByteReader fields(std::span<const std::uint8_t>(header).subspan(prefix, length), what_);
-    info_ = read_header_fields(fields, version);
+    info_ = read_header_fields(fields);
     if (fields.left() > 0) damaged("its header has bytes left over");
     for (const LightFieldGrid& face : info_.faces()) validate(face, ErrorCode::bad_input, what_);
-    if (info_.layout == StreamLayout::gathered && !can_gather(info_.faces()))
+    if (info_.layout == StreamLayout::stacked && !can_gather(info_.faces()))
         damaged("its header gathers hogels with several rows of directions");
     try {
         parts_ = coded_parts(info_);
@@ -212,29 +213,6 @@ void StreamReader::read_index(std::uint64_t header) {
     // Behind the last layer comes the depth, or nothing.
     info_.depth_there = info_.depth.bytes > 0 && offset <= end_ && end_ - offset >= info_.depth.bytes;
     if (offset < end_ && end_ - offset > info_.depth.bytes) damaged("it has bytes left over");
-}
-
-// Of versions 1 and 2.
-void StreamReader::read_index_at_end(std::uint64_t header) {
-    constexpr std::size_t old_entry_bytes = 12, footer_bytes = 12;
-    const std::uint64_t size = end_, most = size - header;
-    if (most < footer_bytes || tiling_->count() > (most - footer_bytes) / old_entry_bytes / parts_.size())
-        damaged("it is truncated");
-    Bytes index(tiles() * old_entry_bytes + footer_bytes);
-    file_.read(size - index.size(), index.data(), index.size());
-    ByteReader entries(index, what_);
-    std::uint64_t offset = header;
-    for (std::uint64_t tile = 0; tile < tiles(); ++tile) {
-        const auto bytes = entries.take<std::uint64_t>();
-        index_.push_back({offset, bytes, entries.take<std::uint32_t>()});
-        if (bytes > size - offset) damaged("it is truncated, or its index is damaged");
-        offset += bytes;
-    }
-    const bool in_place = entries.take<std::uint64_t>() == offset && offset + index.size() == size;
-    if (!in_place || entries.take<std::uint32_t>() != core::checksum(std::span(index).first(index.size() - 4)))
-        damaged("it is truncated, or its index is damaged");
-    info_.layer_ends = {size};
-    info_.layers_there = 1;
 }
 
 Bytes StreamReader::read(std::size_t tile, std::size_t layers) const {

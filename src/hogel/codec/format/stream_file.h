@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "hogel/codec/tile_coder.h"
+#include "hogel/codec/format/stream_header.h"
 #include "hogel/compress.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
@@ -51,7 +51,7 @@ struct StreamEntry {
 class StreamWriter {
   public:
     // @param depth   the file of the stream that info.depth speaks of
-    StreamWriter(const std::filesystem::path& path, const StreamInfo& info, std::filesystem::path depth = {});
+    StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth = {});
     // Forgets the tiles so far.
     void restart();
     // @param layers   where they end; the last of the stream's may be missing
@@ -66,7 +66,7 @@ class StreamWriter {
   private:
     core::OutputFile output_, spool_;
     core::RawFile spooled_;  // tile by tile
-    StreamInfo info_;
+    StreamHeader info_;
     std::size_t header_bytes_;  // without filler
     std::size_t layers_;
     std::filesystem::path depth_;
@@ -79,7 +79,7 @@ class StreamReader {
   public:
     enum class Content { light_field, its_depth };
     explicit StreamReader(const std::filesystem::path& path, Content content = Content::light_field);
-    const StreamInfo& info() const { return info_; }
+    const StreamHeader& info() const { return info_; }
     const Tiling& tiling() const { return *tiling_; }
     const std::vector<LightFieldGrid>& parts() const { return parts_; }
     // The first layers of a tile, one after the other.
@@ -90,12 +90,11 @@ class StreamReader {
     std::uint64_t tiles() const { return tiling_->count() * parts_.size(); }
     std::uint64_t read_header(std::uint64_t begin);
     void read_index(std::uint64_t header);
-    void read_index_at_end(std::uint64_t header);
 
     core::RawFile file_;
     std::string what_;
     std::uint64_t end_;  // of the stream in the file
-    StreamInfo info_;
+    StreamHeader info_;
     std::optional<Tiling> tiling_;  // of each part
     std::vector<LightFieldGrid> parts_;
     std::vector<StreamEntry> index_;  // the tiles of each layer

@@ -13,7 +13,7 @@ constexpr std::string_view filler_name = "filler";
 static_assert(min_filler == 2 * sizeof(std::uint32_t) + filler_name.size());
 
 constexpr std::array<std::pair<StreamLayout, std::string_view>, 3> layout_names{
-    {{StreamLayout::faces, "faces"}, {StreamLayout::unfolded, "unfolded"}, {StreamLayout::gathered, "gathered"}}};
+    {{StreamLayout::faces, "faces"}, {StreamLayout::unfolded, "unfolded"}, {StreamLayout::stacked, "stacked"}}};
 
 Face take_face(ByteReader& reader) {
     const std::string face = reader.take_text();
@@ -22,7 +22,6 @@ Face take_face(ByteReader& reader) {
     return *found;
 }
 
-// What versions from 2 on have behind the rest.
 void put_sides(ByteWriter& fields, const StreamInfo& info) {
     fields.put(std::ranges::find(layout_names, info.layout, &std::pair<StreamLayout, std::string_view>::first)->second);
     fields.put(static_cast<std::uint32_t>(info.sides.size()));
@@ -40,8 +39,7 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     if (known == layout_names.end()) reader.damaged("its header names an unknown layout");
     info.layout = known->first;
     const auto count = reader.take<std::uint32_t>();
-    if ((count == 0 && info.version == 2) || count >= all_faces.size())
-        reader.damaged("its header has an impossible number of faces");
+    if (count >= all_faces.size()) reader.damaged("its header has an impossible number of faces");
     std::vector<Face> seen{info.grid.face()};
     for (std::uint32_t i = 0; i < count; ++i) {
         LightFieldGrid& side = info.sides.emplace_back(info.grid);
@@ -59,21 +57,21 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
 // What a header ends with, each part by its name and length, so that a reader refuses what it does not know.
 constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance", depth_name = "depth";
 
-void put_parts(ByteWriter& fields, const StreamInfo& info) {
+void put_parts(ByteWriter& fields, const StreamHeader& info) {
     const auto put_part = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
         fields.put(name);
         fields.put(static_cast<std::uint32_t>(bytes.size()));
         fields.put(std::span(bytes));
     };
-    if (const auto& tone = info.mapping.tone) {
+    if (const auto& tone = info.companding.tone) {
         ByteWriter part;
         part.put(tone->first());
         for (const float value : tone->values()) part.put(value);
         put_part(tone_name, part.bytes);
     }
-    if (info.mapping.chrominance != 1) {
+    if (info.companding.chrominance != 1) {
         ByteWriter part;
-        part.put(info.mapping.chrominance);
+        part.put(info.companding.chrominance);
         put_part(chrominance_name, part.bytes);
     }
     if (info.depth.bytes > 0) {
@@ -111,8 +109,8 @@ StreamInfo::Depth take_depth(ByteReader& part) {
     return depth;
 }
 
-void take_parts(ByteReader& reader, StreamInfo& info) {
-    Companding& mapping = info.mapping;
+void take_parts(ByteReader& reader, StreamHeader& info) {
+    Companding& mapping = info.companding;
     while (reader.left() > 0) {
         const std::string name = reader.take_text();
         ByteReader part = reader.take_part(reader.take<std::uint32_t>());
@@ -125,11 +123,13 @@ void take_parts(ByteReader& reader, StreamInfo& info) {
         else
             reader.damaged("its header has a part that is not known, or twice");
     }
+    if (mapping.tone) info.tone = StreamInfo::ToneMapping{mapping.tone->decades(), mapping.tone->mapped_decades()};
+    info.chrominance = mapping.chrominance;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> header_of(const StreamInfo& info) {
+std::vector<std::uint8_t> header_bytes(const StreamHeader& info) {
     ByteWriter fields;
     const LightFieldGrid& grid = info.grid;
     for (const std::size_t count : {grid.channels, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v})
@@ -153,16 +153,15 @@ std::vector<std::uint8_t> header_of(const StreamInfo& info) {
     put_parts(fields, info);
     ByteWriter header;
     header.put(std::span(stream_magic));
-    header.put(latest_version);
+    header.put(stream_version);
     header.put(static_cast<std::uint32_t>(fields.bytes.size()));
     header.put(std::span(fields.bytes));
     header.put(core::checksum(header.bytes));
     return std::move(header.bytes);
 }
 
-StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
-    StreamInfo info;
-    info.version = version;
+StreamHeader read_header_fields(ByteReader& reader) {
+    StreamHeader info;
     LightFieldGrid& grid = info.grid;
     for (std::size_t* count : {&grid.channels, &grid.hogels_s, &grid.hogels_t, &grid.directions_u, &grid.directions_v})
         *count = reader.take<std::uint64_t>();
@@ -183,11 +182,11 @@ StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version) {
         else
             info.metadata.emplace_back(std::move(name), std::move(value));
     }
-    if (version > 1) take_sides(reader, info);
-    const auto layers = version > 2 ? reader.take<std::uint32_t>() : 1;
+    take_sides(reader, info);
+    const auto layers = reader.take<std::uint32_t>();
     if (layers == 0 || layers > max_layers) reader.damaged("its header has an impossible number of layers");
     info.layer_ends.resize(layers);
-    if (version > 3) take_parts(reader, info);
+    take_parts(reader, info);
     return info;
 }
 

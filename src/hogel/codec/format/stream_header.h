@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hogel/codec/format/bytes.h"
+#include "hogel/codec/format/companding.h"
 #include "hogel/compress.h"
 
 namespace hogel::codec::format {
@@ -16,10 +17,19 @@ constexpr std::array<std::uint8_t, 8> stream_magic{0x89, 'H', 'G', 'L', '\r', '\
 // What fills up a stream is a word of its metadata, whose name and lengths take so many bytes.
 constexpr std::size_t min_filler = 14, max_filler = std::size_t{1} << 23;
 
-// What a stream begins with: magic, version, the length of the fields, the fields and a checksum.
-std::vector<std::uint8_t> header_of(const StreamInfo& info);
+// The version of the format that is written and read (docs/format.md).
+constexpr std::uint32_t stream_version = 1;
 
-// The fields alone. Throws Error(bad_input).
-StreamInfo read_header_fields(ByteReader& reader, std::uint32_t version);
+// A header as encoder and decoder use it: with the companding itself beside the facts about it.
+struct StreamHeader : StreamInfo {
+    Companding companding;
+};
+
+// The bytes that a stream begins with: magic, version, the length of the fields, the fields and a checksum. Of the
+// companding and the facts about it only the former is written.
+std::vector<std::uint8_t> header_bytes(const StreamHeader& header);
+
+// Reads the fields. Throws Error(bad_input).
+StreamHeader read_header_fields(ByteReader& reader);
 
 }  // namespace hogel::codec::format

@@ -43,7 +43,7 @@ std::vector<double> slopes(const ToneCurve& curve) {
 TEST(ToneCurve, increases_nowhere_faster_than_luminance_and_spans_what_was_asked_for) {
     for (const LuminanceHistogram& histogram : histograms())
         for (const double decades : {0.1, 0.5, 2.0, 3.0}) {
-            const std::optional<ToneCurve> curve = encode::adjusted_curve(histogram, decades);
+            const std::optional<ToneCurve> curve = encode::tone_curve_of(histogram, decades);
             ASSERT_TRUE(curve);
             EXPECT_NEAR(curve->mapped_decades(), decades, 1e-6);
             EXPECT_EQ(curve->values().back(), curve->point(curve->values().size() - 1));
@@ -59,13 +59,13 @@ TEST(ToneCurve, increases_nowhere_faster_than_luminance_and_spans_what_was_asked
 TEST(ToneCurve, of_an_even_histogram_is_a_power) {
     LuminanceHistogram histogram;
     for (int i = 0; i < 400000; ++i) histogram.add(static_cast<float>(std::exp2(12 * (i + 0.5) / 400000)));
-    const ToneCurve curve = encode::adjusted_curve(histogram, 1.5).value();
+    const ToneCurve curve = encode::tone_curve_of(histogram, 1.5).value();
     for (const double slope : slopes(curve)) EXPECT_NEAR(slope, 1.5 / std::log10(4096), 1e-3);
 }
 
 // Of two luminances far apart what is around each keeps its contrast, and what lies between gives all of it up.
 TEST(ToneCurve, takes_contrast_where_nothing_is) {
-    const ToneCurve curve = encode::adjusted_curve(histograms()[1], 1.8).value();
+    const ToneCurve curve = encode::tone_curve_of(histograms()[1], 1.8).value();
     for (std::size_t i = 0; i < slopes(curve).size(); ++i) {
         const double decade = std::log10(curve.point(i));
         if ((decade > 0.1 && decade < 0.4) || (decade > 3.8 && decade < 4.1)) {
@@ -79,20 +79,20 @@ TEST(ToneCurve, takes_contrast_where_nothing_is) {
 
 TEST(ToneCurve, is_none_where_luminances_span_no_more) {
     LuminanceHistogram histogram;
-    EXPECT_FALSE(encode::adjusted_curve(histogram, 2));
+    EXPECT_FALSE(encode::tone_curve_of(histogram, 2));
     for (const float value : {0.0f, 1e-42f, std::numeric_limits<float>::infinity(), std::nanf("")})
         histogram.add(value);
-    EXPECT_FALSE(encode::adjusted_curve(histogram, 2));
+    EXPECT_FALSE(encode::tone_curve_of(histogram, 2));
     for (int i = 0; i < 1000; ++i) histogram.add(1 + static_cast<float>(i) * 0.02f);
-    EXPECT_FALSE(encode::adjusted_curve(histogram, 2));
-    EXPECT_TRUE(encode::adjusted_curve(histogram, 1.2));
+    EXPECT_FALSE(encode::tone_curve_of(histogram, 2));
+    EXPECT_TRUE(encode::tone_curve_of(histogram, 1.2));
 }
 
 // There and back is the same to rounding, which a slope s makes 1/s times as much; the mapped values are in order.
 TEST(ToneCurve, comes_back) {
     for (const LuminanceHistogram& histogram : histograms())
         for (const double decades : {0.3, 2.0}) {
-            const ToneCurve curve = encode::adjusted_curve(histogram, decades).value();
+            const ToneCurve curve = encode::tone_curve_of(histogram, decades).value();
             const std::vector<double> slope = slopes(curve);
             const double most = 1e-6 / *std::ranges::min_element(slope);
             std::vector<float> values{0.0f, 1e-38f, 1e-44f, 1e30f};

@@ -2,32 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "hogel/light_field.h"
+#include "hogel/compress.h"
 
 namespace hogel::codec::format {
-
-/// How the faces of a light field are coded: each by itself, or all unfolded into one array, the front in the middle;
-/// or each by itself, its hogels gathered into rows of directions, where it has a single row of them (docs/format.md).
-enum class StreamLayout { faces, unfolded, gathered };
-
-/// Which directions of an array count: of rows begin_v to end_v all, of others those from begin_u to end_u. By default
-/// all of all rows; of an unfolded hemicube its faces without the corners.
-struct DirectionCross {
-    std::size_t begin_u = 0, end_u = 0, begin_v = 0, end_v = std::numeric_limits<std::size_t>::max();
-
-    struct Columns {
-        std::size_t begin, end;
-    };
-    /// Those of row v that count, of `width`.
-    Columns columns(std::size_t v, std::size_t width) const {
-        return v >= begin_v && v < end_v ? Columns{0, width} : Columns{begin_u, end_u};
-    }
-};
 
 /// A hemicube unfolded into one array of directions ([K] 4.2.3): the sides around the front, their pictures continuing
 /// each other, and corners that are nobody's.

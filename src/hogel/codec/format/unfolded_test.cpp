@@ -106,11 +106,11 @@ TEST(Hemicube, comes_back_in_either_layout) {
         for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"ezw", "ai33"}, {"jpeg4d", "dct8"}}) {
             CompressionOptions options;
             options.method = method;
-            options.target.sqnr = 30;
+            options.target = Sqnr{30};
             options.layout = layout;
             options.tile = HogelRange{0, 0, 3, 3};
             const CompressionResult result = compress(sources(faces), folder / "a.hgl", options);
-            const auto decoded = open_stream_faces(folder / "a.hgl", {.memory = 1});
+            const auto decoded = open_faces(folder / "a.hgl", {.memory = 1});
             ASSERT_EQ(decoded.size(), 5u);
             double signal = 0, error = 0;
             for (std::size_t i = 0; i < 5; ++i) {
@@ -138,7 +138,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
         write_bytes(folder / "b.hgl", bytes);
         try {
-            for (const auto& face : open_stream_faces(folder / "b.hgl")) {
+            for (const auto& face : open_faces(folder / "b.hgl")) {
                 LightFieldBuffer field(face->grid());
                 copy(*face, field);
             }
@@ -150,7 +150,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     };
     for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
         CompressionOptions options;
-        options.target.step = 0.02;
+        options.target = Step{0.02};
         options.layout = layout;
         compress(sources(faces), folder / "a.hgl", options);
         const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");

@@ -17,8 +17,8 @@ using Complex = std::complex<float>;
 
 constexpr double share_within_band = 0.95;
 
-// Orders lie at multiples of the carrier's frequency, so that is twice what the field may reach. Columns by turns have
-// a carrier of one cycle a group, and no angle of a wave to be chosen.
+// Orders lie at multiples of the carrier's frequency, which must be twice the field's band. Components in successive
+// columns have a carrier of one cycle a group, and no reference wave whose angle could be chosen.
 double column_carrier(double band, std::size_t columns, double pitch) {
     const double carrier = 1.0 / static_cast<double>(columns);
     if (2 * band > carrier)
@@ -37,14 +37,15 @@ double degrees(double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std:
 // and all must be sampled: [K] 3.2.
 double reference_carrier(double band, const PatternOptions& options, double wavelength) {
     const double pitch = options.modulator.pitch, to_sine = wavelength / pitch;
-    const double least = (options.encoding == Encoding::intensity ? 3 : 1) * band;
+    const double min_carrier = (options.encoding == Encoding::intensity ? 3 : 1) * band;
     const double asked = std::sin(options.reference_angle) / to_sine;
-    const double carrier = options.reference_angle == 0 ? std::max(least, 0.5 * (least + 0.5 - band)) : asked;
-    if (carrier < least * (1 - 1e-9))
+    const double carrier =
+        options.reference_angle == 0 ? std::max(min_carrier, 0.5 * (min_carrier + 0.5 - band)) : asked;
+    if (carrier < min_carrier * (1 - 1e-9))
         throw Error(ErrorCode::usage,
                     fmt::format("a reference beam at {:.2f} degrees overlaps the object, whose light reaches {:.2f} "
                                 "degrees; one at {:.2f} degrees would do",
-                                degrees(asked * to_sine), degrees(band * to_sine), degrees(least * to_sine)));
+                                degrees(asked * to_sine), degrees(band * to_sine), degrees(min_carrier * to_sine)));
     if (carrier + band > 0.5)
         throw Error(ErrorCode::usage,
                     fmt::format("the fringe of light to {:.2f} degrees with a reference beam at {:.2f} degrees is too "
@@ -54,8 +55,8 @@ double reference_carrier(double band, const PatternOptions& options, double wave
     return carrier;
 }
 
-// The m-th of `columns` real components, none negative, into which a number falls: those beside its direction. Where
-// they are more than a right angle apart they reach beyond the modulus, and all are made smaller by that.
+// The m-th of the `columns` real components of a number, none negative: only the two beside its direction are not zero.
+// Where components are more than a right angle apart they exceed the modulus, and all are scaled down.
 float component(Complex value, std::size_t m, std::size_t columns) {
     const double sector = 2 * std::numbers::pi / static_cast<double>(columns);
     const double away =

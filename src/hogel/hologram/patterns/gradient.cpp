@@ -13,10 +13,10 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Adam, Kingma and Ba 2015, with its usual rates of forgetting; a step is at most about this many radians.
+// Adam, Kingma and Ba 2015, with its usual decay rates; a step is at most about this many radians.
 constexpr double first_rate = 0.9, second_rate = 0.999, radians_a_step = 0.25;
 
-// What squares of one row add up to: for the scale between the pattern's local spectra and the field's.
+// Sums over the squares of one row, for the scale between the pattern's local spectra and the field's.
 struct Sums {
     double product = 0, energy = 0;
 };
@@ -27,7 +27,8 @@ struct Squares {
 
     std::size_t columns(std::size_t width) const { return (width + shift_x + side - 1) / side; }
     std::size_t rows(std::size_t height) const { return (height + shift_y + side - 1) / side; }
-    // Calls visit(pixel's row and column, row and column in the square) for what of a square lies on the modulator.
+    // Calls visit(row and column of the pixel, row and column in the square) for the pixels of a square on the
+    // modulator.
     template <class Visit>
     void visit(std::size_t i, std::size_t j, const Shape<2>& shape, Visit&& visit) const {
         for (std::size_t q = 0; q < side; ++q) {
@@ -41,8 +42,8 @@ struct Squares {
     }
 };
 
-// Of the frequencies of a square those in which the field has light at all: its mean there is more than a twentieth of
-// the largest. In the rest, where nobody looks, the pattern may have what light it likes.
+// 1 for the frequencies of a square in which the field has light: a mean of more than a twentieth of the largest. 0 for
+// the rest, in which the pattern is free.
 std::vector<float> lit_frequencies(View<const Complex, 2> field, const Squares& squares, const math::Fft2& fft) {
     const std::size_t n = squares.side;
     std::vector<double> mean(n * n);
@@ -54,86 +55,108 @@ std::vector<float> lit_frequencies(View<const Complex, 2> field, const Squares& 
             fft.forward(square);
             for (std::size_t f = 0; f < n * n; ++f) mean[f] += std::norm(square.data()[f]);
         }
-    const double least = 0.05 * *std::ranges::max_element(mean);
+    const double threshold = 0.05 * *std::ranges::max_element(mean);
     std::vector<float> lit;
-    for (const double light : mean) lit.push_back(light > least ? 1.0f : 0.0f);
+    for (const double light : mean) lit.push_back(light > threshold ? 1.0f : 0.0f);
     return lit;
+}
+
+// The descent's state.
+struct Descent {
+    Array<float, 2> phases, gradient;  // radians
+    Array<float, 2> first, second;     // running means of the gradient and its square
+    double scale = 1;                  // s
+
+    explicit Descent(View<const Complex, 2> field)
+        : phases(field.shape()), gradient(field.shape()), first(field.shape()), second(field.shape()) {
+        for (std::size_t i = 0; i < phases.size(); ++i) phases.data()[i] = std::arg(field.data()[i]);
+    }
+};
+
+// Computes the gradient from the local spectra in some squares, and the scale for the next step.
+void find_gradient(View<const Complex, 2> field, const Squares& squares, const std::vector<float>& lit,
+                   const math::Fft2& fft, Descent& descent) {
+    const std::size_t side = squares.side;
+    const std::size_t rows = squares.rows(field.extent(0)), columns = squares.columns(field.extent(1));
+    std::vector<Sums> sums(rows);
+    core::parallel_for(rows, [&](std::size_t j) {
+        Array<Complex, 2> shown({side, side}), wanted({side, side});
+        for (std::size_t i = 0; i < columns; ++i) {
+            std::ranges::fill(shown.elements(), Complex(0));
+            std::ranges::fill(wanted.elements(), Complex(0));
+            squares.visit(i, j, field.shape(), [&](auto y, auto x, auto q, auto p) {
+                shown(q, p) = std::polar(1.0f, descent.phases(y, x));
+                wanted(q, p) = field(y, x);
+            });
+            fft.forward(shown);
+            fft.forward(wanted);
+            for (std::size_t f = 0; f < lit.size(); ++f) {
+                const float a = std::abs(shown.data()[f]), b = std::abs(wanted.data()[f]);
+                sums[j].product += lit[f] * a * b;
+                sums[j].energy += lit[f] * a * a;
+                shown.data()[f] *= a > 0 ? lit[f] * (static_cast<float>(descent.scale) - b / a) : 0.0f;
+            }
+            fft.backward(shown);
+            squares.visit(i, j, field.shape(), [&](auto y, auto x, auto q, auto p) {
+                descent.gradient(y, x) = -(std::conj(shown(q, p)) * std::polar(1.0f, descent.phases(y, x))).imag();
+            });
+        }
+    });
+    Sums all;
+    for (const Sums& row : sums) {
+        all.product += row.product;
+        all.energy += row.energy;
+    }
+    descent.scale = all.energy > 0 ? all.product / all.energy : 1;
+}
+
+// Step number k of `iterations` along the gradient, by Adam.
+void step_along_gradient(std::size_t k, std::size_t iterations, Descent& descent) {
+    // Steps grow smaller towards the end, so that the phases settle between the squares of different steps.
+    const double along = static_cast<double>(k) / static_cast<double>(iterations);
+    const double length = radians_a_step * 0.5 * (1 + std::cos(std::numbers::pi * along));
+    const double first_left = 1 - std::pow(first_rate, static_cast<double>(k)),
+                 second_left = 1 - std::pow(second_rate, static_cast<double>(k));
+    core::parallel_for(descent.phases.extent(0), [&](std::size_t y) {
+        for (std::size_t x = 0; x < descent.phases.extent(1); ++x) {
+            const float g = descent.gradient(y, x);
+            float& m = descent.first(y, x);
+            float& v = descent.second(y, x);
+            m = static_cast<float>(first_rate * m + (1 - first_rate) * g);
+            v = static_cast<float>(second_rate * v + (1 - second_rate) * g * g);
+            descent.phases(y, x) -=
+                static_cast<float>(length * (m / first_left) / (std::sqrt(v / second_left) + 1e-12));
+        }
+    });
 }
 
 }  // namespace
 
 // Gradient descent on the phases φ for Σ m (s|A| − |B|)² over local spectra A of e^{iφ} and B of the field, in squares
-// that lie elsewhere at each step, so that no seam is ever learnt: a stochastic form of what Gerchberg and Saxton do in
-// squares that never move. s is the scale that fits best, m says in which directions the field has light. Sources:
-// Peng, Choi, Padmanaban and Wetzstein, ACM TOG 39(6), 2020; with the light field as its aim, Choi et al., SIGGRAPH
-// 2022.
+// that lie elsewhere at each step, so that the phases learn no seams: a stochastic form of Gerchberg and Saxton's
+// iteration, whose squares stay. s is the scale that fits best, m is 1 in the directions where the field has light.
+// Sources: Peng, Choi, Padmanaban and Wetzstein, ACM TOG 39(6), 2020; with the light field as its aim, Choi et al.,
+// SIGGRAPH 2022.
 Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     const std::size_t side = options.window;
     require_squares_fit(field, side);
     const math::Fft2 fft(side, side);
     const std::vector<float> lit = lit_frequencies(field, {side, 0, 0}, fft);
-    Array<float, 2> phases(field.shape()), gradient(field.shape()), first(field.shape()), second(field.shape());
-    for (std::size_t i = 0; i < phases.size(); ++i) phases.data()[i] = std::arg(field.data()[i]);
-    double scale = 1;
+    Descent descent(field);
     for (std::size_t k = 0; k <= options.iterations; ++k) {
         progress.report(static_cast<double>(k) / static_cast<double>(options.iterations + 1));
         const auto bits =
             core::philox({static_cast<std::uint32_t>(k), 0, 0, 0},
                          {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)});
-        const Squares squares{side, bits[0] % side, bits[1] % side};
-        const std::size_t rows = squares.rows(field.extent(0)), columns = squares.columns(field.extent(1));
-        std::vector<Sums> sums(rows);
-        core::parallel_for(rows, [&](std::size_t j) {
-            Array<Complex, 2> shown({side, side}), wanted({side, side});
-            for (std::size_t i = 0; i < columns; ++i) {
-                std::ranges::fill(shown.elements(), Complex(0));
-                std::ranges::fill(wanted.elements(), Complex(0));
-                squares.visit(i, j, field.shape(), [&](auto y, auto x, auto q, auto p) {
-                    shown(q, p) = std::polar(1.0f, phases(y, x));
-                    wanted(q, p) = field(y, x);
-                });
-                fft.forward(shown);
-                fft.forward(wanted);
-                for (std::size_t f = 0; f < lit.size(); ++f) {
-                    const float a = std::abs(shown.data()[f]), b = std::abs(wanted.data()[f]);
-                    sums[j].product += lit[f] * a * b;
-                    sums[j].energy += lit[f] * a * a;
-                    shown.data()[f] *= a > 0 ? lit[f] * (static_cast<float>(scale) - b / a) : 0.0f;
-                }
-                fft.backward(shown);
-                squares.visit(i, j, field.shape(), [&](auto y, auto x, auto q, auto p) {
-                    gradient(y, x) = -(std::conj(shown(q, p)) * std::polar(1.0f, phases(y, x))).imag();
-                });
-            }
-        });
-        Sums all;
-        for (const Sums& row : sums) {
-            all.product += row.product;
-            all.energy += row.energy;
-        }
-        scale = all.energy > 0 ? all.product / all.energy : 1;
-        if (k == 0) continue;  // the first round only finds the scale
-        // Steps grow smaller towards the end, so that it settles between the squares of different steps.
-        const double along = static_cast<double>(k) / static_cast<double>(options.iterations);
-        const double length = radians_a_step * 0.5 * (1 + std::cos(std::numbers::pi * along));
-        const double first_left = 1 - std::pow(first_rate, static_cast<double>(k)),
-                     second_left = 1 - std::pow(second_rate, static_cast<double>(k));
-        core::parallel_for(field.extent(0), [&](std::size_t y) {
-            for (std::size_t x = 0; x < field.extent(1); ++x) {
-                const float g = gradient(y, x);
-                float& m = first(y, x);
-                float& v = second(y, x);
-                m = static_cast<float>(first_rate * m + (1 - first_rate) * g);
-                v = static_cast<float>(second_rate * v + (1 - second_rate) * g * g);
-                phases(y, x) -= static_cast<float>(length * (m / first_left) / (std::sqrt(v / second_left) + 1e-12));
-            }
-        });
+        find_gradient(field, {side, bits[0] % side, bits[1] % side}, lit, fft, descent);
+        // The first round only finds the scale.
+        if (k > 0) step_along_gradient(k, options.iterations, descent);
     }
-    for (float& phase : phases.elements()) {
-        const auto turns = static_cast<float>(phase * (0.5 / std::numbers::pi));
-        phase = turns - std::floor(turns);
+    for (float& phase : descent.phases.elements()) {
+        const auto cycles = static_cast<float>(phase * (0.5 / std::numbers::pi));
+        phase = cycles - std::floor(cycles);
     }
-    return phases;
+    return std::move(descent.phases);
 }
 
 }  // namespace hogel::hologram::patterns

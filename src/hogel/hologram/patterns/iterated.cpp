@@ -31,20 +31,20 @@ std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
 }  // namespace
 
 void require_squares_fit(View<const Complex, 2> field, std::size_t side) {
-    const std::size_t most = std::min(field.extent(0), field.extent(1));
-    if (side < 2 || side > most)
+    const std::size_t max_side = std::min(field.extent(0), field.extent(1));
+    if (side < 2 || side > max_side)
         throw Error(ErrorCode::usage, fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do",
-                                                  side, field.extent(1), field.extent(0), most));
+                                                  side, field.extent(1), field.extent(0), max_side));
 }
 
-// Each square for itself, back and forth between unit modulus and the moduli of the field's own spectrum there, which
-// are what its light field shows: Gerchberg and Saxton, Optik 35, 1972.
+// Each square independently, alternating between unit modulus and the moduli of the field's spectrum there, which are
+// its light field: Gerchberg and Saxton, Optik 35, 1972.
 Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
     require_squares_fit(field, side);
     const std::vector<std::size_t> columns = squares_along(side, width), rows = squares_along(side, height);
     const math::Fft2 fft(side, side);
-    Array<float, 2> turns(field.shape());
+    Array<float, 2> cycles(field.shape());
     for (std::size_t j = 0; j < rows.size(); ++j) {
         progress.report(static_cast<double>(j) / static_cast<double>(rows.size()));
         core::parallel_for(columns.size(), [&](std::size_t i) {
@@ -67,12 +67,12 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
             const std::size_t skip_y = j > 0 ? rows[j - 1] + side - y0 : 0;
             for (std::size_t y = skip_y; y < side; ++y)
                 for (std::size_t x = skip_x; x < side; ++x) {
-                    const auto turn = static_cast<float>(std::arg(square(y, x)) * (0.5 / std::numbers::pi));
-                    turns(y0 + y, x0 + x) = turn < 0 ? turn + 1 : turn;
+                    const auto phase = static_cast<float>(std::arg(square(y, x)) * (0.5 / std::numbers::pi));
+                    cycles(y0 + y, x0 + x) = phase < 0 ? phase + 1 : phase;
                 }
         });
     }
-    return turns;
+    return cycles;
 }
 
 }  // namespace hogel::hologram::patterns

@@ -77,25 +77,25 @@ void normalise(Array<Complex, 2>& field, double clip) {
     }
 }
 
-float turns_of(Complex value) {
-    const float turns = std::arg(value) * static_cast<float>(0.5 / std::numbers::pi);
-    return turns < 0 ? turns + 1 : turns;
+float cycles_of(Complex value) {
+    const float cycles = std::arg(value) * static_cast<float>(0.5 / std::numbers::pi);
+    return cycles < 0 ? cycles + 1 : cycles;
 }
 
 Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     if (options.encoding == Encoding::gerchberg_saxton) return iterate_phases(field, options, progress);
     if (options.encoding == Encoding::gradient) return descend_phases(field, options, progress);
-    Array<float, 2> turns(field.shape());
+    Array<float, 2> cycles(field.shape());
     for (std::size_t y = 0; y < field.extent(0); ++y)
         for (std::size_t x = 0; x < field.extent(1); ++x) {
-            turns(y, x) = turns_of(field(y, x));
+            cycles(y, x) = cycles_of(field(y, x));
             if (options.encoding != Encoding::double_phase) continue;
             const auto spread =
                 static_cast<float>(std::acos(std::min(1.0f, std::abs(field(y, x)))) * (0.5 / std::numbers::pi));
-            turns(y, x) += (x + y) % 2 == 0 ? spread : -spread;
-            turns(y, x) -= std::floor(turns(y, x));
+            cycles(y, x) += (x + y) % 2 == 0 ? spread : -spread;
+            cycles(y, x) -= std::floor(cycles(y, x));
         }
-    return turns;
+    return cycles;
 }
 
 Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases) {
@@ -153,25 +153,33 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
 
 }  // namespace
 
-const std::map<std::string, Encoding>& encodings() {
-    static const std::map<std::string, Encoding> all{{"phase", Encoding::phase},
-                                                     {"double-phase", Encoding::double_phase},
-                                                     {"gerchberg-saxton", Encoding::gerchberg_saxton},
-                                                     {"gradient", Encoding::gradient},
-                                                     {"intensity", Encoding::intensity},
-                                                     {"bipolar", Encoding::bipolar},
-                                                     {"burckhardt", Encoding::burckhardt},
-                                                     {"lee", Encoding::lee},
-                                                     {"binary", Encoding::binary}};
-    return all;
-}
-
 bool is_phase_only(Encoding encoding) {
     return encoding == Encoding::phase || encoding == Encoding::double_phase ||
            encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
 }
 
+Table<EncodingInfo>& encodings() {
+    const auto row = [](const char* name, const char* text, Encoding encoding) {
+        return EncodingInfo{name, text, encoding, is_phase_only(encoding)};
+    };
+    static Table<EncodingInfo> table(
+        "encoding",
+        {
+            row("phase", "the field's own phase, its modulus forgotten", Encoding::phase),
+            row("double-phase", "the modulus as two phases on a checkerboard", Encoding::double_phase),
+            row("gerchberg-saxton", "phases by alternating projections", Encoding::gerchberg_saxton),
+            row("gradient", "phases by stochastic gradient descent", Encoding::gradient),
+            row("intensity", "amplitudes of the interference with a reference wave", Encoding::intensity),
+            row("bipolar", "amplitudes of the real part with a reference wave, raised", Encoding::bipolar),
+            row("burckhardt", "amplitudes of three real components in successive columns", Encoding::burckhardt),
+            row("lee", "amplitudes of four real components in successive columns", Encoding::lee),
+            row("binary", "amplitudes 0 and 1 by the sign of the real part with a reference wave", Encoding::binary),
+        });
+    return table;
+}
+
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     require_fitting(source.grid(), options);
     Array<Complex, 2> field = fit(source, options.modulator);
     normalise(field, options.clip);

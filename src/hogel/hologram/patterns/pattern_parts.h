@@ -8,7 +8,7 @@ namespace hogel::hologram::patterns {
 /// The wave that a pattern's useful order is F times of: e^{2πi f_x·column}, by column.
 using Carrier = std::vector<std::complex<float>>;
 
-/// A field's reach in frequency along x, cycles a sample: what 95 % of its light keeps within; the edges
+/// A field's reach in frequency along x, cycles a sample: 95 % of its light lies within; the edges
 /// of hogels scatter the rest widely.
 double band_along_x(View<const std::complex<float>, 2> field);
 
@@ -17,11 +17,11 @@ double band_along_x(View<const std::complex<float>, 2> field);
 Array<float, 2> encode_amplitude(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                  double wavelength, Carrier& carrier, double& angle);
 
-/// Phases, in turns [0, 1), by alternating projections in squares: Encoding::gerchberg_saxton.
+/// Phases, in cycles [0, 1), by alternating projections in squares: Encoding::gerchberg_saxton.
 Array<float, 2> iterate_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                const Progress& progress);
 
-/// The same by stochastic gradient descent: Encoding::gradient.
+/// Phases, in cycles [0, 1), by stochastic gradient descent: Encoding::gradient.
 Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                const Progress& progress);
 

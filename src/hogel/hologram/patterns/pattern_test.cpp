@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, PlaneWave,
 
 // A random sum of waves has an exponential |F|²: its phase alone keeps E|F|²/E(|F|²) = π/4 of the light, and what is
 // linear in F keeps the mean of |F|² over its largest, times what it keeps of a plane wave.
-TEST(Pattern, of_speckle_has_the_efficiency_of_theory) {
+TEST(Pattern, speckle_is_encoded_with_the_efficiency_of_theory) {
     const Field field = speckle(0.1);
     EXPECT_NEAR(encode_pattern(field, options_for(Encoding::phase)).efficiency, std::numbers::pi / 4, 0.01);
     double mean = 0, peak = 0;
@@ -93,7 +93,7 @@ TEST(Pattern, of_speckle_has_the_efficiency_of_theory) {
 // The carrier's order of the pattern is the field, and nothing else: low-passed to the field's own band.
 class Order : public testing::TestWithParam<Encoding> {};
 
-TEST_P(Order, that_carries_the_field_carries_nothing_else) {
+TEST_P(Order, holds_the_field_alone) {
     const double band = 0.08;
     const Field field = speckle(band);
     const Pattern pattern = encode_pattern(field, options_for(GetParam()));
@@ -169,7 +169,7 @@ TEST(Pattern, iteration_brings_the_light_field_nearer_than_the_phase_alone) {
 }
 
 // Gerchberg and Saxton's squares leave seams; the descent's never lie still, so it is as good between them.
-TEST(Pattern, of_a_descent_has_the_light_field_wherever_it_is_looked_at) {
+TEST(Pattern, gradient_descent_keeps_the_light_field_in_squares_at_any_place) {
     const Field field = speckle(0.2);
     const auto make = [&](Encoding encoding, std::uint64_t seed = 1) {
         PatternOptions options = options_for(encoding);
@@ -192,7 +192,7 @@ TEST(Pattern, of_a_descent_has_the_light_field_wherever_it_is_looked_at) {
     EXPECT_FALSE(std::ranges::equal(descent.levels.elements(), make(Encoding::gradient, 2).levels.elements()));
 }
 
-TEST(Pattern, fills_the_modulator_with_the_middle_of_the_field_or_a_border_and_rounds_to_its_levels) {
+TEST(Pattern, is_the_middle_of_the_field_or_has_a_border_and_rounds_to_levels) {
     const Field field = plane_wave();
     PatternOptions options = options_for(Encoding::phase);
     options.modulator = {"test", 100, 220, 8_um, 16};
@@ -201,8 +201,8 @@ TEST(Pattern, fills_the_modulator_with_the_middle_of_the_field_or_a_border_and_r
     for (std::size_t y = 14; y < 206; ++y)
         for (std::size_t x = 0; x < 100; ++x) {
             ASSERT_EQ(pattern.levels(y, x) % 16, 0);
-            const double turns = std::arg(field.samples(y - 14, x + 46)) / (2 * std::numbers::pi);
-            ASSERT_LT(std::abs(std::remainder(pattern.levels(y, x) / 256.0 - turns, 1.0)), 0.5 / 16 + 1e-5);
+            const double cycles = std::arg(field.samples(y - 14, x + 46)) / (2 * std::numbers::pi);
+            ASSERT_LT(std::abs(std::remainder(pattern.levels(y, x) / 256.0 - cycles, 1.0)), 0.5 / 16 + 1e-5);
         }
     EXPECT_EQ(pattern.levels(0, 50), 0);
     // sinc² of half a level's phase, and of the light on the border none.
@@ -220,7 +220,7 @@ void expect_usage(const Field& field, const PatternOptions& options, const std::
     }
 }
 
-TEST(Pattern, that_cannot_be_is_refused_with_what_would_do) {
+TEST(Pattern, names_an_angle_or_pitch_that_would_do_where_it_refuses_one) {
     PatternOptions options = options_for(Encoding::bipolar);
     options.reference_angle = 0.2_deg;
     expect_usage(speckle(0.2), options,
@@ -236,8 +236,8 @@ TEST(Pattern, that_cannot_be_is_refused_with_what_would_do) {
     options = options_for(Encoding::gerchberg_saxton);
     options.window = 500;
     expect_usage(speckle(0.2), options, "500");
-    EXPECT_THROW(find_modulator("zeus"), Error);
-    EXPECT_EQ(find_modulator("leto").width, 1920u);
+    EXPECT_THROW(modulators().find("zeus"), Error);
+    EXPECT_EQ(modulators().find("leto").width, 1920u);
 }
 
 }  // namespace

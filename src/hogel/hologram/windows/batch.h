@@ -18,19 +18,19 @@ struct WindowDirection {
     std::uint32_t ray;          // [l][k] of the light field
     float share;                // |a|² for unit radiance, (λ/W)²/cos θ
     float U, V;
-    double turns_per_depth;  // 1/(λ cos θ)
-    double first_turns;      // the phase of the window's first sample, counted from its centre
+    double cycles_per_depth;  // 1/(λ cos θ)
+    double first_cycles;      // the phase of the window's first sample, counted from its centre
 };
 
 /// The windows of sixteen hogels side by side, made together: a hogel to a lane of the vectors. Small transforms are
-/// sums over all directions, because then nothing but sums is left.
+/// sums over all directions, so that all work is sums of whole vectors.
 class WindowBatch {
   public:
     static constexpr std::size_t hogels = 16;
     /// The largest side for which sums are quicker than transforms.
     static constexpr std::size_t max_side = 20;
 
-    /// What the windows of one hologram share. Sides and hops in samples.
+    /// Constants that the windows of one hologram share. Sides and hops in samples.
     struct Shared {
         std::size_t side = 0, hop = 0;
         const std::vector<WindowDirection>* directions = nullptr;
@@ -40,11 +40,11 @@ class WindowBatch {
     };
     explicit WindowBatch(const Shared& shared);
 
-    /// Phases in turns of the point (columns to the right, rows up) of each of the hogels; empty where points have
+    /// Phases in cycles of the point (columns to the right, rows up) of each of the hogels; empty where points have
     /// none.
-    using PointCycles = std::function<void(const std::int32_t* columns, const std::int32_t* rows, float* turns)>;
-    /// Which hogels: columns s, s + 1, ... of row t; and the random phases of what meets nothing, which for a direction
-    /// are the first word of Philox's draw {s, t, coefficient + 1, series}.
+    using PointCycles = std::function<void(const std::int32_t* columns, const std::int32_t* rows, float* cycles)>;
+    /// Which hogels: columns s, s + 1, ... of row t; and the random phases of rays that meet nothing, which for a
+    /// direction are the first word of Philox's draw {s, t, coefficient + 1, series}.
     struct At {
         std::size_t s = 0, t = 0;
         std::uint32_t series = 0;
@@ -66,7 +66,7 @@ class WindowBatch {
     /// Adds the windows that were filled last.
     void add(const At& at, Sum& sum);
 
-    // What the vector code works on; all arrays have a hogel a lane.
+    // The data of the vector code; all arrays have a hogel a lane.
     struct Work {
         std::size_t side, padded, hop;
         std::vector<std::uint32_t> rows;        // of the transform, those with directions

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-// Compiled for every instruction set and chosen when first called. The plain twin is OverlapAdd's way hogel by hogel.
+// Compiled for every instruction set and chosen when first called. The plain twin is OverlapAddHologram one by one.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/windows/batch_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -26,17 +26,17 @@ using Wide = hn::CappedTag<double, 1>;
 using Wide = hn::Repartition<double, D>;
 #endif
 
-// Fractions of turns, less than one, of what the rays meet at their depths; for points with phases of their own which
-// points these are, counted from the hogel.
-void PointsAndTurns(const WindowBatch::Shared& shared, const WindowDirection& direction, const float* depths,
-                    bool points, float* turns, std::int32_t* columns, std::int32_t* rows) {
+// Phases, in cycles less than one, of the points that the rays meet at their depths; for points with phases of their
+// own which points these are, counted from the hogel.
+void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& direction, const float* depths,
+                     bool points, float* cycles, std::int32_t* columns, std::int32_t* rows) {
     const Wide d;
     const hn::Rebind<float, Wide> narrow;
     const hn::Rebind<std::int32_t, Wide> whole;
-    const auto first = hn::Set(d, direction.first_turns);
+    const auto first = hn::Set(d, direction.first_cycles);
     for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
         const auto depth = hn::PromoteTo(d, hn::LoadU(narrow, depths + i));
-        auto all = hn::MulAdd(depth, hn::Set(d, direction.turns_per_depth), first);
+        auto all = hn::MulAdd(depth, hn::Set(d, direction.cycles_per_depth), first);
         if (points) {
             const auto hogels = hn::Mul(depth, hn::Set(d, shared.hogels_a_metre));
             const auto column = hn::Round(hn::Mul(hn::Set(d, static_cast<double>(direction.U)), hogels));
@@ -48,15 +48,15 @@ void PointsAndTurns(const WindowBatch::Shared& shared, const WindowDirection& di
             hn::StoreU(hn::DemoteTo(whole, column), whole, columns + i);
             hn::StoreU(hn::DemoteTo(whole, row), whole, rows + i);
         }
-        hn::StoreU(hn::DemoteTo(narrow, hn::Sub(all, hn::Round(all))), narrow, turns + i);
+        hn::StoreU(hn::DemoteTo(narrow, hn::Sub(all, hn::Round(all))), narrow, cycles + i);
     }
 }
 
-// amplitude · e^{2πi turns}, by the series of the sine and the cosine up to an eighth of a turn.
-HWY_INLINE void StoreWave(D d, V amplitude, V turns, float* re, float* im) {
+// amplitude · e^{2πi cycles}, by the series of the sine and the cosine up to an eighth of a cycle.
+HWY_INLINE void StoreWave(D d, V amplitude, V cycles, float* re, float* im) {
     const hn::RebindToSigned<D> whole;
-    const auto quarters = hn::Round(hn::Mul(turns, hn::Set(d, 4.0f)));
-    const auto angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25f), turns), hn::Set(d, 6.28318531f));
+    const auto quarters = hn::Round(hn::Mul(cycles, hn::Set(d, 4.0f)));
+    const auto angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25f), cycles), hn::Set(d, 6.28318531f));
     const auto square = hn::Mul(angle, angle);
     auto sine = hn::MulAdd(square, hn::Set(d, -1.0f / 5040), hn::Set(d, 1.0f / 120));
     sine = hn::MulAdd(square, sine, hn::Set(d, -1.0f / 6));
@@ -77,16 +77,16 @@ HWY_INLINE void StoreWave(D d, V amplitude, V turns, float* re, float* im) {
 }
 
 #if HWY_TARGET == HWY_SCALAR
-void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* turns) {
+void CyclesOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* cycles) {
     for (std::size_t i = 0; i < width; ++i)
-        turns[i] = static_cast<float>(core::philox({static_cast<std::uint32_t>(at.s + i),
-                                                    static_cast<std::uint32_t>(at.t), coefficient + 1, at.series},
-                                                   at.key)[0]) *
-                   0x1p-32f;
+        cycles[i] = static_cast<float>(core::philox({static_cast<std::uint32_t>(at.s + i),
+                                                     static_cast<std::uint32_t>(at.t), coefficient + 1, at.series},
+                                                    at.key)[0]) *
+                    0x1p-32f;
 }
 #else
 // A draw of Philox a hogel, in lanes of 64 bits.
-void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* turns) {
+void CyclesOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* cycles) {
     const hn::CappedTag<std::uint64_t, width> d;
     const auto low = hn::Set(d, 0xffffffffu);
     HWY_ALIGN std::uint64_t drawn[width];
@@ -97,7 +97,7 @@ void TurnsOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float*
         hn::Store(hn::And(c0, low), d, drawn + i);
     }
     for (std::size_t i = 0; i < width; ++i)
-        turns[i] = static_cast<float>(static_cast<std::uint32_t>(drawn[i])) * 0x1p-32f;
+        cycles[i] = static_cast<float>(static_cast<std::uint32_t>(drawn[i])) * 0x1p-32f;
 }
 #endif
 
@@ -107,7 +107,7 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
     const hn::RebindToSigned<D> whole;
     const auto& table = *shared.brightness;
     const auto last = static_cast<float>(table.size() - 1);
-    HWY_ALIGN float turns[width], own_turns[width], amplitudes[width], finite_depths[width];
+    HWY_ALIGN float cycles[width], own_cycles[width], amplitudes[width], finite_depths[width];
     HWY_ALIGN std::int32_t columns[width], rows[width];
     for (const WindowDirection& direction : *shared.directions) {
         const float* radiance = &work.radiance.data()[direction.ray * width];
@@ -139,22 +139,22 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
             for (std::size_t i = 0; i < width; ++i) re[i] = im[i] = 0;
             continue;
         }
-        PointsAndTurns(shared, direction, finite_depths, bool(points), turns, columns, rows);
+        PointsAndCycles(shared, direction, finite_depths, bool(points), cycles, columns, rows);
         if (points) {
-            points(columns, rows, own_turns);
+            points(columns, rows, own_cycles);
             for (std::size_t i = 0; i < width; i += hn::Lanes(d))
-                hn::Store(hn::Add(hn::Load(d, turns + i), hn::Load(d, own_turns + i)), d, turns + i);
+                hn::Store(hn::Add(hn::Load(d, cycles + i), hn::Load(d, own_cycles + i)), d, cycles + i);
         }
         if (!all_finite) {
-            TurnsOfNothing(at_hogels, direction.coefficient, own_turns);
-            const V first = hn::Set(d, static_cast<float>(direction.first_turns - std::round(direction.first_turns)));
+            CyclesOfNothing(at_hogels, direction.coefficient, own_cycles);
+            const V first = hn::Set(d, static_cast<float>(direction.first_cycles - std::round(direction.first_cycles)));
             for (std::size_t i = 0; i < width; i += hn::Lanes(d))
-                hn::Store(hn::IfThenElse(hn::IsFinite(hn::LoadU(d, depth + i)), hn::Load(d, turns + i),
-                                         hn::Add(hn::Load(d, own_turns + i), first)),
-                          d, turns + i);
+                hn::Store(hn::IfThenElse(hn::IsFinite(hn::LoadU(d, depth + i)), hn::Load(d, cycles + i),
+                                         hn::Add(hn::Load(d, own_cycles + i), first)),
+                          d, cycles + i);
         }
         for (std::size_t i = 0; i < width; i += hn::Lanes(d))
-            StoreWave(d, hn::Load(d, amplitudes + i), hn::Load(d, turns + i), re + i, im + i);
+            StoreWave(d, hn::Load(d, amplitudes + i), hn::Load(d, cycles + i), re + i, im + i);
     }
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t steps = 256;
 
-// Directions along one axis: the middle and half of their range of U or V, and how much longer the way to the surface
-// is because the fan points aside along the other axis.
+// Directions along one axis: the middle and half of their range of U or V, and the factor by which the path to the
+// surface is longer because the fan is oblique along the other axis.
 struct Fan {
     double center, half, slant;
     friend bool operator==(const Fan&, const Fan&) = default;
@@ -48,9 +48,9 @@ double one_dimension(const Line& line, double depth, const Fan& fan, const math:
             static_cast<std::ptrdiff_t>(hops - middle_hops) * static_cast<std::ptrdiff_t>(line.hop) + length;
         for (std::size_t p = 0; p < side; ++p) {
             const double x = static_cast<double>(p) - 0.5 * static_cast<double>(side - 1);
-            const double turns = static_cast<double>(j) * x / static_cast<double>(side) + path / line.wavelength;
+            const double cycles = static_cast<double>(j) * x / static_cast<double>(side) + path / line.wavelength;
             sum.data()[(first + static_cast<std::ptrdiff_t>(p)) % length] +=
-                std::complex<float>(std::polar<double>(line.window[p], 2 * std::numbers::pi * turns));
+                std::complex<float>(std::polar<double>(line.window[p], 2 * std::numbers::pi * cycles));
         }
     }
     fft.forward(sum);

@@ -9,10 +9,10 @@
 
 namespace hogel::hologram::windows {
 
-/// By how much overlapping windows must make points at a depth brighter. Near the plane the windows that show one point
-/// overlap and interfere, far from it they lie apart. One point's windows are added up, in one dimension, to find what
-/// makes points of all depths as bright as the light field says in the middle of the fan of directions: the energy that
-/// its rays carry there (docs/notation.md, section 3).
+/// The factor by which overlapping windows must raise the amplitude of points, by depth. Near the plane the windows
+/// that show one point overlap and interfere, far from it they lie apart. The factors are found by adding up one
+/// point's windows, in one dimension: they give points of all depths, in the middle of the fan of directions, the
+/// energy that the light field's rays carry there (docs/notation.md, section 3).
 class WindowBrightness {
   public:
     /// @param hop     samples of a hogel's side

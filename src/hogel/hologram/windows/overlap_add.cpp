@@ -39,25 +39,27 @@ std::vector<float> hann_window(std::size_t side) {
 
 std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
 
-// The stereogram whose hogels are windows that overlap: a Hann window around each hogel's centre, filled by one Fourier
-// transform with the waves of its directions, each in the phase of a spherical wave from the point that it meets; all
-// windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
+// A stereogram of windows that overlap: a Hann window around each hogel's centre, filled by one Fourier transform with
+// the waves of its directions, each with the phase of a spherical wave from the point that the ray meets; all windows
+// are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
 // stereograms", ACM TOG 38(6), 2019.
-class OverlapAdd final : public FieldSource {
+class OverlapAddHologram final : public FieldSource {
   public:
-    OverlapAdd(const LightFieldSource& light_field, const FieldGrid& grid, const HologramOptions& options,
-               bool one_by_one)
-        : light_field_(light_field),
+    OverlapAddHologram(LightField::Source light_field, const FieldGrid& grid, const HologramOptions& options,
+                       PointPhases phases, bool one_by_one)
+        : source_(std::move(light_field)),
+          light_field_(*source_),
+          phases_(phases),
           options_(options),
           grid_(grid),
-          hop_(grid.plane.width / light_field.grid().hogels_s),
-          side_(window_side(light_field.grid(), grid, hop_)),
+          hop_(grid.plane.width / light_field_.grid().hogels_s),
+          side_(window_side(light_field_.grid(), grid, hop_)),
           fft_(side_, side_),
           window_(hann_window(side_)),
-          brightness_(light_field.grid(), grid, hop_, window_) {
+          brightness_(light_field_.grid(), grid, hop_, window_) {
         for (const float row : window_)
             for (const float column : window_) square_.push_back(row * column);
-        hogels_a_metre_ = 1 / light_field.grid().pitch;
+        hogels_a_metre_ = 1 / light_field_.grid().pitch;
         waves_a_metre_ = 1 / grid.wavelength;
         list_directions();
         batches_ = !one_by_one && side_ <= WindowBatch::max_side && !directions_.empty();
@@ -81,7 +83,7 @@ class OverlapAdd final : public FieldSource {
   private:
     static constexpr std::size_t band_rays = std::size_t{1} << 18;
 
-    // What a region is made in.
+    // Buffers for one region.
     struct Room {
         LightFieldTile tile;
         std::optional<WindowBatch> batch;
@@ -102,18 +104,18 @@ class OverlapAdd final : public FieldSource {
         }
     }
 
-    // The plain way. Every sample adds its windows in the same order, whatever the region.
+    // The plain version. Every sample adds its windows in the same order, whatever the region.
     void add_one_by_one(const HogelRange& hogels, const Region& region, std::size_t look, Room& room,
                         View<Complex, 2> out) const {
         std::fill(out.data(), out.data() + out.size(), Complex(0));
         Array<Complex, 2> window({side_, side_});
         std::optional<PointCycles> points;
-        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
+        if (phases_ == PointPhases::random) points.emplace(cycle_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             const HogelRange& range = tile.range;
             for (std::size_t j = 0; j < range.nt; ++j)
                 for (std::size_t i = 0; i < range.ns; ++i) {
-                    fill(tile.radiance.view()[options_.channel][j][i].elements(), tile.depth[j][i].elements(),
+                    fill(tile.radiance.view()[options_.channel.index][j][i].elements(), tile.depth[j][i].elements(),
                          {range.s0 + i, range.t0 + j, look}, points ? &*points : nullptr, window);
                     fft_.backward(window);
                     add(window, range.s0 + i, range.t0 + j, region, out);
@@ -152,7 +154,7 @@ class OverlapAdd final : public FieldSource {
                 std::fill_n(part->data(), size, 0.0f);
         }
         std::optional<PointCycles> points;
-        if (options_.phases == Phases::random) points.emplace(turn_series(look), hogels);
+        if (phases_ == PointPhases::random) points.emplace(cycle_series(look), hogels);
         for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
             for (std::size_t j = 0; j < tile.range.nt; ++j)
                 for (std::size_t i = 0; i < tile.range.ns; i += together)
@@ -169,18 +171,18 @@ class OverlapAdd final : public FieldSource {
     void add_batch(const LightFieldTile& tile, std::size_t i, std::size_t j, std::size_t look,
                    const PointCycles* points, Room& room) const {
         const std::size_t s = tile.range.s0 + i, t = tile.range.t0 + j;
-        WindowBatch::PointCycles turns_of_points;
+        WindowBatch::PointCycles cycles_of_points;
         if (points)
-            turns_of_points = [=](const std::int32_t* columns, const std::int32_t* rows, float* turns) {
+            cycles_of_points = [=](const std::int32_t* columns, const std::int32_t* rows, float* cycles) {
                 for (std::size_t k = 0; k < WindowBatch::hogels; ++k)
-                    turns[k] = static_cast<float>((*points)(static_cast<std::int64_t>(s + k) + columns[k],
-                                                            static_cast<std::int64_t>(t) - rows[k]));
+                    cycles[k] = static_cast<float>((*points)(static_cast<std::int64_t>(s + k) + columns[k],
+                                                             static_cast<std::int64_t>(t) - rows[k]));
             };
-        const TurnSeries turns = turn_series(look);
-        const WindowBatch::At at{s, t, turns.series, turns.key};
+        const CycleSeries cycles = cycle_series(look);
+        const WindowBatch::At at{s, t, cycles.series, cycles.key};
         const std::size_t count = std::min(WindowBatch::hogels, tile.range.ns - i);
-        if (room.batch->fill(at, &tile.radiance(options_.channel, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
-                             light_field_.grid().directions(), turns_of_points))
+        if (room.batch->fill(at, &tile.radiance(options_.channel.index, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
+                             light_field_.grid().directions(), cycles_of_points))
             room.batch->add(at, room.sum);
     }
 
@@ -220,33 +222,34 @@ class OverlapAdd final : public FieldSource {
             const float light = radiance[direction.ray] * direction.share;
             if (!(light > 0)) continue;
             const float depth = depths[direction.ray];
-            double turns = direction.first_turns;
+            double cycles = direction.first_cycles;
             float amplitude = std::sqrt(light);
             if (std::isfinite(depth)) {
-                turns += points ? turns_of_point(direction, depth, place, *points) : depth * direction.turns_per_depth;
+                cycles +=
+                    points ? cycles_of_point(direction, depth, place, *points) : depth * direction.cycles_per_depth;
                 amplitude *= brightness_(depth);
             } else {
-                turns += turns_of_nothing(direction, place);
+                cycles += cycles_of_nothing(direction, place);
                 amplitude *= brightness_.farthest();
             }
-            window.data()[direction.coefficient] = amplitude * roots_(turns);
+            window.data()[direction.coefficient] = amplitude * roots_(cycles);
         }
     }
 
-    TurnSeries turn_series(std::size_t look) const {
+    CycleSeries cycle_series(std::size_t look) const {
         return {{static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)},
-                static_cast<std::uint32_t>(look * 4 + options_.channel)};
+                static_cast<std::uint32_t>(look * 4 + options_.channel.index)};
     }
 
-    // Nothing is a surface far away, of which neighbouring windows see different points.
-    double turns_of_nothing(const WindowDirection& direction, const HogelPlace& place) const {
-        return turn_series(place.look)(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
-                                       direction.coefficient + 1);
+    // A ray that meets nothing sees a surface far away, of which neighbouring windows see different points.
+    double cycles_of_nothing(const WindowDirection& direction, const HogelPlace& place) const {
+        return cycle_series(place.look)(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
+                                        direction.coefficient + 1);
     }
 
     // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
-    double turns_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
-                          const PointCycles& points) const {
+    double cycles_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
+                           const PointCycles& points) const {
         const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
         const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
         const double x = static_cast<double>(columns) * pitch, y = static_cast<double>(rows) * pitch;
@@ -285,7 +288,9 @@ class OverlapAdd final : public FieldSource {
         }
     }
 
+    LightField::Source source_;
     const LightFieldSource& light_field_;
+    PointPhases phases_;
     HologramOptions options_;
     FieldGrid grid_;
     std::size_t hop_, side_;  // samples of a hogel's and a window's side
@@ -295,7 +300,7 @@ class OverlapAdd final : public FieldSource {
     WindowBrightness brightness_;
     std::vector<float> square_;  // [q][p], a product of two
     std::vector<WindowDirection> directions_;
-    // What every ray would have to divide by.
+    // Reciprocals, so that rays need no divisions.
     double hogels_a_metre_ = 0, waves_a_metre_ = 0;
     bool batches_ = false;  // windows of many hogels at once
     mutable core::ObjectPool<Room> rooms_;
@@ -303,9 +308,10 @@ class OverlapAdd final : public FieldSource {
 
 }  // namespace
 
-std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const HologramOptions& options, bool one_by_one) {
-    return std::make_unique<OverlapAdd>(light_field, grid, options, one_by_one);
+std::shared_ptr<const FieldSource> make_overlap_add(const LightField::Source& light_field, const FieldGrid& grid,
+                                                    const HologramOptions& options, PointPhases phases,
+                                                    bool one_by_one) {
+    return std::make_shared<OverlapAddHologram>(light_field, grid, options, phases, one_by_one);
 }
 
 }  // namespace hogel::hologram::windows

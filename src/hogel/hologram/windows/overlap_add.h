@@ -9,9 +9,11 @@
 
 namespace hogel::hologram::windows {
 
-/// Stereograms whose windows overlap. One by one is the plain way, which is always taken where windows are large; the
-/// other makes windows of many hogels at once.
-std::unique_ptr<FieldSource> make_overlap_add(const LightFieldSource& light_field, const FieldGrid& grid,
-                                              const HologramOptions& options, bool one_by_one = false);
+/// A hologram whose hogels are windows that overlap.
+/// @param one_by_one  the plain version, which is taken for large windows anyway; the fast one makes windows of many
+///                    hogels at once
+std::shared_ptr<const FieldSource> make_overlap_add(const LightField::Source& light_field, const FieldGrid& grid,
+                                                    const HologramOptions& options, PointPhases phases,
+                                                    bool one_by_one = false);
 
 }  // namespace hogel::hologram::windows

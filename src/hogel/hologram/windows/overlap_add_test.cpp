@@ -6,18 +6,22 @@
 #include <limits>
 #include <random>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/windows/overlap_add.h"
 
 namespace hogel::hologram::windows {
 namespace {
 
+HOGEL_TEST_ON_EVERY_TARGET(OverlapAddHologram);
+
 using Complex = std::complex<float>;
 
 // Rays that are dark, that meet something on either side of the plane, and that meet nothing.
 LightFieldBuffer noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u, std::size_t directions_v,
                        double pitch) {
-    LightFieldBuffer field({hogels_s, hogels_t, pitch, directions_u, directions_v, 0.035, 0.03, 3, 0.004, 0}, true);
+    LightFieldBuffer field(
+        {hogels_s, hogels_t, pitch, directions_u, directions_v, Perspective{0.035, 0.03, 0.004, 0}, 3}, true);
     std::mt19937 random(1);
     for (float& radiance : field.radiance.elements())
         radiance = random() % 5 == 0 ? 0.0f : static_cast<float>(random() % 1000) / 1000;
@@ -27,40 +31,39 @@ LightFieldBuffer noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t d
     return field;
 }
 
-HologramOptions options_of(Phases phases, double pitch) {
+HologramOptions options_of(PointPhases phases, double pitch) {
     HologramOptions options;
-    options.wavelength = 520e-9;
+    options.channel = {520e-9, 1};
     options.pitch = pitch;
-    options.channel = 1;
-    options.method = Method::overlap_add;
-    options.phases = phases;
+    options.method = OverlapAdd{phases};
     options.looks = 2;
     return options;
 }
 
-TEST(OverlapAdd, windows_of_many_hogels_at_once_are_those_one_by_one) {
+TEST_P(OverlapAddHologram, batches_of_windows_equal_windows_one_by_one) {
     for (const std::size_t hop : {1, 2, 3})
-        for (const Phases phases : {Phases::fixed, Phases::random}) {
+        for (const PointPhases phases : {PointPhases::fixed, PointPhases::random}) {
             const LightFieldBuffer rays = noise(37, 21, 9, 6, static_cast<double>(hop) * 6e-6);
             const HologramOptions options = options_of(phases, 6e-6);
-            const FieldGrid grid = hologram_grid(rays.grid(), options);
+            const LightField::Source source = borrow(rays).faces().front();
+            const FieldGrid grid = hologram_grid({&rays.grid(), 1}, options);
             const Region all{0, 0, grid.plane.width, grid.plane.height};
             Array<Complex, 2> plain({all.height, all.width}), fast = plain;
-            make_overlap_add(rays, grid, options, true)->read(all, 1, plain);
-            make_overlap_add(rays, grid, options)->read(all, 1, fast);
+            make_overlap_add(source, grid, options, phases, true)->read(all, 1, plain);
+            make_overlap_add(source, grid, options, phases)->read(all, 1, fast);
             double signal = 0, error = 0;
             for (std::size_t i = 0; i < plain.size(); ++i) {
                 signal += std::norm(plain.data()[i]);
                 error += std::norm(plain.data()[i] - fast.data()[i]);
             }
             EXPECT_GT(signal, 0);
-            EXPECT_LT(std::sqrt(error / signal), 1e-3) << hop;  // the plain way takes phases from a table of 67 dB
+            EXPECT_LT(std::sqrt(error / signal), 1e-3) << hop;  // the plain version takes phases from a table of 67 dB
         }
 }
 
-TEST(OverlapAdd, a_sample_is_the_same_whatever_the_region) {
+TEST_P(OverlapAddHologram, a_sample_is_the_same_whatever_the_region) {
     const LightFieldBuffer rays = noise(70, 9, 9, 6, 12e-6);
-    const auto hologram = make_hologram(rays, options_of(Phases::random, 6e-6));
+    const auto hologram = make_hologram(borrow(rays), options_of(PointPhases::random, 6e-6));
     const Region all{0, 0, 140, 18};
     Array<Complex, 2> whole({all.height, all.width});
     hologram->read(all, 0, whole);

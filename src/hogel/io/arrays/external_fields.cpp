@@ -17,7 +17,7 @@
 namespace hogel::io::arrays {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are taken as they lie in the file");
+static_assert(std::endian::native == std::endian::little, "numbers are stored in memory as in the files");
 
 template <class T>
 double value_at(const unsigned char* at) {
@@ -85,24 +85,25 @@ double number_at(Number number, const unsigned char* at) {
     return value_at<double>(at);
 }
 
-Meaning::Meaning(const std::filesystem::path& path, const ExternalField& what, Number number, bool complex)
+SampleConverter::SampleConverter(const std::filesystem::path& path, const ExternalField& what, Number number,
+                                 bool complex)
     : path_(path), values_(what.values), sign_(what.conjugate ? -1 : 1) {
-    using RayValues = ExternalField::RayValues;
-    if (complex && values_ != RayValues::complex)
+    using Values = ExternalField::Values;
+    if (complex && values_ != Values::complex)
         throw Error(ErrorCode::usage, fmt::format("'{}' holds complex numbers, not {}", path.string(),
-                                                  values_ == RayValues::phase ? "phases" : "amplitudes"));
-    if (!complex && values_ == RayValues::complex)
+                                                  values_ == Values::phase ? "phases" : "amplitudes"));
+    if (!complex && values_ == Values::complex)
         throw Error(ErrorCode::usage,
                     fmt::format("'{}' holds real numbers: are they amplitudes or phases?", path.string()));
     const bool whole = number != Number::single && number != Number::real;
-    if (whole && bytes_of(number) > 2 && values_ == RayValues::phase)
+    if (whole && bytes_of(number) > 2 && values_ == Values::phase)
         fail_external(path, "phases as whole numbers of more than 16 bits have no known unit");
     radians_ = whole ? 2 * std::numbers::pi / std::exp2(8.0 * static_cast<double>(bytes_of(number))) : 1;
 }
 
-std::complex<float> Meaning::operator()(double real, double imaginary) const {
+std::complex<float> SampleConverter::operator()(double real, double imaginary) const {
     std::complex<double> value(real, imaginary);
-    if (values_ == ExternalField::RayValues::phase)
+    if (values_ == ExternalField::Values::phase)
         value = std::polar(1.0, std::fmod(real * radians_, 2 * std::numbers::pi));
     const std::complex<float> sample(std::complex<double>(value.real(), sign_ * value.imag()));
     if (!std::isfinite(sample.real()) || !std::isfinite(sample.imag()))
@@ -119,13 +120,13 @@ FieldGrid external_grid(const std::filesystem::path& path, const ExternalField& 
 }
 
 std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& path, const ExternalField& what) {
-    const auto number = [](const RawPixels& codes) {
-        return codes.levels == 0 ? Number::single : codes.levels == 256 ? Number::uint8 : Number::uint16;
+    const auto number = [](const RawPixels& pixels) {
+        return pixels.levels == 0 ? Number::single : pixels.levels == 256 ? Number::uint8 : Number::uint16;
     };
     const RawPixels real = read_raw_pixels(path);
     const std::size_t height = real.values.extent(0), width = real.values.extent(1);
     const bool complex = !what.imaginary.empty();
-    const Meaning meaning(path, what, number(real), complex);
+    const SampleConverter convert(path, what, number(real), complex);
     auto field = std::make_unique<Field>(external_grid(path, what, width, height));
     Array<float, 2> imaginary(real.values.shape());
     if (complex) {
@@ -138,7 +139,7 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
         imaginary = other.values;
     }
     for (std::size_t i = 0; i < real.values.size(); ++i)
-        field->samples.data()[i] = meaning(double{real.values.data()[i]}, double{imaginary.data()[i]});
+        field->samples.data()[i] = convert(double{real.values.data()[i]}, double{imaginary.data()[i]});
     return field;
 }
 
@@ -153,7 +154,7 @@ bool is_external_array(const std::filesystem::path& path) {
     return is_npy(start) || is_mat(start);
 }
 
-std::unique_ptr<FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what) {
+std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what) {
     const std::vector<unsigned char> start = first_bytes(path);
     if (!is_npy(start) && !is_mat(start)) return open_picture_field(path, what);
     if (!what.imaginary.empty())

@@ -22,22 +22,22 @@ namespace {
 namespace fs = std::filesystem;
 using Complex = std::complex<float>;
 using Bytes = std::vector<unsigned char>;
-using RayValues = ExternalField::RayValues;
+using Values = ExternalField::Values;
 
-class Foreign : public testing::Test {
+class ExternalFields : public testing::Test {
   protected:
-    Foreign() { fs::create_directories(directory_); }
-    ~Foreign() override { fs::remove_all(directory_); }
+    ExternalFields() { fs::create_directories(directory_); }
+    ~ExternalFields() override { fs::remove_all(directory_); }
 
     fs::path write(const char* name, const Bytes& bytes) const {
         core::write_file(directory_ / name, bytes);
         return directory_ / name;
     }
 
-    fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_foreign_" + std::to_string(::getpid()));
+    fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_external_" + std::to_string(::getpid()));
 };
 
-ExternalField known(RayValues values = RayValues::complex) {
+ExternalField known(Values values = Values::complex) {
     ExternalField what;
     what.pitch_x = what.pitch_y = 2e-6;
     what.wavelength = 633e-9;
@@ -71,7 +71,7 @@ Bytes from_hex(std::string_view hex) {
     return bytes;
 }
 
-// Three rows of two columns: row by row 0 + 6i, 1 + 7i, 2 + 8i, … as scipy 1.10 writes it.
+// Three rows of two columns, row by row 0 + 6i, 1 + 7i, 2 + 8i, …, as scipy 1.10 writes them.
 Bytes mat(std::string_view elements) {
     constexpr std::string_view text = "MATLAB 5.0 MAT-file", end{"\0\1IM", 4};
     Bytes bytes(128, ' ');
@@ -185,7 +185,7 @@ void expect_example(const FieldSource& field, double sign = 1) {
         EXPECT_EQ(samples.data()[i], Complex(float(i), float(sign * double(i + 6)))) << i;
 }
 
-TEST_F(Foreign, arrays_of_numpy_are_read_by_rows_and_by_columns) {
+TEST_F(ExternalFields, of_numpy_are_read_by_rows_and_by_columns) {
     expect_example(*open_external_field(write("a.npy", npy_rows()), known()));
     const Bytes columns = npy("<c16", true, [](Bytes& bytes) {
         for (int column = 0; column < 2; ++column)
@@ -205,14 +205,14 @@ TEST_F(Foreign, arrays_of_numpy_are_read_by_rows_and_by_columns) {
     EXPECT_TRUE(is_external_array(directory_ / "b.npy"));
 }
 
-TEST_F(Foreign, arrays_are_written_as_numpy_writes_them) {
+TEST_F(ExternalFields, are_written_as_numpy_writes_them) {
     const auto field = open_external_field(write("a.npy", npy_rows()), known());
     write_npy(directory_ / "b.npy", all_of(*field));
     std::ifstream a(directory_ / "a.npy", std::ios::binary), b(directory_ / "b.npy", std::ios::binary);
     EXPECT_TRUE(std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b), {}));
 }
 
-TEST_F(Foreign, arrays_of_matlab_are_read_plain_and_compressed) {
+TEST_F(ExternalFields, of_matlab_are_read_plain_and_compressed) {
     expect_example(*open_external_field(write("a.mat", plain_mat()), known()));
     expect_example(*open_external_field(write("b.mat", compressed_mat()), known()));
     EXPECT_THROW(open_external_field(write("c.mat", two_arrays_mat()), known()), Error);
@@ -228,7 +228,7 @@ TEST_F(Foreign, arrays_of_matlab_are_read_plain_and_compressed) {
     EXPECT_THROW(open_external_field(directory_ / "c.mat", which), Error);
 }
 
-TEST_F(Foreign, real_numbers_are_amplitudes_or_phases_as_is_said) {
+TEST_F(ExternalFields, of_real_numbers_are_amplitudes_or_phases_as_described) {
     const auto reals = [](const char* type, auto first) {
         return npy(type, false, [&](Bytes& bytes) {
             for (int i = 0; i < 6; ++i) put(bytes, static_cast<decltype(first)>(i));
@@ -237,21 +237,21 @@ TEST_F(Foreign, real_numbers_are_amplitudes_or_phases_as_is_said) {
     const fs::path radians = write("f.npy", reals("<f4", float())),
                    codes = write("u.npy", reals("<u2", std::uint16_t()));
     EXPECT_THROW(open_external_field(radians, known()), Error);
-    EXPECT_THROW(open_external_field(write("a.npy", npy_rows()), known(RayValues::phase)), Error);
-    const auto at = [](const fs::path& path, RayValues values) {
+    EXPECT_THROW(open_external_field(write("a.npy", npy_rows()), known(Values::phase)), Error);
+    const auto at = [](const fs::path& path, Values values) {
         return all_of(*open_external_field(path, known(values)))(2, 0);
     };
-    EXPECT_EQ(at(radians, RayValues::amplitude), Complex(4));
-    EXPECT_LT(std::abs(at(radians, RayValues::phase) - std::polar(1.0f, 4.0f)), 1e-6f);
-    EXPECT_LT(std::abs(at(codes, RayValues::phase) - std::polar(1.0f, float(2 * std::numbers::pi * 4 / 65536))), 1e-6f);
+    EXPECT_EQ(at(radians, Values::amplitude), Complex(4));
+    EXPECT_LT(std::abs(at(radians, Values::phase) - std::polar(1.0f, 4.0f)), 1e-6f);
+    EXPECT_LT(std::abs(at(codes, Values::phase) - std::polar(1.0f, float(2 * std::numbers::pi * 4 / 65536))), 1e-6f);
 }
 
-TEST_F(Foreign, pictures_are_codes_of_phases_amplitudes_or_two_parts) {
+TEST_F(ExternalFields, of_pictures_are_phases_amplitudes_or_real_and_imaginary_parts) {
     Array<std::uint8_t, 3> levels({3, 2, 1});
     for (std::size_t i = 0; i < 6; ++i) levels.data()[i] = static_cast<std::uint8_t>(50 * i);
     write_raw_pixels(directory_ / "p.png", levels);
-    const auto phases = all_of(*open_external_field(directory_ / "p.png", known(RayValues::phase)));
-    const auto amplitudes = all_of(*open_external_field(directory_ / "p.png", known(RayValues::amplitude)));
+    const auto phases = all_of(*open_external_field(directory_ / "p.png", known(Values::phase)));
+    const auto amplitudes = all_of(*open_external_field(directory_ / "p.png", known(Values::amplitude)));
     for (std::size_t i = 0; i < 6; ++i) {
         const auto turn = static_cast<float>(2 * std::numbers::pi * 50.0 * double(i) / 256);
         EXPECT_LT(std::abs(phases.data()[i] - std::polar(1.0f, turn)), 1e-6f) << i;
@@ -272,7 +272,7 @@ TEST_F(Foreign, pictures_are_codes_of_phases_amplitudes_or_two_parts) {
     EXPECT_THROW(open_external_field(directory_ / "r.exr", what), Error);
 }
 
-// HDF5 leaves room for what a file might hold one day: zeros far from anything else, which nobody reads.
+// HDF5 reserves room for later content: zeros far from anything else, which are never read.
 bool is_padding(const Bytes& bytes, std::size_t at) {
     constexpr std::size_t far = 4;
     const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at - std::min(at, far));
@@ -280,14 +280,14 @@ bool is_padding(const Bytes& bytes, std::size_t at) {
     return std::all_of(begin, end, [](unsigned char byte) { return byte == 0; });
 }
 
-// Damage is refused as such, or gives some field: nothing else.
-TEST_F(Foreign, damaged_files_are_refused_or_harmless) {
+// A damaged file is refused or gives some field; nothing else happens.
+TEST_F(ExternalFields, in_damaged_files_are_refused_or_read) {
     const fs::path path = directory_ / "x";
     ExternalField what = known();
     std::size_t refused = 0, read = 0;
     const auto attempt = [&](const Bytes& bytes) {
         {
-            fs::remove(path);  // a file that is cut short and written anew is flushed to the disk each time
+            fs::remove(path);  // some file systems flush a file that is truncated and written again
             std::ofstream file(path, std::ios::binary);
             file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         }
@@ -304,7 +304,7 @@ TEST_F(Foreign, damaged_files_are_refused_or_harmless) {
     for (const Bytes& whole :
          {npy_rows(), plain_mat(), compressed_mat(), two_arrays_mat(), plain_mat73(), chunked_mat73()}) {
         const std::size_t before = refused;
-        const std::size_t head = whole[0] == 0x93 ? 6 : 128;  // with less it is taken for a picture
+        const std::size_t head = whole[0] == 0x93 ? 6 : 128;  // shorter files are taken for pictures
         std::size_t cut = 0;
         for (std::size_t length = head; length < whole.size(); ++length) {
             if (is_padding(whole, length)) continue;
@@ -315,8 +315,8 @@ TEST_F(Foreign, damaged_files_are_refused_or_harmless) {
         for (std::size_t at = std::min<std::size_t>(head, 120); at < whole.size(); ++at) {
             if (is_padding(whole, at)) continue;
             constexpr int flips[] = {0x01, 0x90, 0xff};
-            const std::size_t few = at % 3;  // of larger files
-            for (int flip : whole.size() < 1000 ? std::span(flips) : std::span(flips).subspan(few, 1)) {
+            const std::size_t one = at % 3;  // larger files are damaged in one way at each byte
+            for (int flip : whole.size() < 1000 ? std::span(flips) : std::span(flips).subspan(one, 1)) {
                 Bytes damaged = whole;
                 damaged[at] = static_cast<unsigned char>(damaged[at] ^ flip);
                 attempt(damaged);

@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// No honest file of arrays comes near these; damaged ones may lead in circles.
+// More than any valid file of arrays has; in a damaged one, trees may be circular.
 constexpr std::size_t max_members = 65536, max_nodes = 65536;
 
 bool begins(std::span<const unsigned char> bytes, const char* signature) {
@@ -23,7 +23,7 @@ struct Link {
     std::uint64_t header;
 };
 
-// The members of a group: a tree (III.A.1) of nodes of symbols (III.B), with their names in a heap (III.D).
+// The members of a group: a tree (III.A.1) of symbol nodes (III.B), with the names in a heap (III.D).
 class Group {
   public:
     Group(const Hdf5V0& file, std::uint64_t tree, std::uint64_t heap) : file_(file) {
@@ -108,12 +108,12 @@ std::uint64_t Hdf5V0Dataset::samples() const {
 }
 
 Hdf5V0::Hdf5V0(const std::filesystem::path& path) : file_(path, core::RawFile::Mode::read, path) {
-    // The superblock (II.A) stands at the beginning or after a block of 512, 1024, … bytes.
+    // The superblock (II.A) is at offset 512, 1024, …, behind MATLAB's own block.
     Bytes start;
     for (base_ = 512;; base_ *= 2) {
         start = at(0, 8);
         if (begins(start, "\x89HDF\r\n\x1a\n")) break;
-        if (base_ > std::uint64_t{1} << 20) fail("no HDF5 file stands in it");
+        if (base_ > std::uint64_t{1} << 20) fail("it holds no HDF5 superblock");
     }
     start = at(0, 16);
     if (start[8] > 1)
@@ -155,7 +155,7 @@ std::vector<Hdf5V0Dataset> Hdf5V0::datasets() const {
     std::vector<Hdf5V0Dataset> list;
     for (const Link& link : Group(*this, table->first, table->second).links) {
         Hdf5V0Dataset dataset = hdf5_v0_dataset(*this, link.name, link.header);
-        if (dataset.element_bytes > 0) list.push_back(std::move(dataset));  // others are groups
+        if (dataset.element_bytes > 0) list.push_back(std::move(dataset));  // the rest are groups
     }
     return list;
 }

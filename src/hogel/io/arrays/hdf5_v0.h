@@ -12,10 +12,10 @@
 
 namespace hogel::io::arrays {
 
-/// A dataset of an early HDF5 file.
+/// A dataset of an HDF5 file with superblock version 0 or 1.
 struct Hdf5V0Dataset {
     struct Member {
-        std::string name;  ///< empty where the elements are plain numbers
+        std::string name;  ///< empty where an element is a single number
         Number number = Number::real;
         std::size_t offset = 0;  ///< of the number in its element
     };
@@ -27,36 +27,35 @@ struct Hdf5V0Dataset {
 
     std::string name;
     std::vector<std::uint64_t> shape;  ///< the last axis fastest
-    std::vector<Member> members;       ///< empty where the elements are nothing that this reads
+    std::vector<Member> members;       ///< of an element; none where it is of a type that is not read here
     std::size_t element_bytes = 0;
-    std::map<std::string, std::string> texts;  ///< attributes that are texts
+    std::map<std::string, std::string> texts;  ///< its attributes that are texts
 
     Layout layout = Layout::none;
-    std::vector<unsigned char> compact;  ///< all samples
-    std::optional<std::uint64_t>
-        address;                       ///< of the samples, or of the tree of chunks; missing where nothing was written
-    std::uint64_t bytes = 0;           ///< of contiguous samples
-    std::vector<std::uint64_t> chunk;  ///< shape of the chunks
-    std::vector<Filter> filters;       ///< of the chunks, in the order of writing
+    std::vector<unsigned char> compact;    ///< all samples
+    std::optional<std::uint64_t> address;  ///< of the samples, or of the tree of chunks; none where nothing was written
+    std::uint64_t bytes = 0;               ///< of contiguous samples
+    std::vector<std::uint64_t> chunk;      ///< shape of the chunks
+    std::vector<Filter> filters;           ///< of the chunks, in the order of writing
 
     std::uint64_t samples() const;
 };
 
-/// An HDF5 file as the HDF5 library writes it where it is not asked for later structures: superblock version 0 or 1,
-/// which MATLAB writes after a block of its own. These have no checksums, and the HDF5 library, which believes what it
-/// reads, crashes where they are damaged. So what a file of arrays needs of them is read here (HDF5 file format
-/// specification 3.0): the datasets of the root group, whole, in one piece or in chunks, plain or by deflate, shuffle
-/// and fletcher32. All members throw Error(bad_input).
+/// An HDF5 file with superblock version 0 or 1, which the HDF5 library writes unless asked for later structures, and
+/// MATLAB behind a block of its own. These structures have no checksums, and the HDF5 library crashes where they are
+/// damaged. So the part of them that files of arrays need is read here (HDF5 file format specification 3.0): the
+/// datasets of the root group, contiguous or in chunks, plain or with the filters deflate, shuffle and fletcher32. All
+/// members throw Error(bad_input).
 class Hdf5V0 {
   public:
     explicit Hdf5V0(const std::filesystem::path& path);
 
     /// The datasets of the root group, by name.
     std::vector<Hdf5V0Dataset> datasets() const;
-    /// All elements as they lie in the file's own order.
+    /// All elements, in the byte order and element layout of the file.
     std::vector<unsigned char> read(const Hdf5V0Dataset& dataset) const;
 
-    /// So many bytes of the file from an address.
+    /// `bytes` bytes of the file from an address on.
     std::vector<unsigned char> at(std::uint64_t address, std::uint64_t bytes) const;
     [[noreturn]] void fail(const std::string& why) const;
 
@@ -65,15 +64,15 @@ class Hdf5V0 {
     std::uint64_t base_ = 0, root_ = 0;
 };
 
-/// The messages of an object's header, and of the blocks that continue it.
+/// Calls use() with the messages of an object's header, continuation blocks included.
 void for_each_hdf5_v0_message(
     const Hdf5V0& file, std::uint64_t address,
     const std::function<void(std::uint64_t type, std::uint64_t flags, const std::vector<unsigned char>& message)>& use);
 
-/// The dataset whose header stands at an address; one of no bytes where that is a group.
+/// The dataset whose header is at an address; element_bytes is 0 where that is a group.
 Hdf5V0Dataset hdf5_v0_dataset(const Hdf5V0& file, const std::string& name, std::uint64_t header);
 
-/// Bytes taken one after the other; what would lie beyond their end is an error.
+/// Takes bytes one after the other. Throws Error(bad_input) at their end.
 class ByteCursor {
   public:
     ByteCursor(const Hdf5V0& file, std::span<const unsigned char> bytes)
@@ -83,7 +82,7 @@ class ByteCursor {
     std::span<const unsigned char> take(std::size_t bytes);
     void skip(std::size_t bytes) { take(bytes); }
 
-    /// A text that ends with a zero.
+    /// A text terminated by a zero.
     std::string text();
     std::size_t taken() const { return all_ - rest_.size(); }
     std::size_t left() const { return rest_.size(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the header of an object of an early HDF5 file says of it (HDF5 file format specification 3.0, IV.A).
+// The object headers of HDF5 files with superblock version 0 or 1 (HDF5 file format specification 3.0, IV.A).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr std::uint64_t undefined = ~std::uint64_t{0};
 constexpr std::size_t max_axes = 32;
-constexpr std::size_t max_blocks = 1024;  // more than any honest header; damaged ones may lead in circles
+constexpr std::size_t max_blocks = 1024;  // more than any valid header has; in a damaged one, blocks may be circular
 
 std::vector<std::uint64_t> extents(const Hdf5V0& file, std::span<const unsigned char> message) {
     ByteCursor rest(file, message);
@@ -67,7 +67,7 @@ Type type_head(ByteCursor& rest) {
     return type;
 }
 
-// Numbers, or a compound of them (IV.A.2.d); no members for anything else.
+// The type of the elements, a number or a compound of numbers (IV.A.2.d); no members for any other type.
 void take_type(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     constexpr std::uint64_t compound = 6;
     ByteCursor rest(file, message);
@@ -88,7 +88,7 @@ void take_type(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset)
         std::size_t width = 4;
         if (type.version == 3) width = type.size < 256 ? 1 : type.size < 65536 ? 2 : type.size < 16777216 ? 3 : 4;
         member.offset = rest.number(width);
-        if (type.version == 1) rest.skip(28);  // of arrays inside elements
+        if (type.version == 1) rest.skip(28);  // dimensions of members that are arrays
         const Type own = type_head(rest);
         if (own.kind > 1) return;
         const auto number = plain_number(own.kind, own.bits, own.size, rest);
@@ -104,7 +104,7 @@ void take_type(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset)
 
 void take_layout(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     ByteCursor rest(file, message);
-    if (rest.number(1) != 3) return;  // left unread, and refused when it is asked for
+    if (rest.number(1) != 3) return;  // not read here; Hdf5V0::read() refuses it
     const auto address = [&]() -> std::optional<std::uint64_t> {
         const std::uint64_t at = rest.number(8);
         return at == undefined ? std::nullopt : std::optional(at);
@@ -123,7 +123,7 @@ void take_layout(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& datase
             break;
         case 2: {
             dataset.layout = Hdf5V0Dataset::Layout::chunked;
-            const std::uint64_t axes = rest.number(1);  // and one more for the bytes of an element
+            const std::uint64_t axes = rest.number(1);  // the axes of the array, and one for the bytes of an element
             if (axes < 2 || axes > max_axes + 1) file.fail("an array's layout is damaged");
             dataset.address = address();
             for (std::uint64_t axis = 0; axis + 1 < axes; ++axis) dataset.chunk.push_back(rest.number(4));
@@ -176,7 +176,7 @@ void take_attribute(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dat
 
 }  // namespace
 
-// The messages of an object's header, version 1 (IV.A.1.a), and of the blocks that continue it.
+// Object headers of version 1 (IV.A.1.a).
 void for_each_hdf5_v0_message(
     const Hdf5V0& file, std::uint64_t address,
     const std::function<void(std::uint64_t type, std::uint64_t flags, const Bytes& message)>& use) {
@@ -211,7 +211,7 @@ Hdf5V0Dataset hdf5_v0_dataset(const Hdf5V0& file, const std::string& name, std::
     dataset.name = name;
     for_each_hdf5_v0_message(file, header, [&](std::uint64_t type, std::uint64_t flags, const Bytes& message) {
         constexpr std::uint64_t shared = 2;
-        if ((flags & shared) != 0) return;  // lies elsewhere; a type so kept is one that this does not read
+        if ((flags & shared) != 0) return;  // stored elsewhere; such a type is not read here
         if (type == 0x1) dataset.shape = extents(file, message);
         if (type == 0x3) take_type(file, message, dataset);
         if (type == 0x8) take_layout(file, message, dataset);

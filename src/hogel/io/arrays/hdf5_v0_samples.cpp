@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples of an early HDF5 file's datasets: chunks, in a tree of their own (HDF5 file format specification
-// III.A.1), through their filters (IV.A.2.l) backwards.
+// The samples of datasets of HDF5 files with superblock version 0 or 1: chunks in a tree (HDF5 file format
+// specification III.A.1), with their filters (IV.A.2.l) undone.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// Deflate reaches 1032.
+// Deflate expands by at most 1032.
 constexpr std::uint64_t max_expansion = 1040;
 
 Bytes inflated(const Hdf5V0& file, const Bytes& packed, std::size_t bytes) {
@@ -25,7 +25,7 @@ Bytes inflated(const Hdf5V0& file, const Bytes& packed, std::size_t bytes) {
     return plain;
 }
 
-// First bytes of all numbers, then all second ones, and so on: back to number by number.
+// Undoes the filter shuffle, which stores the first bytes of all numbers, then all second bytes, and so on.
 Bytes unshuffled(const Bytes& shuffled, std::size_t element) {
     const std::size_t count = shuffled.size() / element;
     Bytes plain = shuffled;
@@ -34,8 +34,8 @@ Bytes unshuffled(const Bytes& shuffled, std::size_t element) {
     return plain;
 }
 
-// Whether this is Fletcher's checksum over words of 16 bits, the first byte of each the higher. Of a half that is zero
-// modulo 65535 HDF5 may write either value.
+// Whether this is Fletcher's checksum over big-endian words of 16 bits. A half of it that is zero modulo 65535 may be
+// stored as 0 or as 65535.
 bool is_fletcher(std::uint32_t stored, std::span<const unsigned char> bytes) {
     std::uint32_t low = 0, high = 0;
     for (std::size_t i = 0; i < bytes.size(); i += 2) {
@@ -46,7 +46,7 @@ bool is_fletcher(std::uint32_t stored, std::span<const unsigned char> bytes) {
     return (stored & 0xffff) % 65535 == low && (stored >> 16) % 65535 == high;
 }
 
-// Puts the chunks of a dataset where they belong.
+// Reads all chunks of a dataset into one array.
 class Chunks {
   public:
     Chunks(const Hdf5V0& file, const Hdf5V0Dataset& dataset) : file_(file), dataset_(dataset) {
@@ -92,7 +92,7 @@ class Chunks {
         }
     }
 
-    // Through the filters, last first; a bit of `left_out` says that one was not applied.
+    // Undoes the filters, the last first; a set bit of `left_out` marks a filter that was not applied.
     Bytes plain(Bytes bytes, std::uint64_t left_out) const {
         constexpr std::uint64_t deflate = 1, shuffle = 2, checksum = 3;
         for (std::size_t i = dataset_.filters.size(); i-- > 0;) {
@@ -105,7 +105,7 @@ class Chunks {
                 bytes.resize(bytes.size() - 4);
                 if (!is_fletcher(stored, bytes)) fail("has a chunk with a wrong checksum");
             } else if (filter.id == deflate) {
-                // What checksums add before compression is not in the count of samples.
+                // Checksums before the compression added four bytes each.
                 const auto inner = static_cast<std::size_t>(
                     std::count_if(dataset_.filters.begin(), dataset_.filters.begin() + static_cast<std::ptrdiff_t>(i),
                                   [](const auto& earlier) { return earlier.id == checksum; }));
@@ -132,7 +132,7 @@ class Chunks {
         if (placed_[index]) fail("has a chunk twice");
         placed_[index] = true;
         --missing_;
-        // Line by line along the last axis; what a chunk holds beyond the array's end is left out.
+        // Line by line along the last axis, without what a chunk holds beyond the ends of the array.
         const std::uint64_t line = dataset_.chunk[axes - 1];
         const std::uint64_t held = std::min(line, dataset_.shape[axes - 1] - start[axes - 1]);
         const std::uint64_t lines = chunk_bytes_ / dataset_.element_bytes / line;
@@ -174,7 +174,7 @@ std::vector<unsigned char> Hdf5V0::read(const Hdf5V0Dataset& dataset) const {
         if (dataset.compact.size() != bytes) refuse("is damaged");
         return dataset.compact;
     }
-    if (dataset.layout == Layout::none) refuse("is laid out as this does not read");
+    if (dataset.layout == Layout::none) refuse("has a layout that is not read here");
     if (!dataset.address) refuse("is not wholly written");
     if (dataset.layout == Layout::contiguous) {
         if (dataset.bytes != bytes) refuse("is damaged");

@@ -16,7 +16,7 @@ std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-// Its header says so, little-endian, before what tells the order of bytes.
+// By the version in the header, which precedes the mark of the byte order.
 bool is_version_73(const std::filesystem::path& path) {
     const core::RawFile file(path, core::RawFile::Mode::read, path);
     unsigned char version[4];
@@ -24,7 +24,7 @@ bool is_version_73(const std::filesystem::path& path) {
     return version[1] == 2 && version[2] == 'I' && version[3] == 'M';
 }
 
-// The one array that is meant.
+// The only array. Throws Error(bad_input) for none and for several.
 const MatArray& chosen(const std::filesystem::path& path, const std::vector<MatArray>& arrays,
                        const std::string& name) {
     if (arrays.size() == 1) return arrays.front();
@@ -47,7 +47,7 @@ std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const E
         is_version_73(path) ? read_mat73(path, what.variable) : read_mat5(path, all_bytes(path), what.variable);
     const MatArray& array = chosen(path, arrays, what.variable);
     const bool complex = !array.imaginary.empty();
-    const Meaning meaning(path, what, array.floating ? Number::real : array.real_number, complex);
+    const SampleConverter convert(path, what, array.floating ? Number::real : array.real_number, complex);
     auto field = std::make_unique<Field>(external_grid(path, what, array.width, array.height));
     const std::size_t real_bytes = bytes_of(array.real_number), imaginary_bytes = bytes_of(array.imaginary_number);
     for (std::size_t x = 0; x < array.width; ++x)
@@ -55,7 +55,7 @@ std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const E
             const std::size_t i = x * array.height + y;
             const double imaginary =
                 complex ? number_at(array.imaginary_number, &array.imaginary[i * imaginary_bytes]) : 0;
-            field->samples(y, x) = meaning(number_at(array.real_number, &array.real[i * real_bytes]), imaginary);
+            field->samples(y, x) = convert(number_at(array.real_number, &array.real[i * real_bytes]), imaginary);
         }
     return field;
 }

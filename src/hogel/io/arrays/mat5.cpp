@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t type_int8 = 1, type_int32 = 5, type_uint32 = 6, type_array = 14, type_compressed = 15;
 constexpr std::size_t header_bytes = 128;
-// Deflate reaches 1032.
+// Deflate expands by at most 1032.
 constexpr std::size_t max_expansion = 1040;
 
 struct Element {
@@ -23,7 +23,7 @@ struct Element {
     std::span<const unsigned char> bytes;
 };
 
-// Elements one after the other.
+// Takes elements one after the other.
 class Elements {
   public:
     Elements(const std::filesystem::path& path, std::span<const unsigned char> bytes) : path_(path), rest_(bytes) {}
@@ -33,7 +33,7 @@ class Elements {
     Element next() {
         if (rest_.size() < 8) fail_external(path_, "it ends inside an element");
         const std::uint32_t word = number(0);
-        if (word >> 16 != 0) {  // small elements stand beside their type
+        if (word >> 16 != 0) {  // a small element is stored with its type and size in 8 bytes
             const std::size_t size = word >> 16;
             if (size > 4) fail_external(path_, "a small element is damaged");
             const Element small{word & 0xffff, rest_.subspan(4, size)};
@@ -68,7 +68,7 @@ std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span
     } end{stream};
     stream.next_in = const_cast<unsigned char*>(compressed.data());
     stream.avail_in = static_cast<unsigned>(compressed.size());
-    // The element's own head says how long it is.
+    // The head of the array inside tells how long it is.
     std::vector<unsigned char> bytes(8);
     const auto fill = [&](std::size_t from) {
         while (from < bytes.size()) {
@@ -102,7 +102,7 @@ bool number_of(std::uint32_t type, Number& number) {
     return false;
 }
 
-// An array, if it is one of numbers with two axes and has the name.
+// Appends the array if it is numeric, has two axes, and has that name.
 void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes, const std::string& name,
                 std::vector<MatArray>& arrays) {
     Elements parts(path, bytes);
@@ -117,7 +117,7 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
         return;
     std::int32_t size[2];
     std::memcpy(size, extents.bytes.data(), sizeof size);
-    if (size[0] <= 1 && size[1] <= 1 && name.empty()) return;  // a wavelength, say
+    if (size[0] <= 1 && size[1] <= 1 && name.empty()) return;  // a parameter, such as a wavelength
     if (size[0] <= 0 || size[1] <= 0) fail_external(path, fmt::format("its array '{}' is empty", array.name));
     array.height = static_cast<std::size_t>(size[0]);
     array.width = static_cast<std::size_t>(size[1]);
@@ -130,7 +130,7 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
     };
     take(array.real_number, array.real);
     if ((flags.bytes[1] & complex) != 0) take(array.imaginary_number, array.imaginary);
-    // Small whole numbers may stand for an array of doubles; then a phase is in radians all the same.
+    // Doubles may be stored as small whole numbers; phases are then in radians all the same.
     array.floating = kind == first_number || kind == first_number + 1;
     arrays.push_back(std::move(array));
 }

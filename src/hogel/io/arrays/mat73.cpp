@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // MAT files of version 7.3: HDF5 files behind MATLAB's header of 512 bytes. Each array is a dataset of the root group
-// whose axes are MATLAB's backwards, because MATLAB counts down the columns first; complex numbers are compounds {real,
-// imag}; an attribute MATLAB_class says what the array is for MATLAB.
+// with its axes reversed, because MATLAB stores columns first. Complex numbers are compounds {real, imag}; the
+// attribute MATLAB_class names the class of the array.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool is_complex(const Hdf5V0Dataset& dataset) {
            dataset.members[1].name == "imag";
 }
 
-// Texts and truth values are whole numbers too, and a cell is a list of places.
+// Texts, logical arrays and cells are stored as whole numbers, too.
 bool is_numeric(const Hdf5V0Dataset& dataset) {
     static constexpr const char* classes[] = {"double", "single", "int8",   "uint8", "int16",
                                               "uint16", "int32",  "uint32", "int64", "uint64"};
@@ -43,7 +43,8 @@ std::vector<MatArray> read_mat73(const std::filesystem::path& path, const std::s
     std::vector<MatArray> arrays;
     for (const Hdf5V0Dataset& dataset : file.datasets()) {
         if (!is_numeric(dataset) || dataset.shape.size() != 2 || (!name.empty() && dataset.name != name)) continue;
-        if (dataset.shape[0] <= 1 && dataset.shape[1] <= 1 && name.empty()) continue;  // a wavelength, say
+        if (dataset.shape[0] <= 1 && dataset.shape[1] <= 1 && name.empty())
+            continue;  // a parameter, such as a wavelength
         MatArray array;
         array.name = dataset.name;
         array.width = dataset.shape[0];

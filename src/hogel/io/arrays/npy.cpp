@@ -17,7 +17,7 @@ namespace hogel::io::arrays {
 namespace {
 
 constexpr std::array<unsigned char, 6> magic{0x93, 'N', 'U', 'M', 'P', 'Y'};
-constexpr std::size_t longest_header = 1 << 16;
+constexpr std::size_t max_header = 1 << 16;
 
 struct Header {
     Number number = Number::real;
@@ -26,8 +26,8 @@ struct Header {
     std::uint64_t begin = 0;  // of the numbers
 };
 
-// The text behind "'key':", or nothing.
-std::string_view behind(std::string_view header, const char* key) {
+// The text after "'key':", or nothing.
+std::string_view value_of(std::string_view header, const char* key) {
     const std::string quoted = fmt::format("'{}'", key);
     std::size_t at = header.find(quoted);
     if (at == std::string_view::npos) return {};
@@ -37,7 +37,7 @@ std::string_view behind(std::string_view header, const char* key) {
     return at == std::string_view::npos ? std::string_view{} : header.substr(at);
 }
 
-// A whole number at the start of a text, which is shortened by it; false where there is none below 2^40.
+// Takes a whole number from the start of a text; false where there is none below 2^40.
 bool take_number(std::string_view& text, std::size_t& number) {
     number = 0;
     std::size_t digits = 0;
@@ -93,16 +93,16 @@ Header read_header(const std::filesystem::path& path, const core::RawFile& file)
         length += (std::size_t{start[10]} << 16) + (std::size_t{start[11]} << 24);
         header.begin = 12;
     }
-    if (length > longest_header || header.begin + length > file.size())
+    if (length > max_header || header.begin + length > file.size())
         fail_external(path, fmt::format("its header of {} bytes is damaged", length));
     std::string text(length, '\0');
     file.read(header.begin, text.data(), length);
     header.begin += length;
 
-    parse_type(path, behind(text, "descr"), header);
-    const std::string_view order = behind(text, "fortran_order");
+    parse_type(path, value_of(text, "descr"), header);
+    const std::string_view order = value_of(text, "fortran_order");
     header.by_columns = order.starts_with("True");
-    std::string_view shape = behind(text, "shape");
+    std::string_view shape = value_of(text, "shape");
     const bool flat = take(shape, '(') && take_number(shape, header.height) && take(shape, ',') &&
                       take_number(shape, header.width) && (take(shape, ',') || true) && take(shape, ')');
     if (!flat || (!header.by_columns && !order.starts_with("False")))
@@ -120,14 +120,14 @@ class NpyField final : public FieldSource {
         : file_(path, core::RawFile::Mode::read, path),
           header_(read_header(path, file_)),
           grid_(external_grid(path, what, header_.width, header_.height)),
-          meaning_(path, what, header_.number, header_.complex) {}
+          convert_(path, what, header_.number, header_.complex) {}
 
     const FieldGrid& grid() const override { return grid_; }
 
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
         if (look != 0) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a file, which has one", look));
-        const std::size_t part = bytes_of(header_.number), bytes = part * (header_.complex ? 2 : 1);
+        const std::size_t number_bytes = bytes_of(header_.number), bytes = number_bytes * (header_.complex ? 2 : 1);
         const bool columns = header_.by_columns;
         const std::size_t lines = columns ? region.width : region.height,
                           count = columns ? region.height : region.width;
@@ -138,8 +138,8 @@ class NpyField final : public FieldSource {
             file_.read(header_.begin + first * bytes, line.data(), line.size());
             for (std::size_t k = 0; k < count; ++k) {
                 const unsigned char* at = &line[k * bytes];
-                (columns ? out(k, i) : out(i, k)) =
-                    meaning_(number_at(header_.number, at), header_.complex ? number_at(header_.number, at + part) : 0);
+                (columns ? out(k, i) : out(i, k)) = convert_(
+                    number_at(header_.number, at), header_.complex ? number_at(header_.number, at + number_bytes) : 0);
             }
         }
     }
@@ -148,7 +148,7 @@ class NpyField final : public FieldSource {
     core::RawFile file_;
     Header header_;
     FieldGrid grid_;
-    Meaning meaning_;
+    SampleConverter convert_;
 };
 
 }  // namespace

@@ -9,14 +9,14 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-constexpr std::size_t longest_text = 60000;  // an object header message of HDF5 holds 64 kB
+constexpr std::size_t max_text = 60000;  // an object header message of HDF5 holds 64 kB
 constexpr hsize_t max_attributes = 1000;
 
 struct Attribute {
     Handle id, type;
 };
 
-// An attribute of one value, which may be written as a scalar or as an array of one.
+// An attribute of a single value, stored as a scalar or as an array of one element.
 Attribute open_attribute(hid_t object, const char* name, const std::filesystem::path& path) {
     if (!has_attribute(object, name, path)) fail(path, fmt::format("its attribute '{}' is missing", name));
     Attribute attribute;
@@ -47,7 +47,7 @@ std::string text_of(const Attribute& attribute, const char* name, const std::fil
         return text;
     }
     const std::size_t size = H5Tget_size(attribute.type.id());
-    if (size > longest_text) fail(path, fmt::format("its attribute '{}' is a text of {} bytes", name, size));
+    if (size > max_text) fail(path, fmt::format("its attribute '{}' is a text of {} bytes", name, size));
     std::string text(size, '\0');
     check(H5Aread(attribute.id.id(), attribute.type.id(), text.data()));
     text.resize(std::min(text.find('\0'), text.size()));
@@ -110,9 +110,9 @@ Attributes root_attributes(const char* format, const Metadata& metadata) {
         const auto same_key = [&](const auto& attribute) { return attribute.first == key; };
         if (key.empty() || key.find('\0') != std::string::npos || std::ranges::any_of(attributes, same_key))
             throw Error(ErrorCode::usage, fmt::format("metadata '{}': the key is empty, reserved or there twice", key));
-        if (key.size() > 255 || text.size() >= longest_text || attributes.size() >= max_attributes)
+        if (key.size() > 255 || text.size() >= max_text || attributes.size() >= max_attributes)
             throw Error(ErrorCode::usage, fmt::format("metadata '{}' is more than a file holds: {} entries of {} bytes",
-                                                      key, max_attributes, longest_text));
+                                                      key, max_attributes, max_text));
         attributes.emplace_back(key, text);
     }
     return attributes;

@@ -15,13 +15,14 @@ namespace {
 using hdf5::Element;
 using hdf5::Handle;
 
-constexpr std::size_t piece = 32768;  // halves converted at a time: they stay in the nearest caches
+constexpr std::size_t halves_at_once = 32768;  // converted together: they stay in the caches
 constexpr std::size_t max_chunk = std::size_t{256} << 20;
 
-// Calls run(index in the array, index in the box, samples) for each contiguous piece of a box of a row-major array.
+// Calls run(index in the array, index in the box, samples) for each contiguous run of samples of a box of a row-major
+// array.
 template <class Run>
 void for_each_run(const std::vector<std::size_t>& shape, const Box& box, const Run& run) {
-    // The innermost axes that the box spans wholly, and one more, are contiguous.
+    // Contiguous are the innermost axes that the box spans wholly, and the next one.
     std::size_t axis = shape.size() - 1, length = box.extent[axis];
     while (axis > 0 && box.extent[axis] == shape[axis]) length *= box.extent[--axis];
     std::size_t runs = 1;
@@ -97,12 +98,12 @@ DatasetReader::DatasetReader(hid_t file, const char* name, std::vector<std::size
         fail(complex ? "does not hold complex numbers {r, i}" : "does not hold floating point numbers");
     element_ = complex ? Element::complex_single : is_type(type.id(), Element::half) ? Element::half : Element::single;
     check_storage(dataset.id(), properties.id());
-    const bool as_we_write = H5Pget_layout(properties.id()) == H5D_CONTIGUOUS && is_type(type.id(), element_);
-    if (as_we_write)
+    const bool contiguous = H5Pget_layout(properties.id()) == H5D_CONTIGUOUS && is_type(type.id(), element_);
+    if (contiguous)
         offset_ = H5Dget_offset(dataset.id());
     else
         dataset_ = std::move(dataset);
-    if (as_we_write &&
+    if (contiguous &&
         (offset_ > raw_->size() || samples_of(shape_) > (raw_->size() - offset_) / hdf5::bytes_of(element_)))
         fail("reaches beyond the end of the file");
 }
@@ -113,7 +114,7 @@ DatasetReader::~DatasetReader() {
     dataset_.close();
 }
 
-// Samples that were never written would read as zeros; those of another file could be anybody's.
+// Samples that were never written would be read as zeros, and a file may not refer to the content of other files.
 void DatasetReader::check_storage(hid_t dataset, hid_t properties) {
     const H5D_layout_t layout = H5Pget_layout(properties);
     if (H5Pget_external_count(properties) != 0 || layout == H5D_VIRTUAL) fail("keeps its samples in other files");
@@ -155,7 +156,7 @@ void DatasetReader::read(const Box& box, float* to) const {
     } else if (dataset_.valid()) {
         read_by_hdf5(box, to);
     } else if (half) {
-        std::vector<std::uint16_t> halves(std::min(piece, samples_of(box.extent)));
+        std::vector<std::uint16_t> halves(std::min(halves_at_once, samples_of(box.extent)));
         for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
             for (std::size_t done = 0, some = 0; done < n; done += some) {
                 some = std::min(halves.size(), n - done);
@@ -179,7 +180,7 @@ void DatasetReader::read(const Box& box, std::complex<float>* to) const {
 
 namespace {
 
-// What tells one file that is to be written from another.
+// Lines that identify the work of writing a file, for the journal.
 std::vector<std::string> describe(const hdf5::Attributes& attributes, const std::vector<hdf5::NewDataset>& datasets,
                                   const std::string& input) {
     std::vector<std::string> lines{input};
@@ -197,7 +198,7 @@ std::vector<std::string> describe(const hdf5::Attributes& attributes, const std:
     return lines;
 }
 
-// Where the datasets begin in a file that was laid out for them before.
+// The offsets of the datasets in a file that was laid out by an earlier run.
 std::vector<std::uint64_t> offsets_in(const std::filesystem::path& path,
                                       const std::vector<hdf5::NewDataset>& datasets) {
     const hdf5::Session session;
@@ -231,14 +232,14 @@ DatasetFile::DatasetFile(const std::filesystem::path& path, const hdf5::Attribut
     }
     offsets_ = hdf5::lay_out_file(part, path, attributes, datasets_);
     raw_.emplace(part, core::RawFile::Mode::write, path);
-    raw_->reserve(raw_->size());  // HDF5 leaves a hole where the samples go: fill it with room on the disk
+    raw_->reserve(raw_->size());  // HDF5 leaves a hole for the samples
     if (!journal_) return;
     raw_->flush();
     journal_->begin();
 }
 
-// The system lets one thread at a time write to a file. Threads that wait for it call by call, thousands of times for
-// each box, spend more time waiting than writing; here they wait once.
+// The system lets one thread at a time write to a file. Threads that wait at each of the thousands of calls for a box
+// spend more time waiting than writing; with a lock they wait once.
 void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* from) {
     const hdf5::NewDataset& to = datasets_[dataset];
     const std::size_t bytes = hdf5::bytes_of(to.element);

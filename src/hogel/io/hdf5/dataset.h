@@ -15,17 +15,18 @@
 
 namespace hogel::io::hdf5 {
 
-/// A box of an array: for each axis its first index and its extent.
+/// A box of an array: first index and extent along each axis.
 struct Box {
     std::vector<std::size_t> start, extent;
 };
 
-/// Reads boxes of one dataset, from any number of threads. Datasets as hogel lays them out are read past HDF5, in
-/// parallel; all others (chunked, compressed, of another type or byte order) by HDF5, one thread at a time.
+/// Reads boxes of one dataset, from any number of threads. Contiguous datasets of the expected type, as hogel writes
+/// them, are read in parallel without HDF5; others (chunked, compressed, of another type or byte order) by HDF5, one
+/// thread at a time.
 class DatasetReader {
   public:
-    /// Looks at the dataset, takes no memory for it. Throws Error(bad_input) when it is missing, its type or shape is
-    /// not that, or samples are missing. Needs a Session.
+    /// Checks the dataset and allocates nothing for it. Throws Error(bad_input) where it is missing, of another type or
+    /// shape, or not wholly written. Needs a Session.
     DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
                   std::shared_ptr<const core::RawFile> raw);
     ~DatasetReader();
@@ -47,13 +48,13 @@ class DatasetReader {
     hdf5::Element element_ = hdf5::Element::single;
     std::shared_ptr<const core::RawFile> raw_;
     std::uint64_t offset_ = 0;
-    hdf5::Handle dataset_;  // open only where HDF5 has to read
+    hdf5::Handle dataset_;  // open only where HDF5 has to read it
 };
 
 /// The shape of a dataset. Throws Error(bad_input) when there is no such dataset. Needs a Session.
 std::vector<std::size_t> dataset_shape(hid_t file, const char* name, const std::filesystem::path& path);
 
-/// A file of datasets being written: laid out by HDF5, then filled in parallel, then given its name.
+/// A file of datasets that is being written: laid out by HDF5, filled by any number of threads, and given its name.
 class DatasetFile {
   public:
     /// @param resume  as in LightFieldFileOptions
@@ -62,7 +63,7 @@ class DatasetFile {
 
     void write(std::size_t dataset, const Box& box, const float* from);
     void write(std::size_t dataset, const Box& box, const std::complex<float>* from);
-    /// For work that can be resumed: whether a part was done before this run, and that one is done now.
+    /// For work that can be resumed: whether a part was done in an earlier run; records that one is done.
     bool was_done(const core::Journal::Part& part) const { return journal_ && journal_->was_done(part); }
     void note(const core::Journal::Part& part) {
         if (journal_) journal_->note(part);
@@ -80,7 +81,7 @@ class DatasetFile {
     std::optional<core::RawFile> raw_;
     std::mutex writing_;
     core::ObjectPool<std::vector<std::uint16_t>> halves_;
-    std::optional<core::Journal> journal_;  // goes first: it flushes the file
+    std::optional<core::Journal> journal_;  // last, because its destructor flushes the file
 };
 
 }  // namespace hogel::io::hdf5

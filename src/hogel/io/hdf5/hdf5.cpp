@@ -9,12 +9,13 @@
 #include <system_error>
 
 #include "hogel/error.h"
+#include "hogel/io/hdf5/files.h"
 #include "hogel/io/hdf5/hdf5.h"
 
 namespace hogel::io::hdf5 {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "samples are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "samples are written as they are in memory");
 
 std::recursive_mutex& process_mutex() {
     static std::recursive_mutex mutex;
@@ -27,9 +28,9 @@ std::uint64_t little_endian(const unsigned char* bytes, int n) {
     return value;
 }
 
-// HDF5 believes what it reads: without checksums, which came with version 2 of the superblock, a flipped bit can crash
-// it, and so can what hides in a superblock extension, which neither hogel nor h5py writes. HDF5 file format
-// specification 3.0, II.A; all numbers little-endian.
+// HDF5 trusts what it reads: without checksums, which came with version 2 of the superblock, a flipped bit can crash
+// it, and so can a superblock extension, which neither hogel nor h5py writes. HDF5 file format specification 3.0, II.A;
+// all numbers little-endian.
 void check_superblock(const std::filesystem::path& path) {
     std::array<unsigned char, 48> start{};
     std::ifstream file(path, std::ios::binary);
@@ -56,8 +57,8 @@ void check_superblock(const std::filesystem::path& path) {
 }  // namespace
 
 Session::Session() : lock_(process_mutex()) {
-    // After a wrong checksum HDF5 1.10 cannot close itself at the end of the program and says so on stderr. hogel
-    // closes every file that it opens, so nothing is lost when HDF5 does not try.
+    // After a wrong checksum HDF5 1.10 fails to shut down at the end of the program and prints errors on stderr. Every
+    // file is closed by its Handle, so nothing is lost when HDF5 does not try.
     static const herr_t first_call = H5dont_atexit();
     static_cast<void>(first_call);
     H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
@@ -98,7 +99,7 @@ Handle open_file(const std::filesystem::path& path) {
     if (!is_hdf5(path)) fail(path, "it is not an HDF5 file");
     check_superblock(path);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access.id(), false, true);  // nothing is ever written to a file that has its final name
+    H5Pset_file_locking(access.id(), false, true);  // files with their final name are never written to
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
     if (!file.valid()) fail(path, fmt::format("it is damaged: {}", reason()));
     return file;

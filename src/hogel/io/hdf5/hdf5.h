@@ -16,8 +16,8 @@
 
 namespace hogel::io::hdf5 {
 
-/// The right to call HDF5, which is not thread-safe: one at a time in the whole process. While it lives HDF5 prints
-/// nothing. Every Handle is made, used and closed inside one.
+/// The lock on HDF5, which is not thread-safe: one session at a time in the whole process. While it lives HDF5 prints
+/// nothing. Every Handle is made, used and closed during a session.
 class Session {
   public:
     Session();
@@ -31,7 +31,7 @@ class Session {
     void* print_data_ = nullptr;
 };
 
-/// An identifier of HDF5, closed when it goes.
+/// Owns an identifier of HDF5: closes it when destroyed.
 class Handle {
   public:
     using Close = herr_t (*)(hid_t);
@@ -47,7 +47,7 @@ class Handle {
 
     hid_t id() const { return id_; }
     bool valid() const { return id_ >= 0; }
-    /// True when HDF5 is content: closing a file is what writes its last part.
+    /// False where HDF5 reports a failure: closing a file writes the last of it.
     bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
 
   private:
@@ -55,24 +55,22 @@ class Handle {
     Close close_ = nullptr;
 };
 
-/// Innermost reason of the last failure, one line.
+/// The innermost reason of HDF5's last failure, one line.
 std::string reason();
 
-/// Throws Error(bad_input) that names the file.
+/// Throws Error(bad_input) with the file's name.
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why);
 
-/// Opens a file for reading, after checks that keep damaged files away from HDF5. Throws Error(bad_input).
+/// Opens a file for reading, after checks of what would crash HDF5. Throws Error(bad_input).
 Handle open_file(const std::filesystem::path& path);
 
-/// True for a plain file that begins as HDF5 does. Throws Error(bad_input) where there is no such file.
-bool is_hdf5(const std::filesystem::path& path);
-
-/// How samples lie in a file.
+/// How samples are stored in a file, little-endian.
 enum class Element { half, single, complex_single };
 std::size_t bytes_of(Element element);
 Handle type_of(Element element);
 
-/// Attributes. The readers throw Error(bad_input) naming file and attribute where one is missing or of another kind.
+/// Attributes. The readers throw Error(bad_input) with the names of file and attribute where it is missing or of
+/// another type.
 using Value = std::variant<double, std::uint64_t, std::string>;
 using Attributes = std::vector<std::pair<std::string, Value>>;
 double read_number(hid_t object, const char* name, const std::filesystem::path& path);
@@ -83,16 +81,16 @@ bool has_attribute(hid_t object, const char* name, const std::filesystem::path& 
 /// True when the group has a link of that name to something in the same file.
 bool has_member(hid_t group, const char* name, const std::filesystem::path& path);
 
-/// What both kinds of files say about themselves: attributes "format" and "format_version", metadata beside them.
+/// Light fields and holograms have attributes "format" and "format_version" at the root, with the metadata beside them.
 inline constexpr std::uint64_t format_version = 1;
 inline constexpr const char* light_field_format = "hogel light field";
 inline constexpr const char* hologram_format = "hogel hologram";
-/// Throws Error(bad_input) for another format or version; `dataset` is what the message says was expected.
+/// Throws Error(bad_input) for another format or version; the message names the `dataset` that was expected.
 void check_format(hid_t file, const char* format, const char* dataset, const std::filesystem::path& path);
 Attributes root_attributes(const char* format, const Metadata& metadata);
 Metadata read_metadata(hid_t file, const std::filesystem::path& path);
 
-/// A dataset to be made: its place ("radiance" or "field0/samples"), shape and attributes.
+/// A dataset to be created: its path in the file ("radiance" or "field0/samples"), element type, shape and attributes.
 struct NewDataset {
     std::string name;
     Element element;
@@ -100,9 +98,9 @@ struct NewDataset {
     Attributes attributes;
 };
 
-/// Makes a file with room for all the samples, each dataset one contiguous piece, and returns where each begins. The
-/// samples themselves are then written without HDF5. Throws Error(cannot_write), which names `target`; a disk without
-/// room for all of it is found out here where the file system allows.
+/// Creates a file with room for all samples, each dataset one contiguous piece, and returns the offset of each. The
+/// samples are then written without HDF5. Throws Error(cannot_write), which names `target`, also for a disk without
+/// room for all of it where the file system can tell.
 std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const Attributes& attributes, const std::vector<NewDataset>& datasets);
 

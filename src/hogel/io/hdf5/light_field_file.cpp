@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "hogel/compress.h"
 #include "hogel/error.h"
-#include "hogel/files.h"
 #include "hogel/io/hdf5/dataset.h"
+#include "hogel/io/hdf5/files.h"
 #include "hogel/io/hdf5/grids.h"
 
 namespace hogel::io::hdf5 {
@@ -23,7 +22,7 @@ Box depth_box(const LightFieldGrid& grid, const HogelRange& r) {
     return {{r.t0, r.s0, 0, 0}, {r.nt, r.ns, grid.directions_v, grid.directions_u}};
 }
 
-// The front lies at the root of the file, the sides in groups of their names.
+// The front is at the root of the file, each side in a group of its name.
 std::string dataset_name(Face face, const char* dataset) {
     return face == Face::front ? dataset : fmt::format("{}/{}", face_name(face), dataset);
 }
@@ -54,7 +53,7 @@ class LightFieldReader final : public LightFieldSource {
     std::optional<DatasetReader> radiance_, depth_;
 };
 
-// What the sinks of one file share: the last to finish gives it its name.
+// The file that several sinks write to; the last to finish gives it its name.
 struct SharedFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
@@ -70,8 +69,8 @@ class LightFieldWriter final : public LightFieldSink {
         validate(tile, grid_);
         DatasetFile& file = shared_->file;
         if (with_depth_ && tile.depth.size() == 0)
-            throw Error(ErrorCode::usage, fmt::format("cannot write '{}': it is to hold depth, but a tile has none",
-                                                      file.path().string()));
+            throw Error(ErrorCode::usage,
+                        fmt::format("cannot write '{}': it stores depth, but a tile has none", file.path().string()));
         file.write(first_dataset_, radiance_box(grid_, tile.range), tile.radiance.data());
         if (with_depth_) file.write(first_dataset_ + 1, depth_box(grid_, tile.range), tile.depth.data());
         file.note(part(tile.range));
@@ -99,13 +98,13 @@ class LightFieldWriter final : public LightFieldSink {
     core::Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
 
     LightFieldGrid grid_;
-    std::size_t first_dataset_;  // radiance; the depth is the next
+    std::size_t first_dataset_;  // radiance; depth is the next one
     bool with_depth_;
     std::shared_ptr<SharedFile> shared_;
     std::atomic<std::size_t> hogels_{0};
 };
 
-// The attribute that says how far directions go also says in what they are uniform.
+// The name of the attribute of half a face's width tells whether directions are uniform in tangents or in sines.
 std::string half_name(bool sines, char axis) { return fmt::format("{}_half_{}", sines ? "sine" : "tan", axis); }
 
 hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
@@ -125,7 +124,7 @@ hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
 
 LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path& path) {
     const std::string dataset = dataset_name(face, "radiance");
-    dataset_shape(file, dataset.c_str(), path);  // that it is there, and a dataset
+    dataset_shape(file, dataset.c_str(), path);  // throws where there is no such dataset
     const hdf5::Handle radiance(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     const auto count = [&](const char* attribute) { return hdf5::read_count(radiance.id(), attribute, path); };
     const auto number = [&](const char* attribute) { return hdf5::read_number(radiance.id(), attribute, path); };
@@ -174,6 +173,21 @@ std::vector<LightFieldGrid> read_light_field_grids(hid_t file, const std::filesy
     return grids;
 }
 
+DatasetReader radiance_of_front(hid_t file, const LightFieldGrid& grid,
+                                const std::shared_ptr<const core::RawFile>& raw) {
+    return {file, "radiance", radiance_box(grid, {0, 0, grid.hogels_s, grid.hogels_t}).extent, false, raw};
+}
+
+std::vector<LightField::Source> open_faces(const std::filesystem::path& path) {
+    std::vector<LightField::Source> faces;
+    const hdf5::Session session;
+    const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
+    const hdf5::Handle file = hdf5::open_file(path);
+    for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
+        faces.push_back(std::make_shared<LightFieldReader>(file.id(), grid, path, raw));
+    return faces;
+}
+
 }  // namespace hogel::io::hdf5
 
 namespace hogel {
@@ -181,37 +195,13 @@ namespace hogel {
 using namespace io;
 using namespace io::hdf5;
 
-std::vector<std::unique_ptr<LightFieldSource>> open_light_field_faces(const std::filesystem::path& path) {
-    if (is_stream(path)) return open_stream_faces(path);
-    std::vector<std::unique_ptr<LightFieldSource>> faces;
-    const hdf5::Session session;
-    const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
-    const hdf5::Handle file = hdf5::open_file(path);
-    for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
-        faces.push_back(std::make_unique<LightFieldReader>(file.id(), grid, path, raw));
-    return faces;
-}
-
-std::unique_ptr<LightFieldSource> open_light_field(const std::filesystem::path& path) {
-    return std::move(open_light_field_faces(path).front());
-}
-
-std::unique_ptr<LightFieldSink> create_light_field(const std::filesystem::path& path, const LightFieldGrid& grid,
-                                                   const LightFieldFileOptions& options) {
-    return std::move(create_light_field_faces(path, {&grid, 1}, options).front());
-}
-
-std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std::filesystem::path& path,
-                                                                      std::span<const LightFieldGrid> grids,
-                                                                      const LightFieldFileOptions& options) {
+std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
+                                                                std::span<const LightFieldGrid> grids,
+                                                                const LightFieldFileOptions& options) {
+    for (const LightFieldGrid& grid : grids) validate(grid, ErrorCode::usage, "light field");
+    require_faces(grids);
     std::vector<hdf5::NewDataset> datasets;
     for (const LightFieldGrid& grid : grids) {
-        validate(grid, ErrorCode::usage, "light field");
-        const auto same_face = [&](const LightFieldGrid& other) { return other.face() == grid.face(); };
-        if (!same_hogels(grid, grids.front()) || std::ranges::count_if(grids, same_face) != 1)
-            throw Error(ErrorCode::usage, fmt::format("light field '{}': its faces must have the same hogels and "
-                                                      "channels, each face once",
-                                                      path.string()));
         const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
         datasets.push_back({dataset_name(grid.face(), "radiance"),
                             options.type == SampleType::half ? Element::half : Element::single,
@@ -222,16 +212,14 @@ std::vector<std::unique_ptr<LightFieldSink>> create_light_field_faces(const std:
                                 depth_box(grid, all).extent,
                                 {{"axis_order", "t,s,v,u"}, {"unit", "m"}}});
     }
-    if (grids.empty() || grids.front().face() != Face::front)
-        throw Error(ErrorCode::usage, fmt::format("light field '{}': its front face must come first", path.string()));
     std::shared_ptr<SharedFile> shared(new SharedFile{
         {path, hdf5::root_attributes(hdf5::light_field_format, options.metadata), std::move(datasets), options.resume},
         grids.size()});
     std::vector<std::unique_ptr<LightFieldSink>> sinks;
-    const std::size_t datasets_a_face = options.with_depth ? 2 : 1;
+    const std::size_t datasets_per_face = options.with_depth ? 2 : 1;
     for (const LightFieldGrid& grid : grids)
         sinks.push_back(
-            std::make_unique<LightFieldWriter>(grid, datasets_a_face * sinks.size(), options.with_depth, shared));
+            std::make_unique<LightFieldWriter>(grid, datasets_per_face * sinks.size(), options.with_depth, shared));
     return sinks;
 }
 

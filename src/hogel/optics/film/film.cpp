@@ -69,7 +69,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
                 columns(i, row) = table.at(&band(row, 0), plane.width, middle_x + slopes[i] * reach);
         }
     });
-    // Each column is transformed at once, and what the pupil takes of it kept.
+    // Each column is transformed at once; only the frequencies that the pupil takes are kept.
     Array<Complex, 2> half({across(size_.reach_y), size_.sines.size_x});
     const double reach = eye.z / plane.pitch_y;
     core::parallel_for(blocks_of(size_.sines.size_x), [&](std::size_t block) {
@@ -102,7 +102,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
 
 void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<float, 2> intensity) const {
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
-    // Interpolation nodes the intensities cross over linearly.
+    // Between nodes the intensities cross over linearly.
     const auto weight = [](std::size_t k, std::size_t size, std::size_t at, std::size_t nodes) {
         const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(size) * static_cast<double>(nodes);
         const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);

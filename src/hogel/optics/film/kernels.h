@@ -6,7 +6,7 @@
 
 namespace hogel::optics::film {
 
-/// The inner loops that bring a film to a picture, each plain and as fast as this processor allows; the twins agree to
+/// The inner loops that bring a film to a picture, each as a plain version and a fast one; the twins agree to
 /// rounding. Both interpolate by Catmull and Rom's cubic through four neighbours: intensities come with two samples to
 /// their finest wave, for which straight lines would be too coarse. Outside there is nothing.
 
@@ -22,7 +22,7 @@ void add_down_columns(const float* values, std::size_t stride, std::size_t heigh
                       float weight, std::span<float> out);
 
 /// out[k] += weight · r³ · the value of `line` at offset + scale · d/r, with d = first + k · pitch and
-/// r = √(d² + square): what lies in direction sine d/r. RayValues below zero count as zero.
+/// r = √(d² + square): the light in direction sine d/r. Values below zero count as zero.
 struct LinePlaces {
     double first = 0, pitch = 0, square = 0;
     double scale = 0, offset = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of film_kernels.cpp, compiled for every instruction set and chosen when first called.
+// The vector twins of kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/optics/film/kernels_simd.cpp"
 #include <hwy/foreach_target.h>

@@ -7,8 +7,12 @@
 #include <random>
 #include <vector>
 
+#include "hogel/core/test_targets.h"
+
 namespace hogel::optics::film {
 namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(FilmKernels);
 
 std::vector<float> noise(std::size_t count) {
     std::mt19937 random(3);
@@ -19,7 +23,7 @@ std::vector<float> noise(std::size_t count) {
 }
 
 // Widths around every multiple of a vector; places inside, at both ends and outside.
-TEST(FilmKernels, vector_and_plain_columns_agree) {
+TEST_P(FilmKernels, vector_and_plain_columns_agree) {
     const std::size_t height = 20, stride = 50;
     const std::vector<float> values = noise(height * stride);
     std::vector<double> slopes(stride);
@@ -33,7 +37,7 @@ TEST(FilmKernels, vector_and_plain_columns_agree) {
     }
 }
 
-TEST(FilmKernels, vector_and_plain_lines_agree) {
+TEST_P(FilmKernels, vector_and_plain_lines_agree) {
     const std::vector<float> line = noise(200);
     for (std::size_t width = 0; width <= 70; ++width) {
         std::vector<float> fast(width, 1), plain(width, 1);
@@ -45,7 +49,7 @@ TEST(FilmKernels, vector_and_plain_lines_agree) {
 }
 
 // A cubic through four neighbours keeps parabolas, at every place but outside, where nothing is.
-TEST(FilmKernels, keep_parabolas) {
+TEST_P(FilmKernels, keep_parabolas) {
     std::vector<float> line(40);
     for (std::size_t i = 0; i < line.size(); ++i) line[i] = 3 + 0.01f * static_cast<float>(i * i);
     for (double at : {1.0, 5.25, 20.5, 36.99}) {

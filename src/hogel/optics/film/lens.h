@@ -12,8 +12,8 @@
 
 namespace hogel::optics::film {
 
-/// What a point in direction sine (n_x, n_y) at depth ζ adds to the path of light to the point δ of the pupil, beside
-/// the term linear in δ that its direction makes: exactly |x − q| − |x − c| + n·δ.
+/// The path of light from a point in direction sine (n_x, n_y), `distance_z` before the lens, to the point δ of the
+/// pupil, less the path to its centre and the term linear in δ of its direction: exactly |x − q| − |x − c| + n·δ.
 inline double path(double sine_x, double sine_y, double distance_z, double delta_x, double delta_y) {
     const double cosine = std::sqrt(1 - sine_x * sine_x - sine_y * sine_y), r = distance_z / cosine;
     const double along = sine_x * delta_x + sine_y * delta_y, square = delta_x * delta_x + delta_y * delta_y;
@@ -26,7 +26,7 @@ inline double path(double sine_x, double sine_y, double distance_z, double delta
 /// δ with a frequency that differs from δ/λ by 3δ²/4Rλ at the most, for eyes up to 55° aside.
 inline double frequency_radius(double pupil, double distance) { return 0.5 * pupil * (1 + 0.75 * pupil / distance); }
 
-/// The same in steps of that plane.
+/// frequency_radius() in steps of that plane.
 inline std::ptrdiff_t pupil_reach(double pupil, double distance, double step, std::size_t size) {
     return std::min(static_cast<std::ptrdiff_t>(frequency_radius(pupil, distance) / step) + 1,
                     static_cast<std::ptrdiff_t>(size - 1) / 2);
@@ -39,8 +39,8 @@ inline double pupil_step(double wavelength, std::size_t size, double sine_step) 
 
 /// A camera's lens at the frequencies of the transform. Around the direction n light that enters the pupil at δ has the
 /// frequency (δ − ∇_n Q)/λ in the sines, Q being the path beside the term linear in δ; so the disc is a little bent
-/// among the frequencies, and more so aslant. The defocus phase depends on the direction, slowly; the film gets as many
-/// nodes as keep it within half a radian, each with a phase of its own.
+/// among the frequencies, and more so for oblique light. The defocus phase depends on the direction, slowly; the film
+/// gets as many nodes as keep it within half a radian, each with a phase of its own.
 class FilmLens {
   public:
     FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)
@@ -68,7 +68,7 @@ class FilmLens {
     std::ptrdiff_t reach_x() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_x_, sines_.size_x); }
     std::ptrdiff_t reach_y() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_y_, sines_.size_y); }
 
-    // Of the opening, as sampled, m².
+    // Area of the opening, as sampled, m².
     double area() const {
         const Direction middle(sines_.first_x + 0.5 * span_x(), sines_.first_y + 0.5 * span_y());
         double sum = 0;
@@ -142,7 +142,7 @@ class FilmLens {
     double span_x() const { return static_cast<double>(sines_.size_x) * sines_.step; }
     double span_y() const { return static_cast<double>(sines_.size_y) * sines_.step; }
 
-    // In turns, with what is in focus `ratio` times as far away as the hologram.
+    // Phase in cycles, for a plane in focus `ratio` times as far away as the hologram.
     double defocus(double nx, double ny, double ratio, double dx, double dy) const {
         if (ratio == 1) return 0;
         const double R = camera_.eye.z;

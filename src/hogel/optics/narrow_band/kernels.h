@@ -9,7 +9,7 @@
 
 namespace hogel::optics::narrow_band {
 
-/// The inner loops of the narrow-band camera, each plain and as fast as this processor allows; the twins agree to
+/// The inner loops of the narrow-band camera, each as a plain version and a fast one; the twins agree to
 /// rounding.
 
 /// out[x] = Σ_r weights[r] · rows[r·stride + x], for every x of `out`: the low-pass down the columns of a tile.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of narrow_band_kernels.cpp, compiled for every instruction set and chosen when first called.
+// The vector twins of kernels.cpp, compiled for every instruction set and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/optics/narrow_band/kernels_simd.cpp"
 #include <hwy/foreach_target.h>

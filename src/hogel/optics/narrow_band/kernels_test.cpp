@@ -6,8 +6,12 @@
 #include <random>
 #include <vector>
 
+#include "hogel/core/test_targets.h"
+
 namespace hogel::optics::narrow_band {
 namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(NarrowBandKernels);
 
 using Complex = std::complex<float>;
 
@@ -20,7 +24,7 @@ std::vector<Complex> noise(std::size_t count) {
 }
 
 // Widths around every multiple of a vector, so that each remainder loop runs.
-TEST(NarrowBandKernels, vector_and_plain_rows_agree) {
+TEST_P(NarrowBandKernels, vector_and_plain_rows_agree) {
     const std::size_t rows = 37, stride = 150;
     const std::vector<Complex> tile = noise(rows * stride), weights = noise(rows);
     for (std::size_t width = 0; width <= 140; ++width) {
@@ -31,7 +35,7 @@ TEST(NarrowBandKernels, vector_and_plain_rows_agree) {
     }
 }
 
-TEST(NarrowBandKernels, vector_and_plain_lines_agree) {
+TEST_P(NarrowBandKernels, vector_and_plain_lines_agree) {
     const std::vector<Complex> line = noise(1000);
     for (std::size_t taps = 0; taps <= 70; ++taps) {
         std::vector<float> doubled;
@@ -44,7 +48,7 @@ TEST(NarrowBandKernels, vector_and_plain_lines_agree) {
     }
 }
 
-TEST(NarrowBandKernels, vector_and_plain_products_agree) {
+TEST_P(NarrowBandKernels, vector_and_plain_products_agree) {
     const std::vector<Complex> a = noise(80), b(a.rbegin(), a.rend());
     for (std::size_t count = 0; count <= 70; ++count) {
         std::vector<Complex> fast(count), plain(count);

@@ -43,7 +43,7 @@ Reach reach(const NarrowBand& band, std::size_t samples, std::size_t begin, std:
 }
 
 // Eyes that are at one height and one distance need, down the columns of a narrow tile, nearly the same demodulation:
-// they share the work there, and what their phases differ by is made up for after the decimation, when samples are few.
+// they share the work there, and the difference of their phases is applied after the decimation, when samples are few.
 // How fast that difference may vary is what the guard band allows.
 bool share_columns(const NarrowBand& a, const NarrowBand& b, const Grid& plane) {
     if (a.factor != b.factor) return false;
@@ -55,7 +55,7 @@ bool share_columns(const NarrowBand& a, const NarrowBand& b, const Grid& plane) 
     return worst / a.geometry.wavelength() < 0.5 * guard * passed;
 }
 
-// What one tile adds to one eye's band, for all looks.
+// The samples that one tile adds to one eye's band, for all looks.
 struct Contribution {
     Reach rows, columns;
     std::vector<Array<Complex, 2>> looks;
@@ -71,7 +71,7 @@ class TilePass {
         columns_ = reach(lead_, lead_.plane.width, region.x0, region.x0 + region.width);
         // The phase that is taken off down the columns is that of the tile's middle column, as the first eye sees it.
         const double middle = plane.x(static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5);
-        const auto column_phase = [&](double y) { return lead_.geometry.turns(middle, y); };
+        const auto column_phase = [&](double y) { return lead_.geometry.cycles(middle, y); };
         weigh_rows(plane, column_phase);
         for (std::size_t eye : group_) phases_.push_back(remaining_phases(plane, eyes_[eye], column_phase));
         prepare_line_taps();
@@ -130,7 +130,7 @@ class TilePass {
             walk_phase(
                 region_.width,
                 [&](double step) {
-                    return eye.geometry.turns(plane.x(static_cast<double>(region_.x0) + step), y) - off;
+                    return eye.geometry.cycles(plane.x(static_cast<double>(region_.x0) + step), y) - off;
                 },
                 [&](std::size_t x, std::complex<double> value) { phases(m, x) = Complex(value); });
         }
@@ -198,10 +198,10 @@ NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geom
             taps[k] = static_cast<float>(LowPass::at((first + static_cast<double>(k)) / step));
             sum += taps[k];
         }
-        // What the sampling of the kernel changes of its integral, so that a constant stays itself.
+        // Sampling changes the kernel's integral a little; with it divided out a constant stays itself.
         for (float& tap : taps) tap /= static_cast<float>(sum);
     }
-    // The first sample must lie where hologram_index(0) says.
+    // The first sample must lie at hologram_index(0).
     plane.center_x += full.x(hologram_index(0)) - plane.x(0);
     plane.center_y += full.y(hologram_index(0)) - plane.y(0);
 }

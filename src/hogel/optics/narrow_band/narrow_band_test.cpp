@@ -19,9 +19,9 @@ Field converging(const FieldGrid& grid, Vec3 to) {
     const ViewGeometry geometry(to, grid.wavelength);
     for (std::size_t y = 0; y < grid.plane.height; ++y)
         for (std::size_t x = 0; x < grid.plane.width; ++x) {
-            const double turns = geometry.turns(grid.plane.x(double(x)), grid.plane.y(double(y)));
+            const double cycles = geometry.cycles(grid.plane.x(double(x)), grid.plane.y(double(y)));
             field.samples(y, x) =
-                std::complex<float>(std::polar(1.0, -2 * std::numbers::pi * std::remainder(turns, 1.0)));
+                std::complex<float>(std::polar(1.0, -2 * std::numbers::pi * std::remainder(cycles, 1.0)));
         }
     return field;
 }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.h"
+
+namespace hogel::cli {
+
+std::span<const CommandInfo> commands() {
+    static const CommandInfo table[] = {
+        {"make", "From a scene to photographs of its hologram, with a report", add_make},
+        {"render", "Render a scene into a light field", add_render},
+        {"hologram", "Turn a light field or a scene into a hologram", add_hologram},
+        {"slm", "Encode a hologram as a pattern for a light modulator", add_slm},
+        {"print", "Write a light field as pictures for a hologram printer", add_print},
+        {"photo", "Photograph a hologram, a light field or a scene", add_photo},
+        {"propagate", "The field of a hologram on another plane, as a picture or an array", add_propagate},
+        {"compress", "Compress a light field", add_compress},
+        {"decompress", "Decompress a light field", add_decompress},
+        {"compare", "Say how alike two files are", add_compare},
+        {"info", "Say what a file is and what made it, in SI units", add_info},
+        {"bake", "Light a scene for good, reflected light included", add_bake},
+        {"scenes", "List the built-in scenes", add_scenes},
+    };
+    return table;
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interrupts.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace hogel::cli {
+
+struct Interrupts::Impl {
+    using Clock = std::chrono::steady_clock;
+
+    std::stop_source stop;
+    sigset_t signals{};
+    std::atomic<int> first = 0;
+    std::atomic<bool> ended = false;
+    std::thread watcher;
+
+    void watch() {
+        Clock::time_point first_at;
+        for (;;) {
+            int signal = 0;
+            if (sigwait(&signals, &signal) != 0) continue;
+            if (ended) return;
+            if (first == 0) {
+                first = signal;
+                first_at = Clock::now();
+                stop.request_stop();
+            } else if (Clock::now() - first_at > std::chrono::seconds(1)) {
+                _exit(128 + signal);
+            }
+        }
+    }
+};
+
+Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) {
+    impl_->stop = std::move(stop);
+    sigemptyset(&impl_->signals);
+    for (const int signal : {SIGINT, SIGTERM}) {
+        sigaddset(&impl_->signals, signal);
+        // A shell starts what runs in the background with SIGINT ignored, and an ignored signal need not be delivered.
+        ::signal(signal, SIG_DFL);
+    }
+    pthread_sigmask(SIG_BLOCK, &impl_->signals, nullptr);
+    impl_->watcher = std::thread([this] { impl_->watch(); });
+}
+
+Interrupts::~Interrupts() {
+    impl_->ended = true;
+    pthread_kill(impl_->watcher.native_handle(), SIGTERM);  // wakes it
+    impl_->watcher.join();
+}
+
+int Interrupts::signal() const { return impl_->first; }
+
+}  // namespace hogel::cli

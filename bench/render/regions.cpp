@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <numbers>
+
+#include "bench/render/render.h"
+#include "hogel/error.h"
+#include "hogel/renderer.h"
+#include "hogel/scene/tessellate.h"
+
+namespace hogel::bench {
+namespace {
+
+struct ThesisScene {
+    const char *name, *shading, *note;
+    double faster;  // how many times as fast as 2D the best 4D renderer is there; 0 where the text gives no number
+};
+// The scenes of [K] fig. 5.26 to 5.30, shaded as there. The notes are what its text says of the curves, which it gives
+// no points of.
+constexpr std::array thesis_scenes{
+    ThesisScene{"church", "direct",
+                "[K] fig. 5.26, one 120 MHz processor, axis to 40 s: \"only a marginal improvement\"", 0},
+    ThesisScene{"church-radiance", "given",
+                "[K] fig. 5.27, one 120 MHz processor, axis to 600 s: \"over 20:1\", still falling where memory ends",
+                20},
+    ThesisScene{"chandelier", "direct",
+                "[K] fig. 5.28, one 120 MHz processor, axis to 30 s: gain between those of fig. 5.26 and 5.27", 0},
+    ThesisScene{"billiards", "shadowed",
+                "[K] fig. 5.29, one 120 MHz processor, axis to 20 s: gain between those of fig. 5.26 and 5.27", 0},
+    ThesisScene{"pumpkin", "vertex",
+                "[K] fig. 5.30, one 120 MHz processor, axis to 6 s: gain between those of fig. 5.26 and 5.27", 0}};
+
+const ThesisScene* thesis_scene(const std::string& name) {
+    const auto* const known = std::ranges::find(thesis_scenes, name, &ThesisScene::name);
+    return known != thesis_scenes.end() ? known : nullptr;
+}
+
+// Moves a scene behind the hologram, `gap` from it.
+Scene behind(Scene scene, double gap) {
+    const double back = bounds(scene).high.z + gap;
+    for (Mesh& mesh : scene.meshes)
+        for (Vec3& position : mesh.positions) position.z -= back;
+    for (Light& light : scene.lights) light.position.z -= back;
+    return scene;
+}
+
+std::string table(const std::vector<RegionTimes>& all, std::size_t max_side) {
+    std::string head = "| |", line = "|---|", rows;
+    for (std::size_t side = 1; side <= max_side; side *= 2) {
+        head += fmt::format(" {} |", side);
+        line += "---|";
+    }
+    const auto reference = std::ranges::find(all, "zbuffer", [](const RegionTimes& t) { return t.curve.name; });
+    const bool ratios = reference != all.end();
+    for (const auto& [curve, bytes, part] : all) {
+        rows += fmt::format("| `{}` |", curve.name);
+        std::size_t i = 0;
+        for (std::size_t side = 1; side <= max_side; side *= 2, ++i)
+            rows += i < curve.points.size() ? fmt::format(" {}{:.3g} |", part > 1 ? "≈ " : "", curve.points[i].second)
+                                            : " |";
+        if (ratios)
+            rows += curve.points.empty()
+                        ? " |"
+                        : fmt::format(" {:.3g} |", reference->curve.points.front().second / curve.points.back().second);
+        rows += fmt::format(" {} |\n", format_bytes(bytes));
+    }
+    return head + (ratios ? " times `zbuffer` |" : "") + " memory |\n" + line + (ratios ? "---|" : "") + "---|\n" +
+           rows;
+}
+
+// Lines below the axis of a plot.
+std::vector<std::string> notes(const std::string& scene, const std::vector<RegionTimes>& all) {
+    std::vector<std::string> lines;
+    std::string parts;
+    for (const RegionTimes& times : all)
+        if (times.part > 1) parts += fmt::format("{}{} 1/{}", parts.empty() ? "" : ", ", times.curve.name, times.part);
+    if (!parts.empty()) lines.push_back("dashed: measured on a part of the triangles: " + parts);
+    if (const ThesisScene* known = thesis_scene(scene)) lines.emplace_back(known->note);
+    return lines;
+}
+
+// A scene's name, and into how many parts the sides of its triangles are to be cut.
+std::pair<std::string, std::size_t> named_scene(const std::string& name) {
+    const std::size_t colon = name.rfind(':');
+    if (colon == std::string::npos || colon + 1 == name.size() ||
+        name.find_first_not_of("0123456789", colon + 1) != std::string::npos)
+        return {name, 1};
+    return {name.substr(0, colon), parse_count(name.substr(colon + 1), name)};
+}
+
+void measure_scene(const std::string& name, const std::vector<std::string>& algorithms, const RenderOptions& options,
+                   const Session& session) {
+    LightFieldOptions light_field = options.light_field(render_defaults.hogels, render_defaults.directions);
+    light_field.shading = options.shading_of(name);
+    light_field.cache_spacing = options.cache_spacing.value_or(0);  // as in [K]
+    const LightFieldGrid grid = light_field.grid();
+    const RegionLimits limits{options.max_side, options.seconds.value_or(render_defaults.seconds),
+                              1e9 * options.gigabytes};
+    const auto scene = bench_scene(session, name, light_field);
+    const std::string title =
+        fmt::format("{}, {} triangles, shading '{}'", name, scene->triangles.size(), light_field.shading);
+    const std::string subtitle = fmt::format(
+        "{}x{} directions over {:.4g} degrees, hogels {} apart; one core", grid.directions_u, grid.directions_v,
+        light_field.field_of_view.across * 180 / std::numbers::pi, format_length(grid.pitch));
+    std::vector<RegionTimes> all;
+    std::vector<Curve> curves;
+    for (const std::string& algorithm : algorithms) {
+        stop_if_interrupted();
+        session.detail(fmt::format("{}: {}", name, algorithm));
+        all.push_back(time_regions(algorithm, scene, grid, limits));
+        curves.push_back(all.back().curve);
+        session.detail(fmt::format("{} hogels a side at most, {}", 1 << (curves.back().points.size() - 1),
+                                   format_bytes(all.back().bytes)));
+    }
+    fmt::print("{}; {}.\nMilliseconds a hogel against the side of the region in hogels.\n\n{}\n", title, subtitle,
+               table(all, limits.side));
+    std::fflush(stdout);
+    PlotText text{title, subtitle, "Side of the region (hogels)", "Time for each hogel (ms)"};
+    text.notes = notes(name, all);
+    const auto reference = std::ranges::find(curves, "zbuffer", &Curve::name);
+    if (const ThesisScene* known = thesis_scene(name); known && known->faster > 0 && reference != curves.end())
+        text.levels.emplace_back(fmt::format("{:g}:1, [K]", known->faster),
+                                 reference->points.front().second / known->faster);
+    options.write_plot("render", name, text, curves);
+}
+
+}  // namespace
+
+LightFieldOptions RenderOptions::light_field(std::size_t default_hogels, std::size_t default_directions) const {
+    LightFieldOptions light_field;
+    light_field.hogels = hogels.value_or(Counts{default_hogels, default_hogels});
+    light_field.directions = directions.value_or(Counts{default_directions, default_directions});
+    light_field.cache_spacing = cache_spacing.value_or(default_cache_spacing);
+    light_field.size = size;
+    light_field.field_of_view = field_of_view;
+    return light_field;
+}
+
+std::string RenderOptions::shading_of(const std::string& scene) const {
+    if (!shading.empty()) return shading;
+    const ThesisScene* known = thesis_scene(named_scene(scene).first);
+    return known ? known->shading : default_shading;
+}
+
+void RenderOptions::prepare_output() const {
+    if (!output.empty()) create_folder(output);
+}
+
+void RenderOptions::write_plot(const std::string& kind, const std::string& scene, const PlotText& text,
+                               const std::vector<Curve>& curves) const {
+    if (output.empty()) return;
+    const std::string name = std::filesystem::path(scene).stem().string();
+    write_text(std::filesystem::path(output) / fmt::format("{}_{}.svg", kind, name), plot_svg(text, curves));
+}
+
+std::shared_ptr<const ShadedScene> bench_scene(const Session& session, const std::string& name,
+                                               const LightFieldOptions& options) {
+    const auto [plain, parts] = named_scene(name);
+    Scene scene = behind(load_scene(plain, options), 0.05 * options.size);
+    if (parts != 1) scene = scene::tessellate(scene, parts);
+    return shade(session, scene, options);
+}
+
+void measure_regions(const RenderOptions& options, const Session& session) {
+    std::vector<std::string> scenes = options.scenes, algorithms = options.algorithms;
+    if (scenes.empty())
+        for (const ThesisScene& scene : thesis_scenes) scenes.emplace_back(scene.name);
+    if (algorithms.empty())
+        for (const RendererInfo& info : renderers()) algorithms.emplace_back(info.name);
+    // Fails for unknown names before anything is measured.
+    const LightFieldGrid grid = options.light_field(render_defaults.hogels, render_defaults.directions).grid();
+    for (const std::string& algorithm : algorithms) make_renderer(algorithm, std::make_shared<ShadedScene>(), grid);
+    options.prepare_output();
+    for (const std::string& name : scenes) measure_scene(name, algorithms, options, session);
+}
+
+}  // namespace hogel::bench

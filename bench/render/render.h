@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/render/region_times.h"
+#include "bench/scene.h"
+
+namespace hogel::bench {
+
+/// The defaults of `hogel-bench render` that its help shows.
+struct RenderDefaults {
+    std::size_t hogels = 360, directions = 128;
+    std::size_t few_hogels = 64;  ///< along a side: --scaling, and the first table row of a scene with --peers
+    std::size_t stream_hogels = 512;
+    std::size_t many_directions = 256;  ///< --peers, --stream
+    double seconds = 8;                 ///< that a region may take
+    double peer_seconds = 1;            ///< that a peer may take in a round
+};
+inline constexpr RenderDefaults render_defaults;
+
+/// The options of `hogel-bench render`. What is not given depends on what is measured.
+struct RenderOptions {
+    std::string output;   ///< folder for plots; empty: none
+    std::string shading;  ///< empty: that of the thesis for its scenes, `vertex` for others
+    std::vector<std::string> scenes, algorithms;
+    std::vector<std::string> peers;  ///< for measure_peers(); empty, or only empty names: all
+    std::optional<Counts> hogels, directions;
+    std::optional<double> seconds, cache_spacing;
+    double size = 20_mm;
+    Angles field_of_view{40_deg, 40_deg};
+    std::size_t max_side = 128;  ///< of a region, in hogels
+    double gigabytes = 6;        ///< that a region may take, see RegionLimits
+    std::size_t rounds = 5;
+
+    /// @param hogels, directions  along a side, where they are not given
+    LightFieldOptions light_field(std::size_t default_hogels, std::size_t default_directions) const;
+    /// The model of shading that was asked for, or the one that the thesis used for its scene.
+    std::string shading_of(const std::string& scene) const;
+    /// The first of the algorithms.
+    std::string algorithm() const { return algorithms.empty() ? default_algorithm : algorithms.front(); }
+    /// Creates the folder for plots, if there is to be one.
+    void prepare_output() const;
+    /// Writes a plot as KIND_SCENE.svg, if there is a folder for plots.
+    void write_plot(const std::string& kind, const std::string& scene, const PlotText& text,
+                    const std::vector<Curve>& curves) const;
+};
+
+/// A scene pushed behind the hologram, where every renderer can see it, with its light. A name like `pumpkin:10` is the
+/// scene whose triangles are each cut into 10².
+std::shared_ptr<const ShadedScene> bench_scene(const Session& session, const std::string& name,
+                                               const LightFieldOptions& options);
+
+/// Prints how long renderers take for a hogel against the side of the region that they are given at once.
+void measure_regions(const RenderOptions& options, const Session& session);
+/// `--peers`: prints how fast renderers of others are beside one of hogel's, a table row as soon as it is there.
+void measure_peers(const RenderOptions& options, const Session& session);
+/// `--scaling`: prints how the time grows with hogels, directions and triangles, what a second thread gains, and how
+/// near the renderer is to the speed of plain writing.
+void measure_scaling(const RenderOptions& options, const Session& session);
+/// `--stream`: prints how long whole light fields take, which may be larger than memory and are not kept.
+void measure_stream(const RenderOptions& options, const Session& session);
+
+}  // namespace hogel::bench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bench/arguments.h"
+#include "bench/session.h"
+#include "hogel/light_field.h"
+#include "hogel/scene.h"
+#include "hogel/shading.h"
+#include "hogel/units.h"
+
+namespace hogel::bench {
+
+using namespace hogel::literals;
+
+inline constexpr const char* default_algorithm = "epi";
+inline constexpr const char* default_shading = "vertex";
+inline constexpr double default_cache_spacing = 0.25;
+
+/// How a scene becomes a light field. The defaults are those of `hogel render`.
+struct LightFieldOptions {
+    std::string algorithm = default_algorithm;
+    std::string shading = default_shading;
+    /// Distance of the radiance cache's points, in widths of a ray on the surface; 0: no cache.
+    double cache_spacing = default_cache_spacing;
+    Counts hogels{400, 400}, directions{32, 32};
+    double size = 20_mm;                   ///< width of the hologram
+    Angles field_of_view{16_deg, 16_deg};  ///< full angles
+
+    /// Throws Error(usage) where these make no light field.
+    LightFieldGrid grid() const;
+};
+
+/// A built-in scene as large as the hologram, or a mesh file fitted to it, with lights. Throws Error(usage) for a name
+/// that is neither a scene nor a file.
+Scene load_scene(const std::string& name, const LightFieldOptions& options);
+
+/// The scene with its light, and with a radiance cache for the rays of the options' light field unless cache_spacing
+/// is 0.
+std::shared_ptr<const ShadedScene> shade(const Session& session, const Scene& scene, const LightFieldOptions& options);
+
+/// A light field file, or a scene's light field, which is rendered where it is read.
+std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                 const LightFieldOptions& options);
+
+}  // namespace hogel::bench

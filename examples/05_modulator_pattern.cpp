@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hologram for a phase-only light modulator: the field of a light field, encoded as the modulator's levels.
+#include <cstdio>
+
+#include "hogel/hogel.h"
+
+using namespace hogel;
+using namespace hogel::literals;
+
+int main() {
+    Modulator modulator = modulators().find("leto");  // a name in the table; or describe another one
+    modulator.width = 480;                            // a part of it, so that this takes a moment
+    modulator.height = 270;
+
+    LightFieldRequest request;
+    request.grid = {30, 17, 16 * modulator.pitch, 16, 16, field_of_view(2.5_deg)};
+    const LightField light_field = render_light_field(load_scene("sphere", request), request);
+
+    HologramOptions options;
+    options.channel = {532_nm};
+    options.pitch = modulator.pitch;
+    const auto field = make_hologram(light_field, options);
+
+    const Pattern pattern = encode_pattern(*field, {.encoding = Encoding::double_phase, .modulator = modulator});
+    const View<const std::uint8_t, 2> levels = pattern.levels;
+    write_raw_pixels("pattern.png", {levels.data(), {levels.extent(0), levels.extent(1), 1}});
+    std::printf("pattern.png: %zu x %zu levels, efficiency %.1f %%\n", levels.extent(1), levels.extent(0),
+                100 * pattern.efficiency);
+}

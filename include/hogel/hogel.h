@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Everything that hogel offers. Each header may be included by itself; examples/ shows how they work together.
+
+#include "hogel/array.h"
+#include "hogel/bake.h"
+#include "hogel/camera.h"
+#include "hogel/compress.h"
+#include "hogel/error.h"
+#include "hogel/field.h"
+#include "hogel/files.h"
+#include "hogel/geometry.h"
+#include "hogel/hologram.h"
+#include "hogel/image.h"
+#include "hogel/light_field.h"
+#include "hogel/pattern.h"
+#include "hogel/photograph.h"
+#include "hogel/pipeline.h"
+#include "hogel/progress.h"
+#include "hogel/propagate.h"
+#include "hogel/ray_photograph.h"
+#include "hogel/renderer.h"
+#include "hogel/resources.h"
+#include "hogel/scene.h"
+#include "hogel/scene_hologram.h"
+#include "hogel/scenes.h"
+#include "hogel/shading.h"
+#include "hogel/table.h"
+#include "hogel/units.h"
+#include "hogel/version.h"

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/codec/encode/tile_compression.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hogel/codec/format/block_kernels.h"
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+
+namespace hogel::codec::encode {
+
+using namespace format;
+
+namespace {
+
+// Sizes that sum up to `room` bytes, each reduced by the same fraction of what exceeds `least`.
+std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::size_t least, double room) {
+    std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) - least * sizes.size();
+    auto bytes = static_cast<std::size_t>(std::max(room - static_cast<double>(least * sizes.size()), 0.0));
+    std::vector<std::size_t> result;
+    for (const std::size_t size : sizes) {
+        const std::size_t more = size - least;
+        const double kept =
+            left > 0 ? static_cast<double>(bytes) * static_cast<double>(more) / static_cast<double>(left) : 0;
+        result.push_back(least + static_cast<std::size_t>(kept));
+        left -= more;
+        bytes -= result.back() - least;
+    }
+    return result;
+}
+
+}  // namespace
+
+LightFieldTile SpareTiles::take(const LightFieldGrid& grid, const HogelRange& range) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find_if(tiles_, [&](const LightFieldTile& tile) {
+        const Shape<5> shape{grid.channels, range.nt, range.ns, grid.directions_v, grid.directions_u};
+        return tile.radiance.shape() == shape;
+    });
+    if (found == tiles_.end()) return LightFieldTile(grid, range, false);
+    LightFieldTile tile = std::move(*found);
+    tiles_.erase(found);
+    tile.range = range;
+    return tile;
+}
+
+void SpareTiles::give_back(LightFieldTile tile) {
+    const std::lock_guard lock(mutex_);
+    tiles_.push_back(std::move(tile));
+}
+
+double TileCompression::samples() const {
+    double sum = 0;
+    for (const CodedPart& part : parts_) sum += part.source->grid().samples();
+    return sum;
+}
+
+CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double step, bool write,
+                                    std::span<const std::size_t> max_bytes) {
+    if (write) {
+        writer_.restart();
+        sizes_.clear();
+    }
+    CodingOutcome sum;
+    core::parallel_ordered<Coded>(
+        tiles.size(), in_flight(),
+        [&](std::size_t i) {
+            return code_tile(tiles[i], step, max_bytes.empty() ? TileCoder::no_limit : max_bytes[i]);
+        },
+        [&](std::size_t i, Coded& coded) {
+            sum.add(coded.outcome);
+            if (write) {
+                writer_.append(coded.bytes, coded.layers);
+                sizes_.push_back(coded.bytes.size());
+            }
+            progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
+        });
+    return sum;
+}
+
+CodingOutcome TileCompression::look(std::span<const std::size_t> tiles) {
+    CodingOutcome sum;
+    core::parallel_ordered<CodingOutcome>(
+        tiles.size(), in_flight(),
+        [&](std::size_t i) {
+            auto [tile, outcome] = read(tiles[i]);
+            spare_.give_back(std::move(tile));
+            return outcome;
+        },
+        [&](std::size_t, CodingOutcome& outcome) { sum.add(outcome); });
+    return sum;
+}
+
+std::pair<double, double> TileCompression::try_middle(double step) const {
+    HogelRange range = tiling_[tiling_.count() / 2];
+    for (const auto& [begin, count] : {std::pair{&range.s0, &range.ns}, {&range.t0, &range.nt}}) {
+        const std::size_t kept = std::min<std::size_t>(*count, 8);
+        *begin += (*count - kept) / 2;
+        *count = kept;
+    }
+    auto [tile, outcome] = read(parts_.front(), range);
+    const auto bytes = static_cast<double>(parts_.front().coder->encode(tile, step).bytes.size());
+    return {bytes, std::sqrt(outcome.signal / outcome.samples)};
+}
+
+std::vector<std::size_t> TileCompression::cut(double file) const {
+    const double room = file - static_cast<double>(writer_.overhead(sizes_.size()));
+    return cut_sizes(sizes_, *parts_.front().coder->min_bytes(parts_.front().source->grid()), room);
+}
+
+std::size_t TileCompression::in_flight() const {
+    return std::min(core::default_in_flight(), parts_.front().coder->max_at_once());
+}
+
+std::pair<LightFieldTile, CodingOutcome> TileCompression::read(std::size_t index) const {
+    return read(parts_[index / tiling_.count()], tiling_[index % tiling_.count()]);
+}
+
+std::pair<LightFieldTile, CodingOutcome> TileCompression::read(const CodedPart& part, const HogelRange& range) const {
+    LightFieldTile tile = spare_.take(part.source->grid(), range);
+    part.source->read(tile);
+    CodingOutcome outcome;
+    const bool any_value = part.coder->takes_any_value();
+    const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
+    std::vector<double> signal(tile.radiance.size() / (width * height));  // of each hogel and channel
+    core::parallel_for(signal.size(), [&](std::size_t hogel) {
+        for (std::size_t v = 0; v < height; ++v) {
+            const auto [begin, end] = counted_.columns(v, width);
+            const auto values = tile.radiance.elements().subspan((hogel * height + v) * width + begin, end - begin);
+            const double squares = sum_of_squares(values.data(), values.size());
+            if (std::isfinite(squares) || !any_value)
+                signal[hogel] += squares;
+            else
+                for (const float value : values)
+                    if (std::isfinite(value)) signal[hogel] += static_cast<double>(value) * value;
+        }
+    });
+    outcome.signal = std::accumulate(signal.begin(), signal.end(), 0.0);
+    if (!std::isfinite(outcome.signal))
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("radiance is not finite everywhere in hogels {} to {} of rows {} to {}", range.s0,
+                                range.s0 + range.ns - 1, range.t0, range.t0 + range.nt - 1));
+    outcome.samples = static_cast<double>(tile.radiance.size());
+    return {std::move(tile), outcome};
+}
+
+TileCompression::Coded TileCompression::code_tile(std::size_t index, double step, std::size_t max_bytes) const {
+    auto [tile, outcome] = read(index);
+    TileCoder::Encoded encoded = parts_[index / tiling_.count()].coder->encode(tile, step, max_bytes);
+    spare_.give_back(std::move(tile));
+    outcome.error = encoded.squared_error;
+    outcome.bytes = static_cast<double>(encoded.bytes.size());
+    return {std::move(encoded.bytes), std::move(encoded.layers), outcome};
+}
+
+}  // namespace hogel::codec::encode

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace hogel::core {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+bool is_cancelled(const auto& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::cancelled);
+        return true;
+    }
+    return false;
+}
+
+// Asks for a stop from another thread after 30 ms, and notes when.
+class StopSoon {
+  public:
+    Progress progress() const { return Progress(source_.get_token()); }
+    bool asked() const { return asked_; }
+    double seconds_since() const { return std::chrono::duration<double>(Clock::now() - when_).count(); }
+
+  private:
+    std::stop_source source_;
+    std::atomic<bool> asked_{false};
+    Clock::time_point when_;
+    std::jthread thread_{[this] {
+        std::this_thread::sleep_for(milliseconds(30));
+        when_ = Clock::now();
+        source_.request_stop();
+        asked_ = true;
+    }};
+};
+
+TEST(ParallelFor, calls_the_body_once_for_every_index) {
+    for (const std::size_t n : {0, 1, 2, 1000}) {
+        std::vector<std::atomic<int>> calls(n);
+        parallel_for(n, [&](std::size_t i) { ++calls[i]; });
+        for (const std::atomic<int>& count : calls) EXPECT_EQ(count, 1);
+    }
+}
+
+TEST(ParallelFor, rethrows_what_a_body_throws) {
+    EXPECT_THROW(parallel_for(100,
+                              [](std::size_t i) {
+                                  if (i == 57) throw Error(ErrorCode::bad_input, "57");
+                              }),
+                 Error);
+}
+
+TEST(ParallelFor, inside_a_loop_that_has_failed_never_returns_with_bodies_left_out) {
+    std::atomic<bool> failed{false};
+    EXPECT_THROW(parallel_for(64,
+                              [&](std::size_t i) {
+                                  if (i == 0) {
+                                      failed = true;
+                                      throw Error(ErrorCode::bad_input, "0");
+                                  }
+                                  while (!failed && i == 32) std::this_thread::yield();
+                                  std::this_thread::sleep_for(milliseconds(2));
+                                  std::atomic<std::size_t> ran{0};
+                                  parallel_for(50, [&](std::size_t) { ++ran; });
+                                  EXPECT_EQ(ran, 50u);
+                              }),
+                 Error);
+}
+
+TEST(ParallelOrdered, merges_in_order_with_few_results_alive) {
+    std::atomic<int> alive{0}, most{0};
+    std::vector<std::size_t> merged;
+    parallel_ordered<std::size_t>(
+        100, 7,
+        [&](std::size_t i) {
+            most = std::max<int>(most, ++alive);
+            return i * i;
+        },
+        [&](std::size_t i, std::size_t& result) {
+            EXPECT_EQ(result, i * i);
+            merged.push_back(i);
+            --alive;
+        });
+    ASSERT_EQ(merged.size(), 100u);
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(merged[i], i);
+    EXPECT_LE(most, 7);
+}
+
+TEST(StopScope, ends_a_long_loop_at_once) {
+    const StopSoon soon;
+    const StopScope scope(soon.progress());
+    std::atomic<std::size_t> begun_later{0};
+    EXPECT_TRUE(is_cancelled([&] {
+        parallel_for(100000, [&](std::size_t) {
+            if (soon.asked()) ++begun_later;
+            std::this_thread::sleep_for(milliseconds(1));
+        });
+    }));
+    EXPECT_LT(soon.seconds_since(), 0.2);
+    EXPECT_LE(begun_later, thread_count());
+}
+
+TEST(StopScope, ends_loops_inside_the_bodies_of_loops) {
+    const StopSoon soon;
+    const StopScope scope(soon.progress());
+    EXPECT_TRUE(is_cancelled([&] {
+        parallel_for(4, [&](std::size_t) {
+            parallel_for(4, [&](std::size_t) {
+                parallel_for(100000, [](std::size_t) { std::this_thread::sleep_for(milliseconds(1)); });
+            });
+        });
+    }));
+    EXPECT_LT(soon.seconds_since(), 0.2);
+}
+
+TEST(StopScope, of_a_verb_inside_another_obeys_both) {
+    std::stop_source outer, inner;
+    const auto loop = [] { parallel_for(1, [](std::size_t) {}); };
+    const StopScope whole{Progress(outer.get_token())};
+    {
+        const StopScope part{Progress(inner.get_token())};
+        const StopScope without{Progress()};
+        EXPECT_FALSE(is_cancelled(loop));
+        inner.request_stop();
+        EXPECT_TRUE(is_cancelled(loop));
+    }
+    EXPECT_FALSE(is_cancelled(loop)) << "the inner work's stop ends with it";
+    outer.request_stop();
+    const StopScope again{Progress()};
+    EXPECT_TRUE(is_cancelled(loop));
+    EXPECT_TRUE(is_cancelled([] { throw_if_stopped(); }));
+}
+
+TEST(StopScope, leaves_other_threads_alone) {
+    std::stop_source source;
+    source.request_stop();
+    const StopScope scope{Progress(source.get_token())};
+    std::jthread([] { EXPECT_FALSE(is_cancelled([] { parallel_for(10, [](std::size_t) {}); })); }).join();
+    EXPECT_TRUE(is_cancelled([] { parallel_for(10, [](std::size_t) {}); }));
+}
+
+TEST(Isolate, lets_a_stop_through) {
+    std::stop_source source;
+    source.request_stop();
+    const StopScope scope{Progress(source.get_token())};
+    EXPECT_TRUE(is_cancelled([] { isolate([] { parallel_for(10, [](std::size_t) {}); }); }));
+}
+
+}  // namespace
+}  // namespace hogel::core

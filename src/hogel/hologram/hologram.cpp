@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram.h"
+
+#include <algorithm>
+#include <list>
+#include <mutex>
+#include <numeric>
+
+#include "hogel/core/object_pool.h"
+#include "hogel/hologram/hogel_synthesis.h"
+#include "hogel/hologram/windows/overlap_add.h"
+
+namespace hogel {
+
+using namespace hologram;
+
+namespace {
+
+using Complex = std::complex<float>;
+
+// Values that the looks of a range of hogels share, [hogel][...], row by row.
+struct Prepared {
+    HogelRange range;
+    Array<float, 2> values;
+};
+
+std::unique_ptr<HogelSynthesis> make_synthesis(std::span<const LightFieldGrid> faces, std::size_t columns,
+                                               std::size_t rows, const HologramOptions& options, RayValues values) {
+    if (const auto* basis = std::get_if<Basis>(&options.method))
+        return make_basis_synthesis(faces.front(), columns, options, *basis, values);
+    if (const auto* added = std::get_if<PhaseAdded>(&options.method))
+        return make_phase_added_synthesis(faces.front(), columns, options, added->exact);
+    if (const auto* lines = std::get_if<Lines>(&options.method))
+        return make_line_synthesis(faces, columns, rows, options, *lines);
+    return make_fourier_synthesis(faces, columns, options, std::get<Fourier>(options.method));
+}
+
+// Hogels side by side.
+class Stereogram final : public FieldSource {
+  public:
+    Stereogram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options, RayValues values)
+        : light_field_(light_field),
+          channel_(options.channel.index),
+          looks_(options.looks),
+          with_depth_(needs_depth(options.method)),
+          grid_(grid),
+          columns_(grid.plane.width / front().hogels_s),
+          rows_(grid.plane.height / front().hogels_t) {
+        const std::vector<LightFieldGrid> grids = light_field.grids();
+        for (const LightFieldGrid& face : grids) rays_ += face.directions();
+        synthesis_ = make_synthesis(grids, columns_, rows_, options, values);
+    }
+
+    const FieldGrid& grid() const override { return grid_; }
+    std::size_t looks() const override { return looks_; }
+    std::size_t alignment() const override { return std::lcm(columns_, rows_); }
+
+    void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
+        if (region.samples() == 0) return;
+        HogelRange hogels{region.x0 / columns_, region.y0 / rows_, 0, 0};
+        hogels.ns = (region.x0 + region.width - 1) / columns_ + 1 - hogels.s0;
+        hogels.nt = (region.y0 + region.height - 1) / rows_ + 1 - hogels.t0;
+        auto room = rooms_.take();
+        if (room->square.size() == 0) room->square = Array<Complex, 2>({rows_, columns_});
+        if (looks_ > 1) {
+            write(prepare(hogels)->values, hogels, 0, look, region, room->square, out);
+            return;
+        }
+        const View<const float, 5> whole = rays_in_memory(hogels);
+        // A few hogels at a time, so that what one look needs stays in the processor's cache.
+        const std::size_t values = synthesis_->prepared_size();
+        if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
+        for_each_band(hogels, [&](const HogelRange& band) {
+            if (whole.size() == 0) read_rays(band, room->rays);
+            for (std::size_t first = 0; first < band.hogels(); first += hogels_together) {
+                const View<float, 2> some(room->prepared.data(),
+                                          {std::min(hogels_together, band.hogels() - first), values});
+                if (whole.size() > 0)
+                    synthesis_->prepare(
+                        {&whole(channel_, band.t0, band.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {}, some);
+                else
+                    prepare(room->rays, first, some);
+                write(some, band, first, look, region, room->square, out);
+            }
+        });
+    }
+
+  private:
+    static constexpr std::size_t hogels_together = 16;
+    // A region has hundreds of hogels, whose rays may be gigabytes: at most this much is read at a time, or one row of
+    // hogels.
+    static constexpr std::size_t max_ray_bytes = std::size_t{1} << 27;
+
+    const LightFieldGrid& front() const { return light_field_.grid(); }
+    std::span<const LightField::Source> faces() const { return light_field_.faces(); }
+
+    // Buffers for one region.
+    struct Room {
+        std::vector<LightFieldTile> rays;  // of each face
+        Array<float, 2> prepared;          // [hogels_together][...]
+        Array<Complex, 2> square;          // a hogel
+    };
+
+    // All rays in place, where the source has them in memory and those of the hogels follow each other; else empty.
+    View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
+        if (faces().size() > 1 || with_depth_ || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
+        return light_field_.front().in_memory();
+    }
+
+    // Calls use(range) for bands of rows of hogels whose rays are read at once, from the first to the last.
+    template <class Use>
+    void for_each_band(const HogelRange& hogels, const Use& use) const {
+        const std::size_t values = front().channels + (with_depth_ ? 1 : 0);
+        const std::size_t row_bytes = hogels.ns * rays_ * values * sizeof(float);
+        const std::size_t max_rows = std::max<std::size_t>(1, max_ray_bytes / row_bytes);
+        const std::size_t bands = (hogels.nt + max_rows - 1) / max_rows, rows = (hogels.nt + bands - 1) / bands;
+        for (std::size_t t = 0; t < hogels.nt; t += rows)
+            use(HogelRange{hogels.s0, hogels.t0 + t, hogels.ns, std::min(rows, hogels.nt - t)});
+    }
+
+    void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles) const {
+        tiles.resize(faces().size());
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            LightFieldTile& tile = tiles[i];
+            if (tile.range.ns != hogels.ns || tile.range.nt != hogels.nt)
+                tile = LightFieldTile(faces()[i]->grid(), hogels, with_depth_);
+            tile.range = hogels;
+            faces()[i]->read(tile);
+        }
+    }
+
+    // Prepares hogels number first, first + 1, ... of the tiles, each of which holds them row by row.
+    void prepare(std::span<const LightFieldTile> tiles, std::size_t first, View<float, 2> prepared) const {
+        const Shape<2> rays{prepared.extent(0), rays_};
+        if (tiles.size() > 1) {
+            Array<float, 2> together(rays);
+            float* to = together.data();
+            for (std::size_t hogel = first; hogel < first + rays[0]; ++hogel)
+                for (const LightFieldTile& face : tiles) {
+                    const auto all = face.radiance.view()[channel_];
+                    const std::size_t directions = all.extent(2) * all.extent(3);
+                    to = std::copy_n(all.data() + hogel * directions, directions, to);
+                }
+            return synthesis_->prepare(together, {}, prepared);
+        }
+        const LightFieldTile& tile = tiles.front();
+        const View<const float, 2> depths(tile.depth.data() + first * rays_, rays);
+        synthesis_->prepare({tile.radiance.view()[channel_].data() + first * rays_, rays},
+                            tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
+    }
+
+    // Writes the parts of hogels number first, first + 1, ... of a range that lie in the region.
+    void write(View<const float, 2> prepared, const HogelRange& hogels, std::size_t first, std::size_t look,
+               const Region& region, View<Complex, 2> square, View<Complex, 2> out) const {
+        for (std::size_t i = 0; i < prepared.extent(0); ++i) {
+            const HogelPlace place{hogels.s0 + (first + i) % hogels.ns, hogels.t0 + (first + i) / hogels.ns, look};
+            const std::size_t y0 = std::max(place.t * rows_, region.y0),
+                              y1 = std::min((place.t + 1) * rows_, region.y0 + region.height),
+                              x0 = std::max(place.s * columns_, region.x0),
+                              x1 = std::min((place.s + 1) * columns_, region.x0 + region.width);
+            Complex* to = &out(y0 - region.y0, x0 - region.x0);
+            if (y1 - y0 == rows_ && x1 - x0 == columns_) {
+                synthesis_->synthesise_to(prepared[i].elements(), place, square, to, region.width);
+                continue;
+            }
+            synthesis_->synthesise(prepared[i].elements(), place, square);
+            for (std::size_t y = y0; y < y1; ++y)
+                std::copy_n(&square(y - place.t * rows_, x0 - place.s * columns_), x1 - x0,
+                            to + (y - y0) * region.width);
+        }
+    }
+
+    std::shared_ptr<const Prepared> prepare(const HogelRange& hogels) const {
+        {
+            const std::lock_guard lock(recent_mutex_);
+            for (const auto& entry : recent_)
+                if (entry->range == hogels) return entry;
+        }
+        const std::size_t values = synthesis_->prepared_size();
+        auto prepared = std::make_shared<Prepared>();
+        prepared->range = hogels;
+        prepared->values = Array<float, 2>({hogels.hogels(), values});
+        std::vector<LightFieldTile> tiles;
+        for_each_band(hogels, [&](const HogelRange& band) {
+            read_rays(band, tiles);
+            const std::size_t first = (band.t0 - hogels.t0) * band.ns;
+            prepare(tiles, 0, {prepared->values.data() + first * values, {band.hogels(), values}});
+        });
+        const std::lock_guard lock(recent_mutex_);
+        recent_.push_front(prepared);
+        if (recent_.size() > max_recent) recent_.pop_back();
+        return prepared;
+    }
+
+    // Readers take the looks of a region one after the other, each in a thread of its own.
+    static constexpr std::size_t max_recent = 64;
+
+    LightField light_field_;
+    std::size_t channel_, looks_;
+    bool with_depth_;
+    FieldGrid grid_;
+    std::size_t columns_, rows_;  // samples of a hogel
+    std::size_t rays_ = 0;        // of a hogel, of all faces
+    std::unique_ptr<HogelSynthesis> synthesis_;
+    mutable core::ObjectPool<Room> rooms_;
+    mutable std::mutex recent_mutex_;
+    mutable std::list<std::shared_ptr<const Prepared>> recent_;
+};
+
+}  // namespace
+
+std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, const HologramOptions& options) {
+    const FieldGrid grid = hologram_grid(light_field.grids(), options);
+    if (needs_depth(options.method) && !light_field.has_depth())
+        throw Error(ErrorCode::usage,
+                    "this hologram needs the depth of every ray, and the light field has none; render it with depth");
+    if (const auto* overlap = std::get_if<OverlapAdd>(&options.method))
+        return windows::make_overlap_add(light_field.faces().front(), grid, options, overlap->phases);
+    return std::make_shared<Stereogram>(light_field, grid, options, RayValues::radiance);
+}
+
+std::shared_ptr<const FieldSource> make_hologram_of_coefficients(const LightField& coefficients,
+                                                                 const HologramOptions& options) {
+    const FieldGrid grid = hologram_grid(coefficients.grids(), options);
+    if (!std::holds_alternative<Basis>(options.method))
+        throw Error(ErrorCode::usage,
+                    "a hologram of coefficients is a sum of basis fringes; expected the method basis");
+    return std::make_shared<Stereogram>(coefficients, grid, options, RayValues::coefficients);
+}
+
+}  // namespace hogel

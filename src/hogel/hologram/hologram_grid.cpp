@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/hologram.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+std::size_t samples_per_hogel(const LightFieldGrid& light_field, double pitch) {
+    return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / pitch)));
+}
+
+// Added phases give every ray one wave, so rays farther apart than a hogel's lobes would leave gaps between them.
+void require_enough_directions(const LightFieldGrid& light_field, double wavelength) {
+    const double step = wavelength / light_field.pitch;
+    if (std::max(light_field.step_u(), light_field.step_v()) <= step) return;
+    const auto enough = [&](double half) { return std::ceil(2 * half / step); };
+    throw Error(ErrorCode::usage,
+                fmt::format("a hogel of {} shows directions {:.4f} apart at {}, but the light field's are {:.4f} "
+                            "apart; added phases need {}x{} directions or more",
+                            format_length(light_field.pitch), step, format_length(wavelength),
+                            std::max(light_field.step_u(), light_field.step_v()), enough(light_field.half_u()),
+                            enough(light_field.half_v())));
+}
+
+void require_diffraction(const LightFieldGrid& light_field, double wavelength, double pitch) {
+    // The steepest frequencies on the axes; the corners of the field of view are cut by the light field's own square.
+    const double edge = std::max(std::abs(light_field.center_u()) + light_field.half_u(),
+                                 std::abs(light_field.center_v()) + light_field.half_v());
+    // The outermost cells of a frequency grid are those of its outermost frequencies.
+    const double needed = !light_field.is_perspective() ? std::min(1.0, edge - 0.5 * light_field.step_u())
+                                                        : edge / std::sqrt(1 + edge * edge);
+    const double possible = wavelength / (2 * pitch);
+    if (needed <= possible) return;
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("a pitch of {} diffracts {} no farther than {:.2f} degrees, but the light field reaches {:.2f}; "
+                    "a pitch of {} or less would do",
+                    format_length(pitch), format_length(wavelength),
+                    std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
+                    std::asin(needed) * 180 / std::numbers::pi, format_length(wavelength / (2 * needed))));
+}
+
+void require_one_row(std::span<const LightFieldGrid> faces) {
+    for (const LightFieldGrid& face : faces) {
+        if (face.directions_v != 1)
+            throw Error(ErrorCode::usage,
+                        fmt::format("a hologram with horizontal parallax only is made of one row of directions, but "
+                                    "the light field has {}; {}x1 directions would do",
+                                    face.directions_v, face.directions_u));
+        if (face.face() == Face::top || face.face() == Face::bottom)
+            throw Error(ErrorCode::usage, fmt::format("a hologram with horizontal parallax only has no use for the {} "
+                                                      "face; front, left and right would do",
+                                                      face_name(face.face())));
+    }
+}
+
+// Rows of samples of a hogel, each a line, with `samples` along it.
+std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const Lines& lines, std::size_t samples) {
+    if (!(lines.line_pitch >= 0)) throw Error(ErrorCode::usage, "the distance of a hologram's lines must be positive");
+    require_one_row(faces);
+    if (lines.line_pitch == 0) return samples;
+    return samples_per_hogel(faces.front(), lines.line_pitch);
+}
+
+// Throws where the method cannot make a hologram of such faces.
+void require_supported(std::span<const LightFieldGrid> faces, const HologramOptions& options) {
+    const bool sides = std::holds_alternative<Fourier>(options.method) || std::holds_alternative<Lines>(options.method);
+    if (faces.size() > 1 && !sides)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a hemicube of {} faces needs the method fourier or lines; others take a light field "
+                                "of one face",
+                                faces.size()));
+    if (needs_depth(options.method))
+        require_perspective(faces.front(), ErrorCode::usage, "a hologram with phases by depth");
+}
+
+}  // namespace
+
+FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOptions& options) {
+    require_faces(faces);
+    for (const LightFieldGrid& face : faces) validate(face, ErrorCode::usage, "light field");
+    const LightFieldGrid& front = faces.front();
+    const auto& [wavelength, channel] = options.channel;
+    if (!(options.pitch > 0) || !(wavelength > 0))
+        throw Error(ErrorCode::usage, "a hologram needs a positive pitch and wavelength");
+    if (channel >= front.channels)
+        throw Error(ErrorCode::usage,
+                    fmt::format("the light field has {} channels, so there is no channel {}", front.channels, channel));
+    require_supported(faces, options);
+    const std::size_t n = samples_per_hogel(front, options.pitch);
+    const double pitch = front.pitch / static_cast<double>(n);
+    if (faces.size() == 1) require_diffraction(front, wavelength, pitch);
+    const auto* lines = std::get_if<Lines>(&options.method);
+    const std::size_t rows = lines ? lines_per_hogel(faces, *lines, n) : n;
+    if (std::holds_alternative<PhaseAdded>(options.method)) require_enough_directions(front, wavelength);
+    FieldGrid grid;
+    grid.plane = {front.hogels_s * n, front.hogels_t * rows, pitch, front.pitch / static_cast<double>(rows), 0, 0};
+    grid.wavelength = wavelength;
+    validate(grid, ErrorCode::usage, "hologram");
+    return grid;
+}
+
+}  // namespace hogel

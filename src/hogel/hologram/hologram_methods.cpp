@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram.h"
+
+namespace hogel {
+
+std::vector<Channel> mono(double wavelength) { return {{wavelength, 0}}; }
+
+std::vector<Channel> rgb(double red, double green, double blue) { return {{red, 0}, {green, 1}, {blue, 2}}; }
+
+bool needs_depth(const HologramMethod& method) {
+    return std::holds_alternative<PhaseAdded>(method) || std::holds_alternative<OverlapAdd>(method);
+}
+
+Table<HologramMethodInfo>& hologram_methods() {
+    const auto row = [](const char* name, const char* text, const HologramMethod& method) {
+        return HologramMethodInfo{name, text, method, needs_depth(method)};
+    };
+    static Table<HologramMethodInfo> methods(
+        "hologram method",
+        {
+            row("fourier", "one Fourier transform a hogel, hogels side by side", Fourier{}),
+            row("lines", "horizontal parallax only, one Fourier transform for each line of a hogel", Lines{}),
+            row("basis", "basis fringes, weighted with the coefficients of a transform of each hogel", Basis{}),
+            row("phase-added", "a wave a ray in the phase of its point, on the nearest frequency", PhaseAdded{false}),
+            row("phase-added-exact", "a wave a ray in the phase of its point, on its own frequency", PhaseAdded{true}),
+            row("olas", "overlapping windows around the hogels, added up", OverlapAdd{}),
+        });
+    return methods;
+}
+
+}  // namespace hogel

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "hogel/compress.h"
+#include "hogel/files.h"
+
+namespace hogel::io {
+
+/// What summarize() says of the sampling of a light field's front, of the faces that there are and of the sampling of
+/// the sides, of the plane of field number `index`, and of a compressed light field.
+void describe(const LightFieldGrid& grid, FileSummary& summary);
+void describe_faces(const std::vector<LightFieldGrid>& grids, FileSummary& summary);
+void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary);
+void describe(const StreamInfo& info, FileSummary& summary);
+
+}  // namespace hogel::io

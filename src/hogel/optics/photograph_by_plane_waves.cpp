@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+#include "hogel/math/fft.h"
+#include "hogel/optics/elements.h"
+#include "hogel/optics/film/interpolation.h"
+#include "hogel/optics/photograph_plan.h"
+#include "hogel/optics/spectrum.h"
+#include "hogel/optics/tilt.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
+
+namespace hogel {
+
+using namespace optics;
+
+namespace {
+
+// The pupil is taken this much wider where directions are chosen, so that its sharp edge diffracts as it should.
+constexpr double edge_room = 1.1;
+
+struct Chain {
+    const FieldSource& hologram;
+    std::size_t look;
+    const PlaneWaveCameraOptions& options;
+};
+
+bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
+
+std::array<Vec3, 4> corners(const Grid& plane) {
+    const Rectangle all(plane);
+    return {{{all.left, all.bottom, 0}, {all.right, all.bottom, 0}, {all.left, all.top, 0}, {all.right, all.top, 0}}};
+}
+
+// A square around an eye's pupil.
+Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pupil, eye.x, eye.y}); }
+
+// Samples across that hold the spectrum of a wave behind a pupil, and three to the finest wave of its intensity, which
+// is interpolated.
+std::size_t film_samples(std::size_t columns, double size, double pupil, double distance, double wavelength) {
+    const double intensity = 3 * edge_room * pupil / (wavelength * distance) * size;
+    return math::good_fft_size(
+        static_cast<std::size_t>(std::ceil(std::max(edge_room * static_cast<double>(columns), intensity))) + 16);
+}
+
+// The wave on the lens of one eye, just before its opening: the directions between the hologram and the pupil alone.
+Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const SharedEye& eye,
+                      const Progress& progress) {
+    const Grid& plane = chain.hologram.grid().plane;
+    const Vec3 lens = cameras[eye.members.front()].eye;
+    const double pupil = edge_room * eye.pupil;
+    // The window has room for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
+    // around to the other side. A plane that is tilted afterwards has as much room again.
+    double spread = std::max(1.0, chain.options.film_distance / lens.z);
+    for (std::size_t i : eye.members)
+        for (const Vec3& corner : corners(plane))
+            spread = std::max(spread, (is_tilted(cameras[i]) ? 2 : 1) * focus_ratio(cameras[i], corner.x, corner.y));
+    const Grid window = padded(plane, spread * (plane.size_x() + pupil), spread * (plane.size_y() + pupil));
+    const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, chain.hologram.grid().wavelength);
+    Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress);
+    propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + pupil),
+                      0.5 * (plane.size_y() + pupil)});
+    return waves;
+}
+
+// The wave that makes the picture, and where in it a point in focus lies: at the window's centre plus `scale` times
+// what lies between the point and `origin` along the axes.
+struct Focused {
+    Wave wave;
+    double pupil_area;
+    Vec3 origin;
+    Orientation axes;
+    double scale = 1;
+};
+
+// The point in focus on the line of sight through a point of the hologram plane.
+Vec3 in_focus(const Camera& camera, double x, double y) {
+    return camera.eye + focus_ratio(camera, x, y) * (Vec3{x, y, 0} - camera.eye);
+}
+
+// The axes of the plane in focus, z = −focus_depth − slope_x x − slope_y y.
+Orientation stand(const Camera& camera) {
+    const Vec3 x = normalize(Vec3{1, 0, -camera.focus_slope_x}), up{0, 1, -camera.focus_slope_y};
+    return {x, normalize(up - dot(up, x) * x)};
+}
+
+// The wave on the plane in focus, from that on a parallel plane which it crosses in the middle.
+Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& hologram, Vec3 origin,
+                     const Orientation& axes, const ScratchOptions& scratch) {
+    // The size of the picture on it, and the directions from there to the pupil.
+    double half_x = 0, half_y = 0, nearest = camera.eye.z - origin.z;
+    Band band{1e30, -1e30, 1e30, -1e30};
+    const double pupil = edge_room * camera.pupil;
+    for (const Vec3& corner : corners(hologram)) {
+        const Vec3 p = in_focus(camera, corner.x, corner.y);
+        nearest = std::min(nearest, camera.eye.z - p.z);
+        half_x = std::max(half_x, std::abs(dot(p - origin, axes.x)));
+        half_y = std::max(half_y, std::abs(dot(p - origin, axes.y)));
+        for (const Vec3& edge : corners({1, 1, pupil, pupil, camera.eye.x, camera.eye.y})) {
+            const Vec3 direction = normalize(Vec3{edge.x, edge.y, camera.eye.z} - p) / waves.wavelength;
+            const double fx = dot(direction, axes.x), fy = dot(direction, axes.y);
+            band = {std::min(band.low_x, fx), std::max(band.high_x, fx), std::min(band.low_y, fy),
+                    std::max(band.high_y, fy)};
+        }
+    }
+    // Light that is out of focus there spreads over more.
+    const double size_x = 4 * half_x + pupil, size_y = 4 * half_y + pupil;
+    const auto samples = [&](double size, double low, double high) {
+        return film_samples(static_cast<std::size_t>(std::ceil(size * (high - low))), size, camera.pupil, nearest,
+                            waves.wavelength);
+    };
+    const std::size_t width = samples(size_x, band.low_x, band.high_x);
+    const std::size_t height = samples(size_y, band.low_y, band.high_y);
+    const Grid window{width, height, size_x / static_cast<double>(width), size_y / static_cast<double>(height), 0, 0};
+    return wave_of(tilt(waves, axes, window, band, scratch), width, height, scratch);
+}
+
+// The wave on the film. A perfect lens shows the wave of the plane in focus as if nothing lay before it: the wave in
+// the opening is propagated back to that plane through empty space. A thin lens bends the light towards a film behind
+// it, with its aberrations.
+Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
+                      const PlaneWaveCameraOptions& options) {
+    const double wavelength = at_lens.wavelength, R = camera.eye.z;
+    const double m = focus_ratio(camera, hologram.center_x, hologram.center_y), b = options.film_distance;
+    const double focal_length = b > 0 ? 1 / (1 / (m * R) + 1 / b) : 0;
+    const Grid& window = at_lens.window;
+    const auto samples = [&](std::size_t columns, double size) {
+        if (b == 0) return film_samples(columns, size, camera.pupil, R, wavelength);
+        // Columns for the frequencies that the lens adds to those of the wave.
+        const auto bent = static_cast<std::size_t>(size * edge_room * camera.pupil / (wavelength * focal_length));
+        return film_samples(columns + bent, size, camera.pupil, b, wavelength);
+    };
+    const std::size_t width = samples(at_lens.width(), window.size_x());
+    const std::size_t height = samples(at_lens.height(), window.size_y());
+    double area = 0;
+    Spectrum behind = [&] {
+        Wave lens = wave_of(at_lens, width, height, options.scratch);
+        area = circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil);
+        if (b > 0) thin_lens(lens, camera.eye.x, camera.eye.y, edge_room * camera.pupil, focal_length);
+        const Grid& plane = lens.grid().plane;
+        const Band whole{lens.carrier_x - 0.5 / plane.pitch_x, lens.carrier_x + 0.5 / plane.pitch_x,
+                         lens.carrier_y - 0.5 / plane.pitch_y, lens.carrier_y + 0.5 / plane.pitch_y};
+        return spectrum_of(lens, plane, whole, options.scratch);
+    }();
+    // How far, and how much larger than the hologram the picture there is.
+    const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
+    const double pupil = edge_room * camera.pupil * (b > 0 ? 1 / larger : 1);
+    propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
+                       distance / R * (camera.eye.y - hologram.center_y), 0.5 * larger * (hologram.size_x() + pupil),
+                       0.5 * larger * (hologram.size_y() + pupil)});
+    const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
+    if (is_tilted(camera)) {
+        const Orientation axes = stand(camera);
+        return {on_tilted_plane(behind, camera, hologram, origin, axes, options.scratch), area, origin, axes};
+    }
+    return {wave_of(behind, width, height, options.scratch), area, origin, {}, b > 0 ? -b / (m * R) : 1};
+}
+
+// Adds the picture, as radiance: see docs/notation.md, section 4.
+void expose(const Focused& focused, const Camera& camera, const Rectangle& shown, double weight, Image& image) {
+    const Grid& picture = camera.picture;
+    const Grid& plane = focused.wave.grid().plane;
+    const double R = camera.eye.z, m = focus_ratio(camera, picture.center_x, picture.center_y);
+    const double larger = m * std::abs(focused.scale);
+    const auto points = [&](double pixel, double sample) {
+        return static_cast<std::size_t>(std::max(2.0, std::ceil(pixel * larger / sample)));
+    };
+    const std::size_t sub_x = points(picture.pitch_x, plane.pitch_x), sub_y = points(picture.pitch_y, plane.pitch_y);
+    const View<const std::complex<float>, 2> samples = focused.wave.samples.view();
+    const auto intensity = [&](std::size_t row, std::size_t column) { return std::norm(samples(row, column)); };
+    core::parallel_for(picture.height, [&](std::size_t row) {
+        for (std::size_t column = 0; column < picture.width; ++column) {
+            double sum = 0;
+            for (std::size_t b = 0; b < sub_y; ++b)
+                for (std::size_t a = 0; a < sub_x; ++a) {
+                    const double x = picture.x(static_cast<double>(column) +
+                                               (static_cast<double>(a) + 0.5) / static_cast<double>(sub_x) - 0.5);
+                    const double y = picture.y(static_cast<double>(row) +
+                                               (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
+                    if (!shown.holds(x, y)) continue;
+                    const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
+                    // Between dark samples the cubic may fall below zero.
+                    const double value = std::max(
+                        0.0f, film::cubic_at(samples.extent(0), samples.extent(1),
+                                             plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                             plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
+                    const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
+                    sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
+                }
+            image.pixels(row, column, 0) += static_cast<float>(weight * sum / static_cast<double>(sub_x * sub_y));
+        }
+    });
+}
+
+// e^{2πi cycles}.
+std::complex<float> phasor(double cycles) {
+    return std::polar(1.0f, static_cast<float>(2 * std::numbers::pi * (cycles - std::floor(cycles))));
+}
+
+// The wave at the points in focus behind the pixels' centres, see waves_in_focus().
+Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera, const Rectangle& shown) {
+    const Grid& picture = camera.picture;
+    const Wave& wave = focused.wave;
+    const Grid& plane = wave.grid().plane;
+    const View<const std::complex<float>, 2> samples = wave.samples.view();
+    // Without its carrier the wave varies slowly enough to be interpolated.
+    std::vector<std::complex<float>> across(plane.width), up(plane.height);
+    for (std::size_t i = 0; i < plane.width; ++i)
+        across[i] = phasor(-wave.carrier_x * (plane.x(static_cast<double>(i)) - plane.center_x));
+    for (std::size_t j = 0; j < plane.height; ++j)
+        up[j] = phasor(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
+    Array<std::complex<float>, 2> result({picture.height, picture.width});
+    core::parallel_for(picture.height, [&](std::size_t row) {
+        for (std::size_t column = 0; column < picture.width; ++column) {
+            const double x = picture.x(static_cast<double>(column)), y = picture.y(static_cast<double>(row));
+            if (!shown.holds(x, y)) continue;
+            const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
+            const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
+            const std::complex<float> slow =
+                film::cubic_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
+                               plane.column(plane.center_x + right),
+                               [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
+            const double cycles =
+                wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
+            result(row, column) = slow * phasor(cycles);
+        }
+    });
+    return result;
+}
+
+void require_photographable(const FieldSource& hologram, std::span<const Camera> cameras, double film) {
+    if (!std::isfinite(film) || film < 0)
+        throw Error(ErrorCode::usage, fmt::format("a film {} m behind its lens: it must be positive and finite", film));
+    for (const Camera& camera : cameras) {
+        require_light_towards(hologram.grid(), camera);
+        if (film > 0 && film < camera.pupil)
+            throw Error(ErrorCode::usage,
+                        fmt::format("a film {} behind a thin lens of {}: nearer than the lens is wide",
+                                    format_length(film), format_length(camera.pupil)));
+        if (film > 0 && is_tilted(camera))
+            throw Error(ErrorCode::usage,
+                        "behind a thin lens the film is parallel to the hologram; it cannot be tilted");
+    }
+}
+
+// Calls visit(i, wave) with the wave that makes each camera's picture.
+template <class Visit>
+void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
+    std::vector<std::size_t> all(cameras.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<SharedEye> eyes = group_by_eye(cameras, all);
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        const auto part = [&](double fraction) {
+            return (static_cast<double>(e) + fraction) / static_cast<double>(eyes.size());
+        };
+        const auto tell = [&](double fraction) { return !progress || progress(part(0.5 * fraction)); };
+        const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], tell);
+        for (std::size_t i : eyes[e].members)
+            visit(i, wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options));
+        progress.report(part(1));
+    }
+}
+
+}  // namespace
+
+std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::span<const Camera> cameras,
+                                             const PlaneWaveCameraOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
+    require_photographable(hologram, cameras, options.film_distance);
+    std::vector<Image> images;
+    for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
+    const auto looks = static_cast<double>(hologram.looks());
+    for (std::size_t look = 0; look < hologram.looks(); ++look) {
+        const auto tell = [&](double fraction) {
+            return !progress || progress((static_cast<double>(look) + fraction) / looks);
+        };
+        focus_all({hologram, look, options}, cameras, tell, [&](std::size_t i, const Focused& focused) {
+            expose(focused, cameras[i], Rectangle(hologram.grid().plane), 1 / looks, images[i]);
+        });
+    }
+    return images;
+}
+
+std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
+                                                          std::span<const Camera> cameras,
+                                                          const PlaneWaveCameraOptions& options,
+                                                          const Progress& progress) {
+    const core::StopScope scope(progress);
+    if (options.film_distance != 0)
+        throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
+    require_photographable(hologram, cameras, 0);
+    std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
+    focus_all({hologram, look, options}, cameras, progress, [&](std::size_t i, const Focused& focused) {
+        waves[i] = wave_at_pixels(focused, cameras[i], Rectangle(hologram.grid().plane));
+    });
+    return waves;
+}
+
+}  // namespace hogel

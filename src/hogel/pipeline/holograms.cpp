@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a light field to holograms of several wavelengths and photographs of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/error.h"
+#include "hogel/hologram/parallax.h"
+#include "hogel/pipeline.h"
+
+namespace hogel {
+
+void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                       std::span<const Camera> cameras) {
+    if (request.channels.empty()) throw Error(ErrorCode::usage, "a hologram needs a wavelength; there is none");
+    // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
+    const Channel& shortest = *std::ranges::min_element(request.channels, {}, &Channel::wavelength);
+    const FieldGrid hologram = hologram_grid(faces, request.options(shortest));
+    require_photographs(hologram, cameras);
+    for (const Camera& camera : cameras) require_light_towards(hologram, camera);
+}
+
+LightField open_for_holograms(const std::filesystem::path& path, HologramRequest& request, bool any_transform) {
+    auto* const basis = std::get_if<Basis>(&request.method);
+    if (basis == nullptr || !is_stream(path)) return open_light_field(path);
+    const StreamInfo info = read_stream_info(path);
+    const bool fits = info.method.coder == "fringes" && !info.tone && info.chrominance == 1 &&
+                      (any_transform || basis->transform == info.method.transform);
+    if (!fits) return open_light_field(path);
+    basis->transform = info.method.transform;
+    request.of_coefficients = true;
+    return open_coefficients(path);
+}
+
+std::string warning_about(const LightField& light_field, const HologramRequest& request) {
+    if (!std::holds_alternative<OverlapAdd>(request.method)) return {};
+    const double parallax = hologram::neighbouring_parallax(light_field.front(), request.pitch);
+    if (parallax <= hologram::max_parallax) return {};
+    const LightFieldGrid& grid = light_field.grid();
+    const auto enough = [&](std::size_t count) {
+        return std::ceil(static_cast<double>(count) * parallax / hologram::max_parallax);
+    };
+    return fmt::format(
+        "neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap well up "
+        "to {:.0f}; {}x{} directions would do",
+        parallax, hologram::max_parallax, enough(grid.directions_u), enough(grid.directions_v));
+}
+
+std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField& light_field,
+                                                               const HologramRequest& request) {
+    std::vector<std::shared_ptr<const FieldSource>> holograms;
+    for (const Channel& channel : request.channels) {
+        Channel shown = channel;
+        if (light_field.grid().channels == 1) shown.index = 0;
+        holograms.push_back(request.of_coefficients ? make_hologram_of_coefficients(light_field, request.options(shown))
+                                                    : make_hologram(light_field, request.options(shown)));
+    }
+    return holograms;
+}
+
+std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
+                                      std::span<const Camera> cameras,
+                                      const std::optional<PlaneWaveCameraOptions>& full, const Progress& progress) {
+    const std::size_t colours = holograms.size();
+    std::vector<Image> pictures(cameras.size());
+    for (std::size_t c = 0; c < colours; ++c) {
+        const Progress part = progress.part(c, colours);
+        const std::vector<Image> seen = full ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
+                                             : photograph(*holograms[c], cameras, PhotographOptions(), part);
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
+            for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
+                pictures[i].pixels.data()[pixel * colours + c] = seen[i].pixels.data()[pixel];
+        }
+    }
+    return pictures;
+}
+
+void write_holograms(const std::filesystem::path& path, std::span<const std::shared_ptr<const FieldSource>> holograms,
+                     const HologramFileOptions& options, const Progress& progress) {
+    std::vector<FieldGrid> grids;
+    for (const auto& hologram : holograms) grids.push_back(hologram->grid());
+    const auto sinks = create_hologram(path, grids, options);
+    for (std::size_t i = 0; i < sinks.size(); ++i) copy(*holograms[i], *sinks[i], 0, progress.part(i, sinks.size()));
+}
+
+Camera camera_for(double width, double height, std::size_t resolution) {
+    const double pixel = width / static_cast<double>(resolution);
+    const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(height / pixel)));
+    Camera camera;
+    camera.eye = {0, 0, defaults.eye_distance};
+    camera.pupil = defaults.pupil;
+    camera.picture = {resolution, rows, pixel, pixel, 0, 0};
+    return camera;
+}
+
+std::size_t enough_looks(const Camera& camera) {
+    const auto cells_in_pixel = [](const Camera& any) {
+        const double cell = resolution_cell(any, defaults.green);
+        return std::max(1.0, any.picture.pitch_x * any.picture.pitch_y / (cell * cell));
+    };
+    const double usual = cells_in_pixel(camera_for(defaults.size, defaults.size, defaults.resolution));
+    const double looks = static_cast<double>(defaults.looks) * usual / cells_in_pixel(camera);
+    return static_cast<std::size_t>(std::clamp(std::ceil(looks), 1.0, static_cast<double>(defaults.looks)));
+}
+
+}  // namespace hogel

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the name of a scene to a light field that is rendered where it is read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "hogel/error.h"
+#include "hogel/pipeline.h"
+#include "hogel/render/cache_spacing.h"
+#include "hogel/shading/radiance_cache.h"
+
+namespace hogel {
+namespace {
+
+// A light field up to this size, in bytes, is kept in memory rather than rendered again each time that it is read.
+constexpr double max_kept_bytes = 2e9;
+// Of a larger one rows of hogels are kept up to this, while the tiles that they hold are read.
+constexpr double max_cached_tile_bytes = 1e9;
+
+// The file that is named, or the failure to find it: what looks like a path was meant as one.
+void require_file(const std::string& name) {
+    if (std::filesystem::exists(name)) return;
+    if (name.find_first_of("./") != std::string::npos)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
+    scenes().find(name);  // throws, with the nearest name
+}
+
+}  // namespace
+
+std::vector<LightFieldGrid> LightFieldRequest::grids() const {
+    validate(grid, ErrorCode::usage, "light field");
+    return hemicube ? hogel::hemicube(grid) : std::vector{grid};
+}
+
+InputKind input_kind(const std::string& name) {
+    if (scenes().look_up(name) != nullptr) return InputKind::scene;
+    require_file(name);
+    switch (file_kind(name)) {
+        case FileKind::light_field:
+            return InputKind::light_field;
+        case FileKind::hologram:
+            return InputKind::hologram;
+        case FileKind::mesh:
+            return InputKind::scene;
+        case FileKind::picture:
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is a picture; expected a scene, a light field or a hologram", name));
+        case FileKind::unknown:
+            break;
+    }
+    throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
+}
+
+Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {
+    if (scenes().look_up(name) != nullptr) return make_scene(name, request.grid.width(), progress);
+    require_file(name);
+    Scene scene = import_scene(name);
+    if (request.fit)
+        fit_scene(scene, {.width = request.grid.width(), .height = request.grid.height(), .front = request.front});
+    if (scene.lights.empty()) add_default_lights(scene);
+    return scene;
+}
+
+std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFieldRequest& request,
+                                               const Progress& progress) {
+    auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, request.shading, progress));
+    shaded->fronts_only = request.cull_back_faces;
+    if (request.cache_spacing > 0)
+        shading::add_radiance_cache(
+            *shaded, render::cache_spacing(*shaded, finer(request.grid, request.samples), request.cache_spacing));
+    return shaded;
+}
+
+LightField render_light_field(std::shared_ptr<const ShadedScene> scene, const LightFieldRequest& request) {
+    std::vector<LightField::Source> faces;
+    for (const LightFieldGrid& grid : request.grids())
+        faces.push_back(make_renderer(request.renderer, scene, grid, request.samples));
+    return LightField(std::move(faces));
+}
+
+LightField render_light_field(const Scene& scene, const LightFieldRequest& request, const Progress& progress) {
+    return render_light_field(light_scene(scene, request, progress), request);
+}
+
+LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
+                               const Progress& progress) {
+    const double values = light_field.samples() * (with_depth ? 4.0 / 3 : 1);
+    if (times <= 1 || values * sizeof(float) > max_kept_bytes)
+        return cached_tiles(light_field, max_cached_tile_bytes, with_depth);
+    std::size_t done = 0;
+    return light_field.wrapped([&](const LightField::Source& face) {
+        auto kept = std::make_shared<LightFieldBuffer>(face->grid(), with_depth);
+        copy(*face, *kept, progress.part(done, light_field.faces().size()));
+        ++done;
+        return LightField::Source(std::move(kept));
+    });
+}
+
+void write_light_field(const std::filesystem::path& path, const LightField& light_field,
+                       const LightFieldFileOptions& options, const Progress& progress) {
+    const auto sinks = create_light_field(path, light_field.grids(), options);
+    for (std::size_t i = 0; i < sinks.size(); ++i)
+        copy(*light_field.faces()[i], *sinks[i], progress.part(i, sinks.size()));
+}
+
+}  // namespace hogel

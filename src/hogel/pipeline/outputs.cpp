@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is written besides light fields and holograms, and what is asked of outputs before work begins.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "hogel/core/output_file.h"
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+#include "hogel/pipeline.h"
+
+namespace hogel {
+namespace {
+
+// The directions of one hogel of a row, put into a picture at a column.
+void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::size_t column) {
+    const auto& radiance = row.radiance;
+    for (std::size_t c = 0; c < radiance.extent(0); ++c)
+        for (std::size_t v = 0; v < radiance.extent(3); ++v)
+            for (std::size_t u = 0; u < radiance.extent(4); ++u)
+                picture.pixels(v, column + u, c) = radiance(c, 0, hogel, v, u);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder,
+                                                        const LightField& light_field,
+                                                        const PrinterImageOptions& options, const Progress& progress) {
+    if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure: a positive number was expected");
+    const LightFieldGrid& grid = light_field.grid();
+    const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();
+    const std::size_t digits = std::to_string(pictures).size();
+    std::vector<std::filesystem::path> names;
+    for (std::size_t i = 1; i <= pictures; ++i)
+        names.push_back(folder / fmt::format("{}_{:0{}}.png", options.rows ? "row" : "hogel", i, digits));
+    // The hogel that is printed as the i-th of its row.
+    const auto hogel_at = [&](std::size_t i, std::size_t row) {
+        return options.serpentine && row % 2 == 1 ? grid.hogels_s - 1 - i : i;
+    };
+    for (std::size_t t = 0; t < grid.hogels_t; ++t) {
+        progress.report(static_cast<double>(t) / static_cast<double>(grid.hogels_t));
+        LightFieldTile row(grid, {0, t, grid.hogels_s, 1}, false);
+        light_field.front().read(row);
+        if (options.rows) {
+            Image picture(grid.hogels_s * grid.directions_u, grid.directions_v, grid.channels);
+            for (std::size_t i = 0; i < grid.hogels_s; ++i) paste(row, hogel_at(i, t), picture, i * grid.directions_u);
+            write_image(names[t], picture, options.exposure, options.provenance);
+            continue;
+        }
+        core::parallel_for(grid.hogels_s, [&](std::size_t i) {
+            Image picture(grid.directions_u, grid.directions_v, grid.channels);
+            paste(row, hogel_at(i, t), picture, 0);
+            write_image(names[t * grid.hogels_s + i], picture, options.exposure);
+        });
+    }
+    return names;
+}
+
+void require_writable(const std::filesystem::path& file) {
+    const core::OutputFile output(file);  // complains about a missing folder, or a folder in the file's place
+    if (access(output.temporary().parent_path().c_str(), W_OK) != 0)
+        throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    core::write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
+std::string describe_input(const std::string& name) {
+    std::error_code none;
+    const auto size = std::filesystem::file_size(name, none);
+    if (none) return name;
+    const auto date = std::filesystem::last_write_time(name, none).time_since_epoch();
+    return fmt::format("{}, {} bytes, {} ns", name, size, std::chrono::nanoseconds(date).count());
+}
+
+std::string describe_input(const std::string& name, const Scene& scene) {
+    return fmt::format("{} showing {:08x}", name, checksum(scene));
+}
+
+}  // namespace hogel

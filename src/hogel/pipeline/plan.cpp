@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// What work will take, before it begins. Memory and disk follow from the sizes of arrays; times from rates that were
+// measured on one machine, so they are estimates.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "hogel/error.h"
+#include "hogel/optics/photograph_plan.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+// Processor seconds, measured on two cores of an AMD EPYC (Zen 5) with g++ 12, 2026-11-22 (docs/performance.md).
+// A ray by epi takes this, and as much more for every million triangles; other renderers about ten times as much.
+constexpr double seconds_a_ray = 1.9e-9, seconds_a_ray_and_million_triangles = 2.0e-9, other_renderers = 10;
+// A sample of a hologram to be synthesised, and to be brought into the narrow band of one eye.
+constexpr double seconds_a_sample = 5e-9, seconds_a_sample_and_eye = 1.8e-9;
+
+double on_all_threads(double processor_seconds) {
+    return processor_seconds / static_cast<double>(std::max<std::size_t>(thread_count(), 1));
+}
+
+// Bytes that the system can give to programs without swapping; infinity where it does not say.
+double memory_available() {
+    std::ifstream file("/proc/meminfo");
+    for (std::string word; file >> word;)
+        if (word == "MemAvailable:") {
+            double kilobytes = 0;
+            file >> kilobytes;
+            return 1024 * kilobytes;
+        }
+    return std::numeric_limits<double>::infinity();
+}
+
+double hologram_samples(std::span<const LightFieldGrid> faces, const HologramRequest& request) {
+    double samples = 0;
+    for (const Channel& channel : request.channels)
+        samples += static_cast<double>(hologram_grid(faces, request.options(channel)).plane.samples());
+    return samples;
+}
+
+// Bytes that one region of a renderer takes: its values, its depth buffer, and with several samples a ray those of the
+// finer light field, which is averaged block by block.
+double region_bytes(const LightFieldSource& face, const LightFieldRequest& request, std::size_t values) {
+    const LightFieldGrid& grid = face.grid();
+    const HogelRange region = face.preferred_tile();
+    const double tile =
+        static_cast<double>(values * grid.directions()) * static_cast<double>(region.hogels()) * sizeof(float);
+    const RendererInfo& renderer = renderers().find(request.renderer);
+    const auto buffer_bytes = [&](const LightFieldGrid& rendered, const HogelRange& hogels) {
+        return renderer.depth_buffer_bytes ? renderer.depth_buffer_bytes(rendered, hogels) : 0.0;
+    };
+    if (request.samples.count() == 1) return tile + buffer_bytes(grid, region);
+    const LightFieldGrid fine = finer(grid, request.samples);
+    const HogelRange part{0, 0, request.samples.hogel * region.ns, request.samples.hogel * region.nt};
+    return tile + buffer_bytes(fine, part) +
+           static_cast<double>(values * fine.directions()) * static_cast<double>(part.hogels()) * sizeof(float);
+}
+
+}  // namespace
+
+Plan plan_light_field(const LightField& rendered, const LightFieldRequest& request, std::size_t triangles,
+                      const LightFieldFileOptions& file) {
+    Plan plan;
+    for (const LightField::Source& face : rendered.faces()) {
+        const LightFieldGrid& grid = face->grid();
+        const std::size_t values = grid.channels + (file.with_depth ? 1 : 0);
+        const HogelRange region = face->preferred_tile();
+        const std::size_t regions =
+            ((grid.hogels_s + region.ns - 1) / region.ns) * ((grid.hogels_t + region.nt - 1) / region.nt);
+        const auto at_once = static_cast<double>(std::min(thread_count(), regions));
+        plan.memory = std::max(plan.memory, at_once * region_bytes(*face, request, values));
+        const double rays = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
+        const std::size_t sample = file.type == SampleType::half ? 2 : 4;
+        plan.disk += rays * static_cast<double>(grid.channels * sample + (file.with_depth ? sizeof(float) : 0));
+        const double each = seconds_a_ray + seconds_a_ray_and_million_triangles * 1e-6 * static_cast<double>(triangles);
+        plan.seconds += on_all_threads(rays * static_cast<double>(request.samples.count()) * each *
+                                       (request.renderer == defaults.renderer ? 1 : other_renderers));
+    }
+    return plan;
+}
+
+Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                    const HologramFileOptions& file) {
+    const double samples = hologram_samples(faces, request);
+    Plan plan;
+    plan.disk = samples * (file.type == SampleType::half ? 4 : 8);
+    plan.seconds = on_all_threads(samples * seconds_a_sample);
+    // Tiles in work, of complex samples, with the rays that they are made of.
+    const std::size_t hogel = hologram_grid(faces, request.options(request.channels.front())).plane.samples() /
+                              std::max<std::size_t>(faces.front().hogels(), 1);
+    plan.memory = static_cast<double>(4 * thread_count()) *
+                  (static_cast<double>(std::size_t{1} << 24) + 16 * static_cast<double>(hogel));
+    return plan;
+}
+
+Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                      std::span<const Camera> cameras, const PhotographOptions& options) {
+    Plan plan = plan_holograms(faces, request);
+    plan.disk = 0;
+    std::set<std::tuple<double, double, double>> eyes;
+    for (const Camera& camera : cameras) eyes.insert({camera.eye.x, camera.eye.y, camera.eye.z});
+    const double samples = hologram_samples(faces, request) * static_cast<double>(request.looks);
+    plan.seconds =
+        on_all_threads(samples * (seconds_a_sample + static_cast<double>(eyes.size()) * seconds_a_sample_and_eye));
+    double camera_bytes = 0;
+    for (const Channel& channel : request.channels) {
+        const FieldGrid grid = hologram_grid(faces, request.options(channel));
+        camera_bytes =
+            std::max(camera_bytes, optics::plan_photographs(grid, cameras, static_cast<double>(options.memory)).bytes);
+    }
+    plan.memory += camera_bytes;
+    return plan;
+}
+
+void require_resources(const Plan& plan, const std::string& what, const std::filesystem::path& file) {
+    if (const double available = memory_available(); plan.memory > available)
+        throw Error(ErrorCode::usage, fmt::format("{} takes {} of memory; expected at most the {} that are free", what,
+                                                  format_bytes(plan.memory), format_bytes(available)));
+    if (file.empty()) return;
+    std::error_code none;
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    const auto space = std::filesystem::space(folder, none);
+    if (!none && plan.disk > static_cast<double>(space.available))
+        throw Error(ErrorCode::cannot_write,
+                    fmt::format("{}: takes {} of disk, and {} are free", file.string(), format_bytes(plan.disk),
+                                format_bytes(static_cast<double>(space.available))));
+}
+
+}  // namespace hogel
