@@ -8,7 +8,7 @@
 #include "hogel/render/cache_spacing.h"
 #include "hogel/renderer.h"
 #include "hogel/scenes.h"
-#include "hogel/shading/light_cache.h"
+#include "hogel/shading/radiance_cache.h"
 
 namespace hogel::bench {
 
@@ -40,11 +40,11 @@ Scene load_scene(const std::string& name, const LightFieldOptions& options) {
 
 std::shared_ptr<const ShadedScene> shade(const Session& session, const Scene& scene, const LightFieldOptions& options) {
     ShadingOptions shading;
-    shading.model = shading_model(options.shading);
+    shading.model = options.shading;
     auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, shading, until_interrupted()));
     if (options.cache_spacing > 0)
-        shading::cache_light(*shaded, render::cache_spacing(*shaded, options.grid(), options.cache_spacing));
-    if (const auto& cache = shaded->light_cache)
+        shading::add_radiance_cache(*shaded, render::cache_spacing(*shaded, options.grid(), options.cache_spacing));
+    if (const auto& cache = shaded->radiance_cache)
         session.detail(fmt::format("light on surfaces: at most {}; no room for that of {} of {} triangles",
                                    format_bytes(cache->bytes()), cache->triangles_without_room(),
                                    shaded->triangles.size()));

@@ -11,7 +11,7 @@
 namespace hogel::showpieces {
 namespace {
 
-// Balls are about twice as large as on a real table, or they would be a few hogels wide.
+// Balls are about twice as large as on a real table, where they would be only a few hogels wide.
 constexpr double pi = std::numbers::pi;
 constexpr double ball_radius = 0.062;
 
@@ -20,8 +20,8 @@ struct PlacedBall {
     Vec3 axis;
 };
 
-/// Solids and the eight have a white spot at both poles; stripes are white at both poles and coloured between. Number 0
-/// is the cue ball.
+/// Solids (and the eight) have a white spot at both poles; stripes are white towards both poles and coloured between.
+/// Number 0 is the cue ball.
 void add_pool_ball(scene::MeshBuilder& builder, int number, const PlacedBall& placed) {
     constexpr Rgb white{0.82f, 0.78f, 0.68f};
     constexpr std::array<Rgb, 8> colors{{{0.02f, 0.02f, 0.02f},
@@ -47,7 +47,7 @@ void add_pool_ball(scene::MeshBuilder& builder, int number, const PlacedBall& pl
     scene::add_ball(builder, {placed.x, ball_radius, placed.z}, ball_radius, normalize(placed.axis), 28, rings);
 }
 
-/// A game in progress: the pack has just been opened.
+/// The balls of a game just after the break.
 Mesh balls() {
     constexpr std::array<PlacedBall, 16> places{{{-0.62, 0.24, {0, 1, 0}},
                                                  {0.43, 0.02, {0.3, 0.8, 0.5}},
@@ -72,7 +72,7 @@ Mesh balls() {
     return std::move(builder.mesh);
 }
 
-/// The cue, about to play, and the chalk.
+/// The cue, aimed at the cue ball, and the chalk.
 Mesh cue() {
     const Vec3 tip{-0.73, 0.085, 0.29}, butt{-1.52, 0.40, 0.74};
     constexpr std::size_t steps = 48;
@@ -99,7 +99,7 @@ Mesh cue() {
 constexpr std::array<double, 3> lamp_places{-0.74, 0, 0.74};
 constexpr double lamp_height = 0.86;
 
-/// Three shades on a brass bar: green outside, white inside.
+/// Three lamps on a brass bar, with shades that are green outside and white inside.
 void add_lamps(Scene& scene) {
     scene::MeshBuilder outside, inside, brass, bulbs;
     constexpr Rgb gold{0.62f, 0.42f, 0.13f};
@@ -187,7 +187,7 @@ Scene make_billiards(double hologram_size) {
     scene.lights.push_back(window);
     scene.ambient = {0.07f, 0.07f, 0.08f};
     scene.background = {0.006f, 0.005f, 0.006f};
-    scene::turn(scene, -0.42, 0.42);
+    scene::rotate(scene, -0.42, 0.42);
     fit_scene(scene, {hologram_size, hologram_size, 0.94, 0.5});
     return scene;
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double rail_width = 0.15, corner = 0.11;
 
-/// Rosewood along a direction: dark lines in a warm ground.
+/// Wood with its grain along a direction: dark lines in a light ground.
 Rgb wood(double along, double across, Rgb light, Rgb dark) {
     const double ring = std::sin(46 * across + 3 * std::sin(2.3 * along) + 1.5 * std::sin(11 * across + along));
     return scene::mix(light, dark, 0.5 + 0.32 * ring + 0.18 * std::sin(150 * across + 9 * along));
@@ -23,7 +23,7 @@ Rgb rosewood(Vec3 p) {
                    : wood(p.z, p.x + p.y, {0.33f, 0.125f, 0.05f}, {0.17f, 0.05f, 0.02f});
 }
 
-/// The way around a rectangle with round corners, grown by `grow`: counter-clockwise seen from above.
+/// A path around a rectangle with round corners, grown by `grow`, counterclockwise seen from above.
 struct Around {
     double half_x, half_z, radius;
     std::size_t on_corner, on_long, on_short;
@@ -33,11 +33,11 @@ struct Around {
         for (int side = 0;; ++side) {
             const bool is_long = side % 2 == 0;
             const std::size_t steps = is_long ? on_long : on_short;
-            const double turn = 0.5 * pi * side, ahead = (is_long ? half_x : half_z) - radius;
+            const double angle_of_side = 0.5 * pi * side, ahead = (is_long ? half_x : half_z) - radius;
             const double out = (is_long ? half_z : half_x) + grow;
             const auto at = [&](double along, double away) {
-                return std::pair{along * std::cos(turn) + away * std::sin(turn),
-                                 away * std::cos(turn) - along * std::sin(turn)};
+                return std::pair{along * std::cos(angle_of_side) + away * std::sin(angle_of_side),
+                                 away * std::cos(angle_of_side) - along * std::sin(angle_of_side)};
             };
             if (i < steps) return at(ahead * (2 * static_cast<double>(i) / static_cast<double>(steps) - 1), out);
             i -= steps;
@@ -51,7 +51,7 @@ struct Around {
     }
 };
 
-/// A moulding around the table: its profile as steps outwards from the rectangle, and heights.
+/// A moulding around the table. Its profile is a list of distances outwards from the rectangle, and heights.
 template <std::size_t n>
 void add_moulding(scene::MeshBuilder& builder, const Around& around,
                   const std::array<std::pair<double, double>, n>& profile, Rgb (*color)(Vec3)) {
@@ -64,7 +64,7 @@ void add_moulding(scene::MeshBuilder& builder, const Around& around,
         color);
 }
 
-/// The places of the pockets, the middle ones a little outside.
+/// The centres (x, z) of the pockets; the middle ones lie a little outside.
 constexpr std::array<std::pair<double, double>, 6> pockets{{{-half_length, -half_width},
                                                             {0, -half_width - 0.02},
                                                             {half_length, -half_width},
@@ -99,7 +99,7 @@ Mesh frame() {
 
 Mesh cloth() {
     constexpr std::size_t columns = 90, rows = 48;
-    constexpr double over = 0.3 * rail_width;  // reaches under the rails
+    constexpr double over = 0.3 * rail_width;  // the part under the rails
     scene::MeshBuilder builder;
     builder.patch(
         columns, rows, false,
@@ -136,7 +136,7 @@ Mesh cushions() {
     constexpr double mouth = 0.1, side_mouth = 0.085;
     for (double side : {-1.0, 1.0}) {
         for (double part : {-1.0, 1.0}) {
-            const double near_end = side * part;  // seen along `right`, the middle pocket lies at one end
+            const double near_end = side * part;  // which end, along `right`, is at the middle pocket
             const Vec3 right{side, 0, 0}, out{0, 0, side};
             const double length = 0.5 * (half_length - mouth - side_mouth);
             const Vec3 middle{part * (side_mouth + length), 0, side * half_width};

@@ -36,7 +36,7 @@ double clearance(Parameter p, Holes holes) {
     return inside ? -nearest : nearest;
 }
 
-/// The grid while it is being cut: `side` is the clearance of each point, exactly 0 on an outline.
+/// The grid while holes are cut. The side of a point is its clearance, exactly 0 on an outline.
 class Carver {
   public:
     Carver(std::span<const double> columns, std::span<const double> rows, Holes holes) : holes_(holes) {
@@ -49,7 +49,7 @@ class Carver {
         for (Index i = 0; i < n; ++i) {
             whole_.push_back({0, at(1, i + 1), at(1, i)});
             for (std::size_t k = 1; k + 2 < rows.size(); ++k) {
-                // Diagonals mirror about the middle column, so that a symmetric face is cut symmetrically.
+                // Diagonals are mirrored at the middle column, so that a symmetric pattern is cut symmetrically.
                 const Index p = at(k, i), q = at(k, i + 1), r = at(k + 1, i + 1), s = at(k + 1, i);
                 if (2 * i < n) {
                     whole_.push_back({p, q, r});
@@ -83,7 +83,7 @@ class Carver {
         side_[i] = 0;
     }
 
-    /// The nearest grid point moves into each sharp corner of an outline.
+    /// Moves the nearest grid point into each sharp corner of an outline.
     void snap_to_corners() {
         for (const auto& hole : holes_)
             for (std::size_t i = 0; i < hole.size(); ++i) {
@@ -100,7 +100,7 @@ class Carver {
             }
     }
 
-    /// Points close to an outline move onto it: no slivers beside the cut.
+    /// Moves points close to an outline onto it, so that no slivers arise.
     void snap_to_outlines() {
         constexpr double close = 0.3;
         for (const auto& triangle : whole_)
@@ -115,7 +115,7 @@ class Carver {
             }
     }
 
-    /// Where the outline crosses the edge from i to j, by bisection: 0 at i, 1 at j.
+    /// The crossing of an outline with the edge from i to j, by bisection: 0 at i, 1 at j.
     double crossing(Index i, Index j) const {
         double low = 0, high = 1;
         for (int step = 0; step < 40; ++step) {
@@ -151,7 +151,7 @@ class Carver {
         for (std::size_t k = 2; k < kept.size(); ++k) grid_.triangles.push_back({kept[0], kept[k - 1], kept[k]});
     }
 
-    /// The surface is closed but for the holes: an edge without a twin is a rim.
+    /// The surface is closed except for the holes, so an edge of one triangle alone belongs to a rim.
     void find_rims() {
         std::map<Edge, int> edges;
         for (const auto& t : grid_.triangles)

@@ -19,7 +19,7 @@ constexpr Rgb gold{0.72f, 0.47f, 0.15f}, old_gold{0.46f, 0.27f, 0.08f}, wax{0.86
 /// One of the two tiers of arms.
 struct Tier {
     std::size_t arms;
-    double first_angle, root, reach, candle;  // heights of the arms' roots and of the candles' feet
+    double first_angle, root, reach, candle;  // root and candle: heights of the arms' roots and the candles' feet
 };
 constexpr std::array<Tier, 2> tiers{{{10, 0.0, -0.30, 0.86, -0.10}, {6, 0.3, 0.16, 0.52, 0.36}}};
 
@@ -31,7 +31,7 @@ Vec3 cup(const Tier& tier, std::size_t arm) {
     return tier.reach * outwards(angle_of(tier, arm)) + Vec3{0, tier.candle, 0};
 }
 
-/// An arm leaves the stem, dips and rises to its cup in the curve of a swan's neck.
+/// A point of an arm, which leaves the stem (w = 0), dips and rises to its cup (w = 1) in an S-curve.
 Vec3 arm_point(const Tier& tier, std::size_t arm, double w) {
     const double out = 0.05 + (tier.reach - 0.05) * (w - 0.09 * std::sin(2 * pi * w));
     const double height = tier.root + (tier.candle - tier.root - 0.02) * w * w * (3 - 2 * w) -
@@ -74,8 +74,8 @@ void add_chain(scene::MeshBuilder& brass) {
     constexpr int links = 7;
     constexpr double step = (hook - 0.06 - 0.70) / links;
     for (int i = 0; i < links; ++i) {
-        const double turn = i % 2 == 0 ? 0.3 : 0.3 + 0.5 * pi;
-        scene::add_torus(brass, {0, 0.70 + (i + 0.5) * step, 0}, outwards(turn), 0.5 * step, 0.010, 24, 8, gold);
+        const double angle = i % 2 == 0 ? 0.3 : 0.3 + 0.5 * pi;
+        scene::add_torus(brass, {0, 0.70 + (i + 0.5) * step, 0}, outwards(angle), 0.5 * step, 0.010, 24, 8, gold);
     }
     constexpr std::array<std::pair<double, double>, 6> rose{
         {{0.0, -0.05}, {0.03, -0.05}, {0.06, -0.02}, {0.17, 0.0}, {0.18, 0.02}, {0.0, 0.025}}};
@@ -122,10 +122,10 @@ void add_candle(scene::MeshBuilder& brass, scene::MeshBuilder& candles, scene::M
         });
 }
 
-/// A drop cut like a jewel: a small table on top, a girdle, a long point below. Its facets keep their edges.
+/// A faceted drop: a small table on top, a girdle, a long point below.
 void add_drop(scene::MeshBuilder& crystal, Vec3 top, double size, std::uint32_t number) {
     constexpr std::size_t sides = 8;
-    const double turn = scene::hashed(number, 3, 5);
+    const double rotation = scene::hashed(number, 3, 5);
     const float bright = static_cast<float>(0.75 + 0.35 * scene::hashed(number, 7, 1));
     const Rgb tint = scene::hashed(number, 1, 9) < 0.12   ? Rgb{0.62f, 0.72f, 0.95f}
                      : scene::hashed(number, 2, 9) < 0.12 ? Rgb{0.95f, 0.78f, 0.66f}
@@ -135,7 +135,7 @@ void add_drop(scene::MeshBuilder& crystal, Vec3 top, double size, std::uint32_t 
         [&](std::size_t i, std::size_t k) {
             constexpr std::array<std::pair<double, double>, 5> profile{
                 {{0.0, -2.2}, {0.40, -0.95}, {0.46, -0.7}, {0.14, -0.06}, {0.0, 0.0}}};
-            const double angle = 2 * pi * (static_cast<double>(i % sides) / sides + turn);
+            const double angle = 2 * pi * (static_cast<double>(i % sides) / sides + rotation);
             return top + size * Vec3{profile[k].first * std::sin(angle), profile[k].second,
                                      profile[k].first * std::cos(angle)};
         },
@@ -152,7 +152,7 @@ void add_beads(scene::MeshBuilder& crystal, Vec3 from, Vec3 to, double sag, std:
     }
 }
 
-/// Crystal: a drop below each cup and a ring of them around it, strings between neighbours and up to the crown.
+/// A drop below each cup and a ring of drops around it, strings of beads between neighbours and up to the crown.
 void add_crystal(scene::MeshBuilder& crystal) {
     std::uint32_t number = 0;
     for (const Tier& tier : tiers) {
@@ -184,45 +184,24 @@ void add_crystal(scene::MeshBuilder& crystal) {
     scene::add_ball(crystal, {0, -0.735, 0}, 0.06, 14, 9, {0.84f, 0.87f, 0.92f});
 }
 
-}  // namespace
-
-Scene make_chandelier(double hologram_size) {
-    scene::MeshBuilder brass, candles, flames, crystal;
-    add_stem(brass);
-    add_chain(brass);
-    for (const Tier& tier : tiers) {
-        scene::add_torus(brass, {0, tier.root + 0.035, 0}, {0, 1, 0}, 0.15, 0.014, 60, 10, gold);
-        for (std::size_t arm = 0; arm < tier.arms; ++arm) {
-            constexpr std::size_t steps = 44;
-            scene::add_tube(
-                brass, 13, steps, [&](std::size_t k) { return arm_point(tier, arm, static_cast<double>(k) / steps); },
-                [](std::size_t k) {
-                    const double w = static_cast<double>(k) / steps;
-                    return 0.015 + 0.010 * std::exp(-scene::square(w / 0.1)) +
-                           0.009 * std::exp(-scene::square((w - 0.45) / 0.03));
-                },
-                [](Vec3) { return gold; });
-            add_candle(brass, candles, flames, cup(tier, arm));
-        }
+void add_arms(const Tier& tier, scene::MeshBuilder& brass, scene::MeshBuilder& candles, scene::MeshBuilder& flames) {
+    constexpr std::size_t steps = 44;
+    scene::add_torus(brass, {0, tier.root + 0.035, 0}, {0, 1, 0}, 0.15, 0.014, 60, 10, gold);
+    for (std::size_t arm = 0; arm < tier.arms; ++arm) {
+        scene::add_tube(
+            brass, 13, steps, [&](std::size_t k) { return arm_point(tier, arm, static_cast<double>(k) / steps); },
+            [](std::size_t k) {
+                const double w = static_cast<double>(k) / steps;
+                return 0.015 + 0.010 * std::exp(-scene::square(w / 0.1)) +
+                       0.009 * std::exp(-scene::square((w - 0.45) / 0.03));
+            },
+            [](Vec3) { return gold; });
+        add_candle(brass, candles, flames, cup(tier, arm));
     }
-    add_crystal(crystal);
+}
 
-    Scene scene;
-    brass.mesh.name = "brass", candles.mesh.name = "candles", flames.mesh.name = "flames";
-    crystal.mesh.name = "crystal";
-    candles.mesh.material.emission = {0.16f, 0.10f, 0.045f};
-    flames.mesh.material.emission = {3.2f, 2.1f, 0.85f};
-    scene.meshes = {std::move(brass.mesh), std::move(candles.mesh), std::move(flames.mesh), std::move(crystal.mesh)};
-    for (Mesh& mesh : scene.meshes) {
-        scene::drop_slivers(mesh);
-        mesh.material.base_color = {1, 1, 1};
-    }
-    scene::polish(scene, "brass", 0.04f, 0.6f, 0.4f);
-    scene::polish(scene, "candles", 0.03f, 0, 0.5f);
-    scene::polish(scene, "crystal", 0.1f, 0, 0.2f);
-    add_missing_normals(scene, 0.62);
-
-    // The candles' light comes from four places between them, for every flame would be a light.
+void add_lights(Scene& scene) {
+    // The light of the candles comes from four lamps between them, instead of one for each flame.
     for (int i = 0; i < 3; ++i) {
         Light glow;
         glow.kind = Light::Kind::point;
@@ -239,7 +218,33 @@ Scene make_chandelier(double hologram_size) {
     scene.lights.insert(scene.lights.end(), {crown, room});
     scene.ambient = {0.12f, 0.11f, 0.11f};
     scene.background = {0.010f, 0.006f, 0.007f};
-    scene::turn(scene, 0.12, 0.10);
+}
+
+}  // namespace
+
+Scene make_chandelier(double hologram_size) {
+    scene::MeshBuilder brass, candles, flames, crystal;
+    add_stem(brass);
+    add_chain(brass);
+    for (const Tier& tier : tiers) add_arms(tier, brass, candles, flames);
+    add_crystal(crystal);
+
+    Scene scene;
+    brass.mesh.name = "brass", candles.mesh.name = "candles", flames.mesh.name = "flames";
+    crystal.mesh.name = "crystal";
+    candles.mesh.material.emission = {0.16f, 0.10f, 0.045f};
+    flames.mesh.material.emission = {3.2f, 2.1f, 0.85f};
+    scene.meshes = {std::move(brass.mesh), std::move(candles.mesh), std::move(flames.mesh), std::move(crystal.mesh)};
+    for (Mesh& mesh : scene.meshes) {
+        scene::drop_slivers(mesh);
+        mesh.material.base_color = {1, 1, 1};
+    }
+    scene::polish(scene, "brass", 0.04f, 0.6f, 0.4f);
+    scene::polish(scene, "candles", 0.03f, 0, 0.5f);
+    scene::polish(scene, "crystal", 0.1f, 0, 0.2f);
+    add_missing_normals(scene, 0.62);
+    add_lights(scene);
+    scene::rotate(scene, 0.12, 0.10);
     fit_scene(scene, {hologram_size, hologram_size, 0.94, 0.5});
     return scene;
 }

@@ -11,13 +11,13 @@ namespace hogel::showpieces {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double below_floor = -0.06;  // walls begin here, so that nothing lies in the plane of the floor
+constexpr double below_floor = -0.06;  // walls begin here, so that no surface lies in the plane of the floor
 constexpr double wall_thickness = 0.62;
 
 constexpr Rgb stone{0.66f, 0.56f, 0.42f}, warm_stone{0.70f, 0.60f, 0.46f}, trim{0.78f, 0.71f, 0.58f},
     section{0.30f, 0.12f, 0.07f};
 
-/// The far wall of the nave, seen from the nave; a = x.
+/// The far wall of the nave, seen from the nave: a is x.
 Frame nave_wall() { return {{0, 0, -nave_half}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
 
 void nave_bay(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, std::size_t bay) {
@@ -63,7 +63,7 @@ void aisle_bay(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, std::
     masonry.slab(wall, a0, a1, below_floor, 0.4, 0.16, trim);
 }
 
-/// The shafts that rise from the floor to the vault and go on as its ribs.
+/// The shafts from the floor to the vault, and the ribs that continue them.
 void shafts_and_ribs(scene::MeshBuilder& smooth) {
     constexpr std::array<std::pair<double, double>, 16> profile{{{0.0, 0.0},
                                                                  {0.42, 0.0},
@@ -94,7 +94,7 @@ void shafts_and_ribs(scene::MeshBuilder& smooth) {
                 return Vec3{x, y, z};
             },
             [](std::size_t) { return 0.17; }, color);
-        // Of the near row only stumps are left.
+        // The near row is cut off above its bases.
         smooth.revolve(
             {x, 0, nave_half - 0.12}, 16, 8,
             [&](std::size_t k) {
@@ -112,7 +112,7 @@ void shafts_and_ribs(scene::MeshBuilder& smooth) {
         [](std::size_t) { return 0.1; }, color);
 }
 
-/// A barrel of blue plaster from the far wall to a little past its crown, with a roof over it.
+/// A barrel vault of blue plaster from the far wall to a little past its crown, with a roof over it.
 void barrel(scene::MeshBuilder& smooth, scene::MeshBuilder& stars) {
     constexpr std::size_t columns = 90, rows = 20;
     const auto along = [](std::size_t i) { return half_length * (2 * static_cast<double>(i) / columns - 1); };
@@ -156,7 +156,7 @@ void barrel(scene::MeshBuilder& smooth, scene::MeshBuilder& stars) {
     add_stars(stars);
 }
 
-/// Plaster over the aisle, sloping down to its wall, and a roof.
+/// Plaster over the aisle, which slopes down to its wall, and a roof.
 void aisle_ceiling(scene::MeshBuilder& smooth) {
     constexpr double high = 5.0;
     for (const bool below : {true, false})
@@ -173,7 +173,7 @@ void aisle_ceiling(scene::MeshBuilder& smooth) {
             });
 }
 
-/// Five sides of a decagon, of which the last near one is cut away, under a half dome.
+/// Five sides of a decagon under a half dome; the near one is cut away.
 void apse(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, scene::MeshBuilder& mosaic) {
     constexpr int sides = 4;
     for (int side = 0; side < sides; ++side) {
@@ -218,7 +218,7 @@ void apse(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, scene::Mes
         [](Vec3) { return warm_stone; });
 }
 
-/// What the cut leaves standing at the west end.
+/// The parts of the west end that the cut leaves.
 void west_end(Masonry& masonry) {
     const Frame end{{-half_length, 0, 0}, {0, 0, -1}, {0, 1, 0}, {-1, 0, 0}};
     const Frame far_end{{half_length, 0, 0}, {0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};
@@ -234,8 +234,8 @@ Light lamp(Vec3 position, Rgb intensity) {
     return light;
 }
 
-/// Thirty: twelve over the nave, six in the aisle, five altar candles, three in the apse, three in the choir, and the
-/// sun that falls through the cut.
+/// Thirty lights: twelve in the nave, six in the aisle, five altar candles, three in the apse, three in the choir, and
+/// the sun through the cut.
 std::vector<Light> lights() {
     std::vector<Light> list;
     for (std::size_t i = 0; i < pendants; ++i) list.push_back(lamp(pendant(i) - Vec3{0, 0.30, 0}, {5.4f, 4.2f, 2.6f}));
@@ -256,6 +256,14 @@ std::vector<Light> lights() {
     sun.intensity = {0.95f, 0.85f, 0.68f};
     list.push_back(sun);
     return list;
+}
+
+void add_mesh(Scene& scene, scene::MeshBuilder& builder, const char* name, Rgb emission) {
+    scene::drop_slivers(builder.mesh);
+    builder.mesh.name = name;
+    builder.mesh.material.base_color = {1, 1, 1};
+    builder.mesh.material.emission = emission;
+    scene.meshes.push_back(std::move(builder.mesh));
 }
 
 }  // namespace
@@ -281,11 +289,7 @@ Scene make_church(double hologram_size) {
 
     Scene scene;
     const auto add = [&](scene::MeshBuilder& builder, const char* name, Rgb emission) {
-        scene::drop_slivers(builder.mesh);
-        builder.mesh.name = name;
-        builder.mesh.material.base_color = {1, 1, 1};
-        builder.mesh.material.emission = emission;
-        scene.meshes.push_back(std::move(builder.mesh));
+        add_mesh(scene, builder, name, emission);
     };
     add(masonry.faceted, "masonry", {});
     add(smooth, "shafts and vaults", {});
@@ -309,7 +313,7 @@ Scene make_church(double hologram_size) {
     scene.lights = lights();
     scene.ambient = {0.045f, 0.045f, 0.055f};
     scene.background = {0.006f, 0.007f, 0.011f};
-    scene::turn(scene, 0.3, 0.13);
+    scene::rotate(scene, 0.3, 0.13);
     fit_scene(scene, {hologram_size, hologram_size, 0.96, 0.5});
     return scene;
 }

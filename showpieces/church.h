@@ -8,8 +8,8 @@
 #include "hogel/scene/shapes.h"
 #include "showpieces/masonry.h"
 
-/// The measures that the parts of the church share. Its length runs along x, the altar to the right; the nave lies
-/// between z = -nave_half and nave_half, the aisle behind it; the near half is cut away. Lengths are arbitrary.
+/// Measures and parts of the church. Its length runs along x, the altar to the right; the nave lies between
+/// z = -nave_half and nave_half, the aisle behind it; the near half is cut away. Lengths are arbitrary.
 namespace hogel::showpieces {
 
 inline constexpr std::size_t bays = 6;
@@ -20,28 +20,28 @@ inline constexpr double vault_cut = 1.75;  ///< the angle up to which the vault 
 
 inline constexpr double bay_start(std::size_t bay) { return -half_length + bay_length * static_cast<double>(bay); }
 
-/// The vault at an angle (0 at the far wall), so far above its inner surface: z and y.
+/// A point (z, y) of the vault at an angle (0 at the far wall), at a height above its inner surface.
 inline std::pair<double, double> vault(double angle, double above) {
     const double radius = nave_half + above;
     return {-radius * std::cos(angle), springing + radius * std::sin(angle)};
 }
 
 inline constexpr std::size_t pendants = 2 * bays, altar_candles = 5;
-/// Where the lamps of the nave hang, and the candles on the altar stand.
+/// Positions of the lamps in the nave, and of the feet of the candles on the altar.
 inline Vec3 pendant(std::size_t i) {
     return {bay_start(0) + 0.5 * bay_length * (static_cast<double>(i) + 0.5), 5.6, -1.55};
 }
 inline Vec3 altar_candle(std::size_t i) { return {half_length + 1.35, 1.72, -0.9 + 0.45 * static_cast<double>(i)}; }
 
-/// Panes between leads, in four colours, in an opening at a depth behind the wall.
+/// Adds panes between leads, in four colours, in an opening at a depth behind the wall.
 void add_stained_glass(std::array<scene::MeshBuilder, 4>& glass, const Frame& wall, const Opening& opening,
                        double depth, std::uint32_t number);
 void add_stars(scene::MeshBuilder& stars);
-/// The tiles, and the slab that all stands on.
+/// The tiles of the floor, and the slab under the church.
 void add_floor(scene::MeshBuilder& floor);
 void add_slab(scene::MeshBuilder& slab);
 void add_pews(scene::MeshBuilder& wood);
-/// Steps, altar, candles and cross, and the rail before them.
+/// Steps, altar, candles and cross, and the rail in front of them.
 void add_choir(Masonry& masonry, scene::MeshBuilder& wood, scene::MeshBuilder& brass, scene::MeshBuilder& flames);
 void add_pendants(scene::MeshBuilder& brass, scene::MeshBuilder& globes);
 

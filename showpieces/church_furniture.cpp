@@ -9,7 +9,53 @@ namespace hogel::showpieces {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr Rgb gold{0.70f, 0.46f, 0.14f};
+constexpr Rgb gold{0.70f, 0.46f, 0.14f}, linen{0.86f, 0.84f, 0.79f};
+
+/// A candlestick with its candle and flame.
+void add_altar_candle(scene::MeshBuilder& wood, scene::MeshBuilder& brass, scene::MeshBuilder& flames, Vec3 foot) {
+    brass.revolve(
+        {foot.x, 1.665, foot.z}, 16, 9,
+        [](std::size_t k) {
+            constexpr std::array<std::pair<double, double>, 10> profile{{{0.0, 0.0},
+                                                                         {0.085, 0.0},
+                                                                         {0.06, 0.03},
+                                                                         {0.022, 0.06},
+                                                                         {0.022, 0.14},
+                                                                         {0.045, 0.17},
+                                                                         {0.022, 0.20},
+                                                                         {0.065, 0.25},
+                                                                         {0.06, 0.265},
+                                                                         {0.0, 0.26}}};
+            return profile[k];
+        },
+        [](Vec3) { return gold; });
+    scene::add_rod(wood, {foot.x, 1.93, foot.z}, {foot.x, 2.14, foot.z}, 0.028, 10, linen);
+    scene::add_ball(flames, {foot.x, 2.19, foot.z}, 0.04, 12, 8, {0, 0, 0});
+}
+
+void add_altar_rail(scene::MeshBuilder& wood) {
+    const double x = half_length;
+    constexpr int posts = 19;
+    for (int i = 0; i < posts; ++i) {
+        const double z = -2.4 + 4.8 * i / (posts - 1);
+        if (std::abs(z) < 0.45) continue;
+        wood.revolve(
+            {x - 1.75, 0.002, z}, 12, 9,
+            [](std::size_t k) {
+                if (k == 0 || k == 9) return std::pair{0.0, k == 0 ? 0.0 : 0.72};
+                const double w = static_cast<double>(k - 1) / 7;
+                return std::pair{0.035 + 0.035 * scene::square(std::sin(2 * pi * w)), 0.72 * w};
+            },
+            [](Vec3) {
+                return Rgb{0.36f, 0.20f, 0.09f};
+            });
+    }
+    for (double side : {-1.0, 1.0})
+        scene::add_box(wood, {x - 1.84, 0.725, side > 0 ? 0.45 : -2.5}, {x - 1.66, 0.81, side > 0 ? 2.5 : -0.45}, 0.25,
+                       [](Vec3) {
+                           return Rgb{0.30f, 0.165f, 0.075f};
+                       });
+}
 
 }  // namespace
 
@@ -27,7 +73,7 @@ void add_stained_glass(std::array<scene::MeshBuilder, 4>& glass, const Frame& wa
         const double b0 = low + (high - low) * k / rows + lead, b1 = low + (high - low) * (k + 1) / rows - lead;
         const double w0 = half_width_at(b0), w1 = half_width_at(b1);
         for (std::uint32_t i = 0; i < columns; ++i) {
-            // Symmetric about the middle, like most church windows: a medallion in each storey between plain borders.
+            // Symmetric about the middle, with a medallion in each storey between plain borders.
             const std::uint32_t from_middle = i < columns / 2 ? columns / 2 - 1 - i : i - columns / 2;
             const bool border = from_middle + 1 == columns / 2;
             const double chance = scene::hashed(from_middle, k / 2 * 2 + (k % 5 == 0), number);
@@ -60,10 +106,10 @@ void add_stars(scene::MeshBuilder& stars) {
                 const auto hub = stars.vertex(middle, gold);
                 std::array<scene::MeshBuilder::Index, 10> rim{};
                 for (std::size_t tip = 0; tip < rim.size(); ++tip) {
-                    const double turn = pi / 5 * static_cast<double>(tip), r = tip % 2 == 0 ? size : 0.4 * size;
-                    rim[tip] = stars.vertex(middle + r * std::sin(turn) * right + r * std::cos(turn) * up, gold);
+                    const double around = pi / 5 * static_cast<double>(tip), r = tip % 2 == 0 ? size : 0.4 * size;
+                    rim[tip] = stars.vertex(middle + r * std::sin(around) * right + r * std::cos(around) * up, gold);
                 }
-                // Seen from below, right runs to the left of up's right.
+                // The front faces down, from where the frame (right, up) is left-handed.
                 for (std::size_t tip = 0; tip < rim.size(); ++tip)
                     stars.triangle(hub, rim[(tip + 1) % rim.size()], rim[tip]);
             }
@@ -76,7 +122,7 @@ void add_floor(scene::MeshBuilder& floor) {
     for (std::uint32_t k = 0; k < rows; ++k)
         for (std::uint32_t i = 0; i < columns; ++i) {
             const Vec3 corner{-half_length - 0.2 + tile * i, 0, near_edge - tile * k};
-            // Beyond the nave the floor is the apse's.
+            // Beyond the nave the floor has the shape of the apse.
             if (corner.x > half_length &&
                 std::hypot(corner.x + 0.5 * tile - half_length, corner.z - 0.5 * tile) > nave_half + 0.35)
                 continue;
@@ -123,57 +169,17 @@ void add_pews(scene::MeshBuilder& wood) {
 }
 
 void add_choir(Masonry& masonry, scene::MeshBuilder& wood, scene::MeshBuilder& brass, scene::MeshBuilder& flames) {
-    constexpr Rgb marble{0.70f, 0.66f, 0.60f}, linen{0.86f, 0.84f, 0.79f};
+    constexpr Rgb marble{0.70f, 0.66f, 0.60f};
     const double x = half_length;
     for (int step = 0; step < 3; ++step)
         masonry.box({x - 1.1 + 0.42 * step, 0.01 + 0.19 * step, -2.0 + 0.12 * step},
                     {x + 2.25, 0.195 + 0.19 * step, 2.0 - 0.12 * step}, marble, 0.3);
     masonry.box({x + 0.95, 0.585, -1.2}, {x + 1.7, 1.55, 1.2}, marble, 0.25);
     masonry.box({x + 0.88, 1.555, -1.3}, {x + 1.77, 1.66, 1.3}, linen, 0.2);
-    for (std::size_t i = 0; i < altar_candles; ++i) {
-        const Vec3 foot = altar_candle(i);
-        brass.revolve(
-            {foot.x, 1.665, foot.z}, 16, 9,
-            [](std::size_t k) {
-                constexpr std::array<std::pair<double, double>, 10> profile{{{0.0, 0.0},
-                                                                             {0.085, 0.0},
-                                                                             {0.06, 0.03},
-                                                                             {0.022, 0.06},
-                                                                             {0.022, 0.14},
-                                                                             {0.045, 0.17},
-                                                                             {0.022, 0.20},
-                                                                             {0.065, 0.25},
-                                                                             {0.06, 0.265},
-                                                                             {0.0, 0.26}}};
-                return profile[k];
-            },
-            [](Vec3) { return gold; });
-        scene::add_rod(wood, {foot.x, 1.93, foot.z}, {foot.x, 2.14, foot.z}, 0.028, 10, linen);
-        scene::add_ball(flames, {foot.x, 2.19, foot.z}, 0.04, 12, 8, {0, 0, 0});
-    }
+    for (std::size_t i = 0; i < altar_candles; ++i) add_altar_candle(wood, brass, flames, altar_candle(i));
     scene::add_box(brass, {x + 1.6, 1.67, -0.05}, {x + 1.68, 3.1, 0.05}, 0.2, [](Vec3) { return gold; });
     scene::add_box(brass, {x + 1.59, 2.52, -0.42}, {x + 1.69, 2.63, 0.42}, 0.2, [](Vec3) { return gold; });
-    // The communion rail.
-    constexpr int posts = 19;
-    for (int i = 0; i < posts; ++i) {
-        const double z = -2.4 + 4.8 * i / (posts - 1);
-        if (std::abs(z) < 0.45) continue;
-        wood.revolve(
-            {x - 1.75, 0.002, z}, 12, 9,
-            [](std::size_t k) {
-                if (k == 0 || k == 9) return std::pair{0.0, k == 0 ? 0.0 : 0.72};
-                const double w = static_cast<double>(k - 1) / 7;
-                return std::pair{0.035 + 0.035 * scene::square(std::sin(2 * pi * w)), 0.72 * w};
-            },
-            [](Vec3) {
-                return Rgb{0.36f, 0.20f, 0.09f};
-            });
-    }
-    for (double side : {-1.0, 1.0})
-        scene::add_box(wood, {x - 1.84, 0.725, side > 0 ? 0.45 : -2.5}, {x - 1.66, 0.81, side > 0 ? 2.5 : -0.45}, 0.25,
-                       [](Vec3) {
-                           return Rgb{0.30f, 0.165f, 0.075f};
-                       });
+    add_altar_rail(wood);
 }
 
 void add_pendants(scene::MeshBuilder& brass, scene::MeshBuilder& globes) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double course = 0.145;  // height of a row of blocks
-constexpr double block = 0.3;     // their length
+constexpr double block = 0.3;     // length of a block
 
 std::size_t pieces(double length, double longest) {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length / longest - 1e-9)));
@@ -55,7 +55,7 @@ void Masonry::wall(const Frame& frame, double a0, double a1, double b0, double b
     for (std::size_t k = 0; k < rows; ++k) {
         const double low = b0 + (b1 - b0) * static_cast<double>(k) / static_cast<double>(rows);
         const double high = b0 + (b1 - b0) * static_cast<double>(k + 1) / static_cast<double>(rows);
-        // Joints lie on a grid of half blocks, every other row shifted: a running bond.
+        // A running bond: joints are half a block apart between neighbouring rows.
         const double shift = k % 2 == 0 ? 0 : 0.5 * block;
         double left = a0;
         while (left < a1 - 1e-9) {
@@ -249,43 +249,38 @@ void Masonry::spire(Vec3 foot, Rgb ball, Rgb point) {
         [&](Vec3) { return point; });
 }
 
-void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, double ridge, Rgb stone, Rgb trim,
-                   Rgb pane) {
+void Masonry::hall_side(const Frame& frame, double length, double half_depth, double eaves, double ridge, Rgb stone,
+                        Rgb trim, Rgb pane) {
     constexpr std::size_t windows = 4;
-    const double middle = foot.x + 0.5 * length, half = 0.5 * length;
-    for (int side : {1, -1}) {
-        const Frame wall_frame{
-            {middle, foot.y, foot.z + side * half_depth}, {1.0 * side, 0, 0}, {0, 1, 0}, {0, 0, 1.0 * side}};
-        const double step = length / windows;
-        for (std::size_t i = 0; i < windows; ++i) {
-            const double a0 = -half + step * static_cast<double>(i);
-            const Opening opening{a0 + 0.5 * step, 0.26, 0.75, 1.5, 9};
-            wall_with_opening(wall_frame, a0, a0 + step, 0, eaves, opening, stone);
-            recess(wall_frame, opening, 0.16, 0.8f * stone, pane);
-            archivolt(wall_frame, opening, 0.09, 0.05, trim);
-            slab(wall_frame, a0 - 0.1, a0 + 0.1, 0, eaves - 0.3, 0.2, trim);
-        }
-        slab(wall_frame, half - 0.1, half + 0.1, 0, eaves - 0.3, 0.2, trim);
-        slab(wall_frame, -half, half, 0, 0.25, 0.1, trim);
-        slab(wall_frame, -half, half, eaves - 0.15, eaves, 0.12, trim);
-        // The roof: rows of tiles from the eaves to the ridge.
-        constexpr std::size_t rows = 14;
-        const std::size_t tiles = pieces(length + 0.2, 0.19);
-        for (std::size_t k = 0; k < rows; ++k)
-            for (std::size_t i = 0; i < tiles; ++i) {
-                const auto at = [&](std::size_t column, std::size_t row) {
-                    const double w = static_cast<double>(row) / rows;
-                    return wall_frame.at(
-                        (2 * static_cast<double>(column) / static_cast<double>(tiles) - 1) * (half + 0.1),
-                        eaves + (ridge - eaves) * w, 0.18 - (half_depth + 0.18) * w);
-                };
-                quad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1),
-                     (k % 2 == 0 ? 1.0f : 0.86f) * vary({0.36f, 0.15f, 0.085f}, 0.35));
-            }
+    const double half = 0.5 * length, step = length / windows;
+    for (std::size_t i = 0; i < windows; ++i) {
+        const double a0 = -half + step * static_cast<double>(i);
+        const Opening opening{a0 + 0.5 * step, 0.26, 0.75, 1.5, 9};
+        wall_with_opening(frame, a0, a0 + step, 0, eaves, opening, stone);
+        recess(frame, opening, 0.16, 0.8f * stone, pane);
+        archivolt(frame, opening, 0.09, 0.05, trim);
+        slab(frame, a0 - 0.1, a0 + 0.1, 0, eaves - 0.3, 0.2, trim);
     }
-    // The gable at the right end.
-    const Frame gable{{foot.x + length, foot.y, foot.z}, {0, 0, -1}, {0, 1, 0}, {1, 0, 0}};
-    wall(gable, -half_depth, half_depth, 0, eaves, stone);
+    slab(frame, half - 0.1, half + 0.1, 0, eaves - 0.3, 0.2, trim);
+    slab(frame, -half, half, 0, 0.25, 0.1, trim);
+    slab(frame, -half, half, eaves - 0.15, eaves, 0.12, trim);
+    // The roof: rows of tiles from the eaves to the ridge.
+    constexpr std::size_t rows = 14;
+    const std::size_t tiles = pieces(length + 0.2, 0.19);
+    for (std::size_t k = 0; k < rows; ++k)
+        for (std::size_t i = 0; i < tiles; ++i) {
+            const auto at = [&](std::size_t column, std::size_t row) {
+                const double w = static_cast<double>(row) / rows;
+                return frame.at((2 * static_cast<double>(column) / static_cast<double>(tiles) - 1) * (half + 0.1),
+                                eaves + (ridge - eaves) * w, 0.18 - (half_depth + 0.18) * w);
+            };
+            quad(at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1),
+                 (k % 2 == 0 ? 1.0f : 0.86f) * vary({0.36f, 0.15f, 0.085f}, 0.35));
+        }
+}
+
+void Masonry::hall_gable(const Frame& frame, double half_depth, double eaves, double ridge, Rgb stone) {
+    wall(frame, -half_depth, half_depth, 0, eaves, stone);
     constexpr std::size_t rows = 10;
     for (std::size_t k = 0; k < rows; ++k) {
         const double w0 = static_cast<double>(k) / rows, w1 = static_cast<double>(k + 1) / rows;
@@ -297,14 +292,26 @@ void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, do
             const double right = 2 * static_cast<double>(i + 1) / static_cast<double>(blocks) - 1;
             const Rgb color = vary(stone);
             if (k + 1 < rows)
-                quad(gable.at(left * r0, y0, 0), gable.at(right * r0, y0, 0), gable.at(right * r1, y1, 0),
-                     gable.at(left * r1, y1, 0), color);
+                quad(frame.at(left * r0, y0, 0), frame.at(right * r0, y0, 0), frame.at(right * r1, y1, 0),
+                     frame.at(left * r1, y1, 0), color);
             else
-                faceted.triangle(faceted.vertex(gable.at(left * r0, y0, 0), color),
-                                 faceted.vertex(gable.at(right * r0, y0, 0), color),
-                                 faceted.vertex(gable.at(0, y1, 0), color));
+                faceted.triangle(faceted.vertex(frame.at(left * r0, y0, 0), color),
+                                 faceted.vertex(frame.at(right * r0, y0, 0), color),
+                                 faceted.vertex(frame.at(0, y1, 0), color));
         }
     }
+}
+
+void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, double ridge, Rgb stone, Rgb trim,
+                   Rgb pane) {
+    const double middle = foot.x + 0.5 * length;
+    for (int side : {1, -1}) {
+        const Frame frame{
+            {middle, foot.y, foot.z + side * half_depth}, {1.0 * side, 0, 0}, {0, 1, 0}, {0, 0, 1.0 * side}};
+        hall_side(frame, length, half_depth, eaves, ridge, stone, trim, pane);
+    }
+    // At the right end.
+    hall_gable({{foot.x + length, foot.y, foot.z}, {0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, half_depth, eaves, ridge, stone);
 }
 
 void Masonry::lawn(Vec3 center, double half_width, double half_depth) {

@@ -5,7 +5,7 @@
 
 namespace hogel::showpieces {
 
-/// A wall's own coordinates: a to the right, b up, c out of the wall.
+/// The coordinates of a wall: a to the right, b up, c out of the wall.
 struct Frame {
     Vec3 origin, right, up, out;
 
@@ -17,34 +17,34 @@ struct Opening {
     double center, half_width, sill, spring;
     std::size_t segments;  ///< of the half circle
 
-    /// A point of the outline, grown by `grow`: from the left foot (0) along the arch to the right foot (segments + 2).
+    /// Point i of the outline, grown by `grow`, from the left foot (0) along the arch to the right foot (segments + 2).
     std::pair<double, double> outline(std::size_t i, double grow = 0) const;
 };
 
-/// Builds in stone: everything comes as blocks or small patches, so that vertex lighting shows shadows.
+/// Builds stone structures of blocks and small patches, fine enough for shadows at the vertices.
 class Masonry {
   public:
-    scene::MeshBuilder faceted;  ///< vertices of their own for each block: each has its own shade of stone
+    scene::MeshBuilder faceted;  ///< each block has its own vertices and shade of stone
     scene::MeshBuilder smooth;
 
     /// A rectangle a0..a1 × b0..b1 of a wall in courses of blocks.
     void wall(const Frame& frame, double a0, double a1, double b0, double b1, Rgb stone);
-    /// The same around an opening, which must lie inside the rectangle (its sill may lie on the lower edge).
+    /// Such a wall around an opening, which must lie inside the rectangle (its sill may lie on the lower edge).
     void wall_with_opening(const Frame& frame, double a0, double a1, double b0, double b1, const Opening& opening,
                            Rgb stone);
-    /// The sides of an opening, going `depth` into the wall.
+    /// The sides of an opening, `depth` into the wall.
     void reveal(const Frame& frame, const Opening& opening, double depth, Rgb stone);
     /// A reveal closed by a pane at its back.
     void recess(const Frame& frame, const Opening& opening, double depth, Rgb stone, Rgb pane);
-    /// A moulding of the given width around an opening, standing out by `reach`.
+    /// A moulding of the given width around an opening, projecting by `reach`.
     void archivolt(const Frame& frame, const Opening& opening, double width, double reach, Rgb stone);
-    /// A block that stands out of a wall by `reach`.
+    /// A block that projects from a wall by `reach`.
     void slab(const Frame& frame, double a0, double a1, double b0, double b1, double reach, Rgb stone);
     /// A box in world coordinates, with faces cut into patches no longer than `patch`.
     void box(Vec3 low, Vec3 high, Rgb stone, double patch);
-    /// A corner pillar of alternately wide and narrow blocks around `foot` (its middle).
+    /// A corner pillar of alternately wide and narrow blocks around `foot`, the centre of its base.
     void quoins(Vec3 foot, double half_width, double height, double block, Rgb stone);
-    /// A flat ring (or disc, inner = 0) on a wall, standing out by `reach`.
+    /// A flat ring (or disc, inner = 0) on a wall, projecting by `reach`.
     void ring(const Frame& frame, double inner, double outer, double reach, Rgb color, std::size_t segments);
     /// A flat bar on a wall from radius r0 to r1 in the direction `angle` (0 up, clockwise).
     void bar(const Frame& frame, double angle, double r0, double r1, double half_width, double reach, Rgb color);
@@ -59,6 +59,9 @@ class Masonry {
     void tree(Vec3 foot, double height);
 
   private:
+    void hall_side(const Frame& frame, double length, double half_depth, double eaves, double ridge, Rgb stone,
+                   Rgb trim, Rgb pane);
+    void hall_gable(const Frame& frame, double half_depth, double eaves, double ridge, Rgb stone);
     void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Rgb color);
     void flat_patch(Vec3 corner, Vec3 right, Vec3 up, Rgb color, double patch);
     Rgb vary(Rgb color, double amount = 0.22);

@@ -14,11 +14,11 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int ribs = 14;
 constexpr double height = 0.78;        // of the body above its middle
-constexpr double depth_squash = 0.68;  // pumpkins are rarely round
+constexpr double depth_squash = 0.68;  // of the depth to the width
 constexpr double wall = 0.1;
 constexpr Vec3 flame_tip{0.03, -0.27, 0.12};
 
-/// How deep in a groove between two ribs an azimuth lies: 1 at its bottom, 0 on the ribs.
+/// The depth of the groove between two ribs at an azimuth: 1 at its bottom, 0 on the ribs.
 double groove(double azimuth) {
     const double s = std::sin(0.5 * ribs * (azimuth + pi / ribs) + 0.35 * std::sin(3 * azimuth + 1));
     return scene::square(1 - std::sqrt(s * s + 0.004) / std::sqrt(1.004));
@@ -55,7 +55,7 @@ std::vector<std::vector<Parameter>> face() {
     }
     holes.push_back({{-0.105, -0.06}, {0.105, -0.06}, {0, 0.125}});
 
-    // The mouth: an upper lip from left to right with three teeth, a lower lip back with two.
+    // The mouth: an upper lip from left to right with two teeth, and a lower lip back with one.
     const auto upper = [](double a) { return -0.245 + 0.47 * a * a; };
     const auto lower = [](double a) { return -0.66 + 1.21 * a * a; };
     std::vector<Parameter> mouth;
@@ -112,7 +112,7 @@ Mesh skin(const CarvedGrid& grid) {
     return std::move(builder.mesh);
 }
 
-/// The inner wall and the cut through the wall. Flesh lets light through: it glows a little by itself.
+/// The inner wall and the cut through the wall. It emits a little light, for flesh is translucent.
 Mesh flesh(const CarvedGrid& grid) {
     constexpr Rgb pale{0.95f, 0.60f, 0.20f}, rind{0.90f, 0.38f, 0.07f};
     constexpr std::uint32_t layers = 2;
@@ -205,7 +205,7 @@ Mesh flame() {
     return std::move(builder.mesh);
 }
 
-/// A round slab of slate. Its vertices crowd where shadow and candlelight fall.
+/// A round slab of slate, with more vertices where shadows and candlelight fall.
 Mesh ground() {
     constexpr std::size_t columns = 60, rows = 16;
     constexpr double top = -0.605, radius = 1.09;
@@ -251,7 +251,7 @@ Scene make_pumpkin(double hologram_size) {
     scene.lights = {moon, glow};
     scene.ambient = {0.05f, 0.055f, 0.08f};
     scene.background = {0.0045f, 0.0055f, 0.010f};
-    scene::turn(scene, -0.1, 0.22);
+    scene::rotate(scene, -0.1, 0.22);
     fit_scene(scene, {hologram_size, hologram_size, 0.88, 0.5});
     return scene;
 }

@@ -23,8 +23,9 @@ namespace {
 constexpr double size = 0.02;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Eye {
-    explicit Eye(const Scene& scene)
+/// Traces rays of the light field against the mesh of a scene.
+struct Tracer {
+    explicit Tracer(const Scene& scene)
         : shaded(shade_scene_vertices(scene)), caster(shaded.positions, triangles(shaded)) {}
     static std::vector<std::array<std::uint32_t, 3>> triangles(const ShadedScene& scene) {
         std::vector<std::array<std::uint32_t, 3>> list;
@@ -43,20 +44,20 @@ struct Eye {
 TEST(Analytic, closed_forms_agree_with_traced_meshes) {
     for (const SceneInfo& builtin : scenes().rows()) {
         if (!scene::has_analytic_radiance(builtin.name)) continue;
-        const Eye eye(make_scene(builtin.name, size));
+        const Tracer tracer(make_scene(builtin.name, size));
         std::mt19937 engine(5);
         std::uniform_real_distribution<double> place(-0.5 * size, 0.5 * size), direction(-0.36, 0.36);
         int hits = 0, misses = 0;
         for (int i = 0; i < 40000; ++i) {
             double U = direction(engine), V = direction(engine);
             double s = place(engine), t = place(engine);
-            if (builtin.name == "point" && i % 2 == 0) {  // or hardly any ray would hit it
+            if (builtin.name == "point" && i % 2 == 0) {  // few other rays hit it
                 s = 0.1 * size - U * 0.15 * size + 0.01 * s;
                 t = 0.05 * size - V * 0.15 * size + 0.01 * t;
             }
             const scene::AnalyticSample exact = scene::analytic_radiance(builtin.name, size, s, t, U, V);
             if (exact.clearance < (builtin.name == "point" ? 1e-5 : 1e-3) * size) continue;
-            const scene::AnalyticSample seen = eye.see(s, t, U, V);
+            const scene::AnalyticSample seen = tracer.see(s, t, U, V);
             ASSERT_EQ(std::isfinite(seen.depth), std::isfinite(exact.depth)) << builtin.name;
             (std::isfinite(exact.depth) ? hits : misses)++;
             ASSERT_NEAR(seen.radiance.r, exact.radiance.r, 1e-3) << builtin.name;
@@ -70,12 +71,12 @@ TEST(Analytic, closed_forms_agree_with_traced_meshes) {
     }
 }
 
-TEST(Analytic, names_what_it_knows) {
+TEST(Analytic, refuses_scenes_without_closed_form) {
     EXPECT_FALSE(scene::has_analytic_radiance("pumpkin"));
     EXPECT_THROW(scene::analytic_radiance("pumpkin", size, 0, 0, 0, 0), Error);
 }
 
-TEST(Builtin, scenes_fill_the_hologram_and_straddle_it) {
+TEST(Builtin, scenes_fill_the_hologram_and_lie_on_both_sides_of_its_plane) {
     for (const char* name : {"pumpkin", "tower", "church", "chandelier", "billiards"}) {
         const Scene scene = make_scene(name, size);
         EXPECT_NO_THROW(validate(scene));
@@ -87,7 +88,7 @@ TEST(Builtin, scenes_fill_the_hologram_and_straddle_it) {
     }
 }
 
-// The sizes of the scenes of [K] fig. 5.26 to 5.30, whose stand-ins these are.
+// The sizes of the scenes of [K] fig. 5.26 to 5.30, which these scenes replace.
 struct Showpiece {
     const char* name;
     double triangles;
@@ -102,7 +103,7 @@ std::vector<Showpiece> showpieces() {
             {"billiards", 64444, 4, {"frame", "sights", "balls", "legs", "cue", "brass", "bulbs"}}};
 }
 
-TEST(Builtin, scenes_have_the_triangles_and_lights_of_those_in_the_thesis) {
+TEST(Builtin, scenes_have_about_the_size_of_those_in_the_thesis) {
     for (const Showpiece& expected : showpieces()) {
         const Scene scene = make_scene(expected.name, size);
         EXPECT_NEAR(static_cast<double>(triangle_count(scene)), expected.triangles, 0.05 * expected.triangles)
@@ -111,7 +112,7 @@ TEST(Builtin, scenes_have_the_triangles_and_lights_of_those_in_the_thesis) {
     }
 }
 
-TEST(Builtin, scenes_have_no_triangle_without_area_and_no_normal_without_length) {
+TEST(Builtin, triangles_have_an_area_and_normals_unit_length) {
     for (const SceneInfo& builtin : scenes().rows())
         for (const Mesh& mesh : make_scene(builtin.name, size).meshes) {
             for (const auto& [a, b, c] : mesh.triangles) {
@@ -138,7 +139,7 @@ TEST(Builtin, scenes_are_the_same_every_time) {
 
 using Point = std::array<double, 3>;
 
-/// How many more triangles run along each edge one way than the other.
+/// For each edge, how many more triangles run along it in one direction than in the other.
 std::map<std::array<Point, 2>, int> rims(const Scene& scene, const std::vector<std::string>& names) {
     std::map<std::array<Point, 2>, int> edges;
     for (const Mesh& mesh : scene.meshes) {
@@ -156,9 +157,10 @@ std::map<std::array<Point, 2>, int> rims(const Scene& scene, const std::vector<s
     return edges;
 }
 
-// Every edge has as many triangles one way as the other: nothing leaks. Skin and flesh of the pumpkin together, at the
-// carved rims; what is closed in the other scenes each by itself. The rest is sheets: masonry, vaults, cloth, shades.
-TEST(Builtin, what_should_be_watertight_is) {
+// Along every edge of a closed surface as many triangles run in one direction as in the other. Skin and flesh of the
+// pumpkin are closed together, the meshes of other scenes that are named above each by itself. All others are open
+// sheets: masonry, vaults, cloth, shades.
+TEST(Builtin, closed_surfaces_have_no_gap) {
     const auto expect_closed = [](const Scene& scene, const std::vector<std::string>& names) {
         const auto edges = rims(scene, names);
         EXPECT_GT(edges.size(), 100u) << scene.name << ": " << names.front();
@@ -176,7 +178,7 @@ TEST(Builtin, what_should_be_watertight_is) {
               200);
 }
 
-TEST(Builtin, radiances_are_those_of_a_picture) {
+TEST(Builtin, radiances_have_the_range_of_a_picture) {
     for (const SceneInfo& builtin : scenes().rows()) {
         const ShadedScene shaded = shade_scene_vertices(make_scene(builtin.name, size));
         float brightest = 0;
@@ -186,23 +188,23 @@ TEST(Builtin, radiances_are_those_of_a_picture) {
     }
 }
 
-TEST(Builtin, the_size_of_the_hologram_changes_nothing_but_the_size) {
+TEST(Builtin, scenes_scale_with_the_size_of_the_hologram) {
     for (const SceneInfo& builtin : scenes().rows()) {
         const Scene small = make_scene(builtin.name, size), large = make_scene(builtin.name, 2 * size);
         ASSERT_EQ(small.meshes.size(), large.meshes.size());
         for (std::size_t m = 0; m < small.meshes.size(); ++m)
             for (std::size_t i = 0; i < small.meshes[m].positions.size(); ++i)
                 ASSERT_NEAR(length(2 * small.meshes[m].positions[i] - large.meshes[m].positions[i]), 0, 1e-12 * size);
-        if (triangle_count(small) > 20000) continue;  // lighting takes its time
+        if (triangle_count(small) > 20000) continue;  // lighting is slow
         const ShadedScene a = shade_scene_vertices(small), b = shade_scene_vertices(large);
-        std::size_t different = 0;  // a shadow ray that grazes an edge may go either way
+        std::size_t different = 0;  // rounding decides about shadow rays that graze an edge
         for (std::size_t i = 0; i < a.positions.size(); ++i)
             different += std::abs(a.radiance[i].r - b.radiance[i].r) > 1e-4f;
         EXPECT_LT(different, 5 + a.positions.size() / 1000) << builtin.name;
     }
 }
 
-TEST(Builtin, unknown_names_and_sizes_are_usage_errors_that_list_the_scenes) {
+TEST(Builtin, unknown_names_and_sizes_are_usage_errors) {
     try {
         make_scene("teapot", size);
         FAIL();

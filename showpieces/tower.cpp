@@ -25,14 +25,14 @@ constexpr Rgb copper{0.24f, 0.42f, 0.34f};
 constexpr Rgb glass{0.035f, 0.045f, 0.07f};
 constexpr Rgb gold{0.80f, 0.55f, 0.16f};
 
-/// The frame of one of the four walls: origin at the middle of its foot.
+/// The frame of one of the four walls, with its origin at the middle of its foot.
 Frame wall_frame(int side, double distance) {
     const double angle = 0.5 * pi * side;
     const Vec3 out{std::sin(angle), 0, std::cos(angle)}, right{std::cos(angle), 0, -std::sin(angle)};
     return {distance * out, right, {0, 1, 0}, out};
 }
 
-/// A course that runs around the tower and stands out from it.
+/// A course of stone around the tower that projects from it.
 void band(Masonry& masonry, double low, double high, double reach, Rgb color) {
     masonry.box({-reach, low, -reach}, {reach, high, reach}, color, 0.16);
 }
@@ -99,7 +99,7 @@ void clock_storey(Masonry& masonry) {
     band(masonry, high, clock_top, 1.2, trim);
 }
 
-/// Bronze, hung from a beam: lip, waist and shoulder.
+/// The bell: lip, waist and shoulder.
 Mesh bell() {
     constexpr std::array<std::pair<double, double>, 13> profile{{{0.0, 0.14},
                                                                  {0.40, 0.02},
@@ -152,7 +152,7 @@ void belfry(Masonry& masonry) {
     masonry.box({-0.99, clock_top - 0.02, -0.99}, {0.99, clock_top + 0.005, 0.99}, shade_stone, 0.2);
 }
 
-/// Corbels under the eaves, tiles, a finial.
+/// The roof with corbels under the eaves, tiles and a finial.
 void roof(Masonry& masonry) {
     for (int side = 0; side < 4; ++side) {
         const Frame wall = wall_frame(side, half_width);
@@ -199,7 +199,7 @@ Scene make_tower(double hologram_size) {
     scene.lights = {sun, sky};
     scene.ambient = {0.10f, 0.12f, 0.18f};
     scene.background = {0.008f, 0.013f, 0.030f};
-    scene::turn(scene, -0.42, 0.17);
+    scene::rotate(scene, -0.42, 0.17);
     fit_scene(scene, {hologram_size, hologram_size, 0.9, 0.5});
     return scene;
 }

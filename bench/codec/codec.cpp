@@ -12,7 +12,6 @@
 #include "bench/plot.h"
 #include "hogel/compress.h"
 #include "hogel/error.h"
-#include "hogel/transform/transform.h"
 
 namespace hogel::bench {
 namespace {
@@ -47,15 +46,14 @@ std::vector<CodingMethod> methods_of(const CodecOptions& options) {
         return names.empty() || std::ranges::count(names, name) > 0;
     };
     std::vector<CodingMethod> methods;
-    for (const std::string& coder : coders().names()) {
-        if (!wanted(options.coders, coder)) continue;
-        if (codec::default_transform(coder).empty()) methods.push_back({std::string(coder), ""});
-        for (const std::string_view transform : transform::transform_names())
-            if (!codec::default_transform(coder).empty() && (coder == "jpeg4d") == (transform == "dct8") &&
+    for (const CoderInfo& coder : coders().rows()) {
+        if (!wanted(options.coders, coder.name)) continue;
+        if (coder.transform.empty()) methods.push_back({coder.name, ""});
+        for (const std::string& transform : transform_names())
+            if (!coder.transform.empty() && (coder.name == "jpeg4d") == (transform == "dct8") &&
                 wanted(options.transforms, transform)) {
-                methods.push_back({std::string(coder), std::string(transform)});
-                if (coder == "jpeg4d")
-                    methods.push_back({std::string(coder), std::string(transform), QuantisationTable::jpeg});
+                methods.push_back({coder.name, transform});
+                if (coder.quantisation_table) methods.push_back({coder.name, transform, QuantisationTable::jpeg});
             }
     }
     return methods;
@@ -121,8 +119,7 @@ std::string plot(const std::string& name, const std::string& subtitle, const std
 void measure_codec(const CodecOptions& options, const Session& session) {
     const auto source = open(session, options);
     // Fails for unknown coders before anything is measured.
-    for (const std::string& name : options.coders)
-        codec::make_tile_coder({name, std::string(codec::default_transform(name))}, source->grid());
+    for (const std::string& name : options.coders) coders().find(name);
     if (!options.peers.empty() && source->grid().channels != 1 && !options.grey)
         throw Error(ErrorCode::usage, "peers are compared on one channel; expected --grey");
     if (!options.output.empty()) create_folder(options.output);

@@ -169,7 +169,7 @@ void measure_regions(const RenderOptions& options, const Session& session) {
     if (scenes.empty())
         for (const ThesisScene& scene : thesis_scenes) scenes.emplace_back(scene.name);
     if (algorithms.empty())
-        for (const RendererInfo& info : renderers()) algorithms.emplace_back(info.name);
+        for (const RendererInfo& info : renderers().rows()) algorithms.emplace_back(info.name);
     // Fails for unknown names before anything is measured.
     const LightFieldGrid grid = options.light_field(render_defaults.hogels, render_defaults.directions).grid();
     for (const std::string& algorithm : algorithms) make_renderer(algorithm, std::make_shared<ShadedScene>(), grid);

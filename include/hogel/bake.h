@@ -9,6 +9,7 @@
 
 namespace hogel {
 
+/// How finely bake_scene() works.
 struct BakeOptions {
     std::size_t rays = 256;        ///< sent from each vertex, for the light that other surfaces reflect
     std::size_t bounces = 5;       ///< number of reflections between surfaces

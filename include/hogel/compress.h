@@ -88,14 +88,14 @@ struct CompressionResult {
     double depth_error = 0;         ///< bound on each depth, metres
 };
 
-/// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads. Memory: a few tiles for each
-/// thread. The step that meets an SQNR or a rate is searched by coding some of the tiles first and then all of them. A
-/// rate is met to the byte: less than half a per cent is filled by metadata without meaning (more for light fields of
-/// few samples), or an embedded code (ezw) is cut. With MaxError and Lossless the step of the prediction is the one
-/// that makes the middle of the light field smallest. Depth is coded first and counts as a part of the file. The file
-/// appears when it is complete. Throws Error(usage) for a target or method that makes no sense, a rate that no step
-/// gives, and a quality finer than the coder can be; Error(bad_input) for radiance that is not finite (unless the
-/// target is MaxError or Lossless), Error(cannot_write).
+/// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads. Quality and rate are those of
+/// all its faces together. Memory: a few tiles for each thread. The step that meets an SQNR or a rate is searched by
+/// coding some of the tiles first and then all of them. A rate is met to the byte: less than half a per cent is filled
+/// by metadata without meaning (more for light fields of few samples), or an embedded code (ezw) is cut. With MaxError
+/// and Lossless the step of the prediction is the one that makes the middle of the light field smallest. Depth is coded
+/// first and counts as a part of the file. The file appears when it is complete. Throws Error(usage) for a target or
+/// method that makes no sense, a rate that no step gives, and a quality finer than the coder can be; Error(bad_input)
+/// for radiance that is not finite (unless the target is MaxError or Lossless), Error(cannot_write).
 HOGEL_API CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                                      const CompressionOptions& options, const Progress& progress = {});
 
@@ -148,9 +148,9 @@ struct StreamOptions {
 
 /// Opens a compressed light field; it is decoded where it is read. With the coder hogel only what the wanted hogels
 /// need is decoded, with other coders a whole tile. The tiles decoded last are kept, as many as `memory` bytes hold, at
-/// least one. Of a hemicube this opens the front. Depth is there if the file has it. Throws Error(bad_input) for a file
-/// that is damaged, of another version, or cut off before the end of the last layer that is wanted; damage inside a
-/// tile shows when that tile is read. Throws Error(usage) for more layers than there are.
+/// least one; all faces share them. Depth is there if the file has it. Throws Error(bad_input) for a file that is
+/// damaged, of another version, or cut off before the end of the last layer that is wanted; damage inside a tile shows
+/// when that tile is read. Throws Error(usage) for more layers than there are.
 HOGEL_API LightField open_stream(const std::filesystem::path& path, const StreamOptions& options = {});
 
 /// Opens a stream of the coder fringes without undoing the transform of the directions, for holograms made of basis

@@ -26,7 +26,7 @@ class HOGEL_API Renderer : public LightFieldSource {
 
 /// A rendering algorithm.
 struct RendererInfo {
-    std::string name;
+    std::string name;  ///< by which make_renderer() finds it
     std::string text;  ///< one line
     /// A light field of the scene, which is shared, never copied. A source that is a Renderer is asked to take the next
     /// scene; any other is made anew for it. Throws Error(usage) for a scene that it cannot render.
@@ -44,16 +44,18 @@ struct RendererInfo {
 HOGEL_API Table<RendererInfo>& renderers();
 
 /// A light field of the scene by the renderer of that name. Offers depth per ray. The scene is shared, never copied.
-/// Throws Error(usage) for an unknown name, for a grid uniform in sines where the renderer takes only tangents, and for
-/// a scene that is not wholly behind the hologram plane where the renderer does not cross it.
+/// Throws Error(usage) for an unknown name, for a grid uniform in sines where the renderer takes only perspectives, and
+/// for a scene that is not wholly behind the hologram plane where the renderer does not cross it.
 HOGEL_API std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                                   const LightFieldGrid& grid);
 
 /// Supersampling factors: samples along each side of a hogel, and along each side of the cell around a direction.
 /// Together they make hogel² · direction² samples a ray, on a regular grid.
 struct SamplesPerRay {
-    std::size_t hogel = 1, direction = 1;
+    std::size_t hogel = 1;      ///< along a hogel's side
+    std::size_t direction = 1;  ///< along a side of a direction's cell
 
+    /// Samples a ray.
     std::size_t count() const { return hogel * hogel * direction * direction; }
 };
 

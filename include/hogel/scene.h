@@ -13,72 +13,79 @@
 
 namespace hogel {
 
-/// How a surface reflects, by the words of glTF 2.0: a base colour, which vertices and a texture modulate, and a glossy
-/// lobe. Without the lobe (reflectance and metallic zero) a surface is matt.
+/// How a surface reflects, with the parameters of glTF 2.0: a base colour, which vertices and a texture modulate, and a
+/// glossy lobe. Without the lobe (reflectance and metallic zero) a surface is matt.
 struct Material {
     Rgb base_color{0.8f, 0.8f, 0.8f};                 ///< linear reflectance
     float reflectance = 0;                            ///< of the lobe at normal incidence; 0.04 for glass and lacquer
     float metallic = 0;                               ///< 1: no diffuse light, and a lobe in the base colour
-    float roughness = 1;                              ///< of the lobe: its width is about the square of this
-    Rgb emission{0, 0, 0};                            ///< radiance that it sends out by itself
-    std::shared_ptr<const Image> base_color_texture;  ///< linear, repeats; null without one
+    float roughness = 1;                              ///< of the lobe; the lobe is about as wide as the square of this
+    Rgb emission{0, 0, 0};                            ///< radiance that the surface emits
+    std::shared_ptr<const Image> base_color_texture;  ///< linear, repeats; may be null
 
+    /// Whether there is a lobe.
     bool is_glossy() const { return reflectance > 0 || metallic > 0; }
 };
 
+/// A point of a texture: u to the right, v up, (0, 0) at the bottom left of the picture.
 struct TextureCoordinate {
-    float u = 0, v = 0;  ///< u to the right, v up: (0,0) is the bottom left of the picture
+    float u = 0;  ///< 0 to 1 across the picture, which repeats
+    float v = 0;  ///< 0 to 1 up the picture
 };
 
 /// Triangles of one material. The vectors of vertex attributes are empty or as long as `positions`.
 struct Mesh {
     std::vector<Vec3> positions;  ///< metres, world frame: the hologram is the plane z = 0, the viewer at z > 0
     std::vector<Vec3> normals;    ///< unit length
-    std::vector<Rgb> colors;      ///< linear, multiplies the base colour
-    std::vector<Rgb> radiance;    ///< given: what the surface shows whatever the lights (the texture multiplies it)
-    std::vector<TextureCoordinate> texture_coordinates;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
-    Material material;
-    std::string name;
+    std::vector<Rgb> colors;      ///< linear, multiplied by the base colour
+    std::vector<Rgb> radiance;    ///< given radiance, which replaces all lighting (the texture multiplies it)
+    std::vector<TextureCoordinate> texture_coordinates;   ///< of the material's texture
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise from outside
+    Material material;                                    ///< of all triangles
+    std::string name;                                     ///< for messages
 };
 
-/// A lamp. Point lights fall off with the square of the distance, directional ones do not.
+/// A light. Point lights fall off with the square of the distance, directional ones do not.
 struct Light {
-    enum class Kind { point, directional } kind = Kind::directional;
-    Vec3 position;   ///< point: where it is
-    Vec3 direction;  ///< directional: where its light travels to, unit length
-    Rgb intensity;   ///< point: radiant intensity; directional: irradiance at normal incidence
-    bool casts_shadows = true;
+    /// A point light has a position, a directional one a direction.
+    enum class Kind { point, directional };
+    Kind kind = Kind::directional;  ///< which of the members below matter
+    Vec3 position;                  ///< of a point light, metres
+    Vec3 direction;                 ///< in which the light of a directional light travels, unit length
+    Rgb intensity;                  ///< point: radiant intensity; directional: irradiance at normal incidence
+    bool casts_shadows = true;      ///< false: it lights surfaces through others
 };
 
-/// What is to be seen: surfaces, lamps, and the radiance of rays that meet nothing.
+/// Surfaces, lights, and the radiance of rays that meet nothing.
 struct Scene {
-    std::string name;
-    std::vector<Mesh> meshes;
-    std::vector<Light> lights;
-    Rgb ambient{0, 0, 0};     ///< radiance from all directions, unshadowed
-    Rgb background{0, 0, 0};  ///< radiance of rays that meet nothing
+    std::string name;           ///< for messages and files
+    std::vector<Mesh> meshes;   ///< in any order
+    std::vector<Light> lights;  ///< in any order
+    Rgb ambient{0, 0, 0};       ///< radiance from all directions, unshadowed
+    Rgb background{0, 0, 0};    ///< radiance of rays that meet nothing
 };
 
+/// A box with edges along the axes.
 struct Bounds {
-    Vec3 low, high;
+    Vec3 low;   ///< smallest coordinates
+    Vec3 high;  ///< largest coordinates
 };
 
 /// The box around all vertices that triangles use. Throws Error(bad_input) for a scene without triangles.
 HOGEL_API Bounds bounds(const Scene& scene);
 
+/// The number of triangles of all meshes.
 HOGEL_API std::size_t triangle_count(const Scene& scene);
 
-/// A number that tells scenes apart by all that is to be seen of them: surfaces, materials, the pixels of textures,
-/// lamps. Names do not matter.
+/// A checksum of everything visible: surfaces, materials, the pixels of textures, lights. Names do not matter.
 HOGEL_API std::uint32_t checksum(const Scene& scene);
 
-/// Gives every mesh without normals smooth ones (area-weighted averages over triangles that share a vertex position,
-/// split where faces meet at more than `crease` radians).
+/// Gives every mesh without normals smooth ones: area-weighted means over the triangles that share a vertex position.
+/// Vertices are split where faces meet at more than `crease` radians.
 HOGEL_API void add_missing_normals(Scene& scene, double crease);
 
-/// Throws Error(bad_input) naming the mesh, the element and what was expected: an index out of range, a coordinate that
-/// is not finite, an attribute list of the wrong length, no triangles at all.
+/// Throws Error(bad_input), which names the mesh, the element and what was expected, for an index out of range, a
+/// coordinate that is not finite, an attribute list of the wrong length, and a scene without triangles.
 HOGEL_API void validate(const Scene& scene);
 
 }  // namespace hogel

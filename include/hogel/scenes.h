@@ -13,52 +13,53 @@
 
 namespace hogel {
 
-/// A scene that is made by a program rather than read from a file.
+/// A scene that is generated instead of read from a file.
 struct SceneInfo {
-    std::string name;
+    std::string name;  ///< by which make_scene() finds it
     std::string text;  ///< one line
-    /// For a square hologram with the given side (metres): the scene's size and its depths scale with it.
+    /// The scene for a square hologram with the given side (metres), with which its size and depths scale.
     std::function<Scene(double hologram_size, const Progress& progress)> make;
 };
 
-/// The built-in scenes.
+/// The built-in scenes by name.
 HOGEL_API Table<SceneInfo>& scenes();
 
-/// Makes the scene of that name. Throws Error(usage) for an unknown name, with the names that exist, and for a size
-/// that is not positive.
+/// Makes the scene of that name. Throws Error(usage) for an unknown name and for a size that is not positive.
 HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Progress& progress = {});
 
 /// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
 /// colours and base-colour textures, glTF's metallic-roughness materials, with all node transforms applied, in the
-/// file's own units and axes. What an unlit material shows becomes given radiance. Adds missing normals. Files outside
-/// the mesh's own folder are not opened. The scene has no lights: see add_default_lights. Throws Error(bad_input) with
-/// one line: the file, and what is missing, damaged or out of range.
+/// file's own units and axes. The colour of an unlit material becomes given radiance. Missing normals are added. Files
+/// outside the mesh's own folder are not opened. The scene has no lights: see add_default_lights(). Throws
+/// Error(bad_input) with one line: the file, and what is missing, damaged or out of range.
 HOGEL_API Scene import_scene(const std::filesystem::path& path);
 
-/// Where a fitted scene goes.
+/// The size and position of a fitted scene.
 struct Fit {
-    double width = 0, height = 0;  ///< the hologram's size, metres: the scene fills `fill` of it when seen head-on
-    double fill = 0.85;
-    double front = 0;  ///< how much of the scene's depth stands in front of the plane: 0 none (it begins at the
-                       ///< plane), 1 all of it, 0.5 the plane cuts through its middle, −1 it begins as far behind
-                       ///< the plane as it is deep
+    double width = 0;    ///< of the hologram, metres
+    double height = 0;   ///< of the hologram, metres
+    double fill = 0.85;  ///< share of the hologram's width or height that the scene fills, seen head-on
+    double front = 0;    ///< share of the scene's depth that lies in front of the hologram plane: 0 none (it begins at
+                       ///< the plane), 0.5 the plane cuts through its middle, 1 all of it; −1: it begins its own depth
+                       ///< behind the plane
 };
 
-/// Scales a scene uniformly and moves it so that it is centred on the hologram and lies about the plane as `fit` says.
-/// Lights move along (point lights keep the look: intensities scale with the square of the length).
+/// Scales a scene uniformly and moves it so that it is centred on the hologram, at the depth that `fit` says. Lights
+/// move along; the intensities of point lights scale with the square of the length, which keeps irradiances. Throws
+/// Error(usage) for sizes that are not positive, and Error(bad_input) for a scene without width and height.
 HOGEL_API void fit_scene(Scene& scene, const Fit& fit);
 
-/// A key light from the upper left in front, a weaker fill light from the right and a little ambient light, for scenes
-/// that bring no lights. Directional, so independent of the scene's size.
+/// Adds a key light from the upper left in front, a weaker fill light from the right and a little ambient light, for
+/// scenes without lights. Both are directional, hence independent of the scene's size.
 HOGEL_API void add_default_lights(Scene& scene);
 
-/// Writes a scene with given radiance as a binary glTF file (.glb), in metres and in the world frame: the radiance of a
-/// vertex is its colour (linear, 32-bit floats, above 1 where it is), the materials are unlit (KHR_materials_unlit),
-/// and a texture that multiplies the radiance travels inside as PNG. import_scene() reads it back. Throws
-/// Error(bad_input) for a mesh without radiance, Error(usage) for another kind of name, Error(cannot_write).
+/// Writes a scene with given radiance as a binary glTF file (.glb), in metres and in the world frame. The radiance of a
+/// vertex is its colour (linear 32-bit floats, which may exceed 1), the materials are unlit (KHR_materials_unlit), and
+/// a texture that multiplies the radiance is embedded as PNG. import_scene() reads it back. Throws Error(bad_input) for
+/// a mesh without radiance, Error(usage) for a name that does not end in .glb, Error(cannot_write).
 HOGEL_API void write_baked_scene(const std::filesystem::path& path, const Scene& scene);
 
-/// Throws Error(usage) for a name that write_baked_scene() would refuse, before there is a scene to lose.
+/// Throws Error(usage) for a name that write_baked_scene() would refuse: a check before the scene is baked.
 HOGEL_API void require_baked_scene_name(const std::filesystem::path& path);
 
 }  // namespace hogel

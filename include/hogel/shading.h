@@ -26,7 +26,7 @@ class RadianceCache;
 
 /// A shading model: where the light on surfaces is evaluated. Source: [K] 5.8.
 struct ShadingInfo {
-    std::string name;
+    std::string name;  ///< of ShadingOptions::model
     std::string text;  ///< one line
     /// Lights a scene. `shaded` has the scene's geometry and textures and the radiance that meshes bring; the radiance
     /// of other vertices is zero. The function either sets that and returns null, or returns the lighting of samples.
@@ -47,6 +47,7 @@ struct ShadingInfo {
 ///   given     each vertex brings its radiance
 HOGEL_API Table<ShadingInfo>& shading_models();
 
+/// How shade_scene() evaluates light.
 struct ShadingOptions {
     std::string model = "vertex";   ///< a name of shading_models()
     std::size_t shadow_map = 512;   ///< texels along a side of a shadow map (twice that across a directional light)
@@ -85,7 +86,9 @@ class HOGEL_API Texture {
     Rgb sample(TextureCoordinate at, double width) const;
     /// Number of texels of the finest level, which covers the unit square of texture coordinates.
     double texels() const { return static_cast<double>(finest_->width()) * static_cast<double>(finest_->height()); }
+    /// Whether there are coarser levels; never for a picture of one texel.
     bool filtered() const { return !coarser_.empty(); }
+    /// The finest level.
     const std::shared_ptr<const Image>& picture() const { return finest_; }
 
   private:
@@ -109,6 +112,7 @@ class HOGEL_API SampleLighting {
     struct Size {
         std::size_t values = 0;  ///< non-negative numbers of any size, which come first
         std::size_t shares = 0;  ///< numbers between 0 and 1
+        /// Length of the list of numbers.
         std::size_t sum() const { return values + shares; }
     };
 
@@ -132,20 +136,22 @@ class HOGEL_API SampleLighting {
 /// A scene ready for any renderer: one list of triangles, and their light. Without `lighting` the radiance at a point
 /// of a triangle is the interpolated vertex radiance times the texture. Renderers share a scene by a pointer to const.
 struct ShadedScene {
+    /// Triangle::texture of a triangle without texture.
     static constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
 
+    /// A triangle of any mesh.
     struct Triangle {
-        std::array<std::uint32_t, 3> vertices;
-        std::uint32_t texture = no_texture;  ///< index into `textures`
-        std::uint32_t mesh = 0;              ///< index of the mesh that it came from
+        std::array<std::uint32_t, 3> vertices;  ///< indices into `positions`, counterclockwise from its front
+        std::uint32_t texture = no_texture;     ///< index into `textures`
+        std::uint32_t mesh = 0;                 ///< index of the mesh that it came from
     };
 
     std::vector<Vec3> positions;  ///< metres, world frame
     std::vector<Rgb> radiance;    ///< at the vertices, before the texture: reflected light plus emission
     std::vector<TextureCoordinate> texture_coordinates;  ///< as long as `positions`
-    std::vector<Triangle> triangles;
-    std::vector<Texture> textures;
-    Rgb background;
+    std::vector<Triangle> triangles;                     ///< of all meshes, in the order of the scene
+    std::vector<Texture> textures;                       ///< each picture of the scene once
+    Rgb background;                                      ///< radiance of rays that meet nothing
     /// Whether triangles are seen from their front only, where their corners run counterclockwise. Light falls on both
     /// sides, and both sides cast shadows.
     bool fronts_only = false;

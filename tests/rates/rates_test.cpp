@@ -31,24 +31,21 @@ using namespace literals;
 constexpr double max_bytes_off = 0.01;  // relative
 constexpr double max_sqnr_off = 0.05;   // decibels
 
-using Faces = std::vector<std::unique_ptr<LightFieldSource>>;
-
-std::unique_ptr<LightFieldSource> rendered(const std::shared_ptr<const ShadedScene>& scene,
-                                           const LightFieldGrid& grid) {
-    auto field = std::make_unique<LightFieldBuffer>(grid);
+LightField::Source rendered(const std::shared_ptr<const ShadedScene>& scene, const LightFieldGrid& grid) {
+    auto field = std::make_shared<LightFieldBuffer>(grid);
     copy(*make_renderer("raytrace", scene, grid), *field);
     return field;
 }
 
-Faces render(const char* name, double size, const std::vector<LightFieldGrid>& grids) {
+LightField render(const char* name, double size, const std::vector<LightFieldGrid>& grids) {
     const auto scene = std::make_shared<const ShadedScene>(shade_scene(make_scene(name, size), {}));
-    Faces faces;
+    std::vector<LightField::Source> faces;
     for (const LightFieldGrid& grid : grids) faces.push_back(rendered(scene, grid));
-    return faces;
+    return LightField(std::move(faces));
 }
 
 // Waves on a plane behind the hologram and on one in front of it, which no sampling misses.
-Faces smooth() {
+LightField smooth() {
     const LightFieldGrid grid{16, 16, 0.5_mm, 32, 32, Perspective{0.15, 0.15}, 1};
     auto field = std::make_unique<LightFieldBuffer>(grid);
     const auto wave = [&](std::size_t s, std::size_t t, std::size_t u, std::size_t v, double depth, double period) {
@@ -62,24 +59,23 @@ Faces smooth() {
                 for (std::size_t u = 0; u < 32; ++u)
                     field->radiance(0, t, s, v, u) = static_cast<float>(1 + 0.3 * wave(s, t, u, v, 20_mm, 2_mm) +
                                                                         0.2 * wave(s, t, u, v, -12_mm, 1.5_mm));
-    Faces faces;
-    faces.push_back(std::move(field));
-    return faces;
+    return field;
 }
 
-Faces make_light_field(const std::string& name) {
+LightField make_light_field(const std::string& name) {
     const double pitch = 6_mm / 16;
     if (name == "smooth") return smooth();
     if (name == "pumpkin") return render("pumpkin", 6_mm, {{16, 16, pitch, 32, 32, Perspective{0.14, 0.14}, 3}});
     if (name == "church") return render("church", 6_mm, {{12, 12, 6_mm / 12, 40, 40, Perspective{0.14, 0.14}, 3}});
     // Horizontal parallax only: a single row of directions.
     if (name == "pumpkin-row") return render("pumpkin", 6_mm, {{24, 32, 6_mm / 32, 48, 1, Perspective{0.14, 0.01}, 3}});
-    if (name == "pumpkin-hemicube") return render("pumpkin", 6_mm, hemicube({8, 8, 6_mm / 8, 24, 24, Perspective{1, 1}, 3}));
+    if (name == "pumpkin-hemicube")
+        return render("pumpkin", 6_mm, hemicube({8, 8, 6_mm / 8, 24, 24, Perspective{1, 1}, 3}));
     throw Error(ErrorCode::usage, "no light field of that name: " + name);
 }
 
-const Faces& light_field(const std::string& name) {
-    static std::map<std::string, Faces> made;
+const LightField& light_field(const std::string& name) {
+    static std::map<std::string, LightField> made;
     const auto found = made.find(name);
     return found != made.end() ? found->second : made.emplace(name, make_light_field(name)).first->second;
 }
@@ -109,11 +105,9 @@ Row measured(Row row) {
     options.method.coder = row.coder;
     options.layout = layout_of(row.layout);
     options.target = target_of(row.target);
-    std::vector<const LightFieldSource*> faces;
-    for (const auto& face : light_field(row.scene)) faces.push_back(face.get());
     const std::filesystem::path path =
         std::filesystem::temp_directory_path() / fmt::format("hogel_rates_{}.hgl", getpid());
-    const CompressionResult result = compress(borrow(faces), path, options);
+    const CompressionResult result = compress(light_field(row.scene), path, options);
     std::filesystem::remove(path);
     row.sqnr = result.sqnr;
     row.bytes = result.bytes;

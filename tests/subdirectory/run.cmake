@@ -1,4 +1,4 @@
-# Configures the project beside this file, builds it without optimisation, and runs it.
+# Configures the project beside this file; with BUILD=ON builds it without optimisation, too, and runs it.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -12,5 +12,8 @@ if(LAUNCHER)
 endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR} -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX} ${launcher}
     -D "CMAKE_CXX_FLAGS=-O0 -g0" -D HOGEL_SOURCE_DIR=${SOURCE_DIR} -D BUILD_SHARED_LIBS=OFF)
+if(NOT BUILD)
+  return()
+endif()
 run(${CMAKE_COMMAND} --build ${WORK_DIR} --parallel 2 --target contains_hogel)
 run(${WORK_DIR}/contains_hogel)

@@ -20,7 +20,8 @@ using namespace format;
 
 namespace {
 
-// Floats as whole numbers in the same order, without the bits that are zero in all floats of a tile.
+// The rule of "lossless": floats as whole numbers in the same order, without the lowest bits that are zero in all
+// samples of a tile.
 class Ordered {
   public:
     explicit Ordered(int zero_bits) : zero_bits_(zero_bits) {}
@@ -29,7 +30,7 @@ class Ordered {
         const auto bits = std::bit_cast<std::uint32_t>(value);
         return (bits >> 31 ? ~bits : bits | 1u << 31) >> zero_bits_;
     }
-    // The nearest that there is.
+    // The number of the nearest float that has these lowest bits zero.
     std::uint32_t nearest(float value) const {
         const std::uint32_t exact = Ordered(0).number(value), half = zero_bits_ > 0 ? 1u << (zero_bits_ - 1) : 0;
         return (exact > ~half ? exact : exact + half) >> zero_bits_;
@@ -47,7 +48,7 @@ class Ordered {
             zero_bits = std::min(zero_bits, std::countr_zero(std::bit_cast<std::uint32_t>(value)));
         return Ordered(zero_bits);
     }
-    // Beside it: whether each hogel has a code of its own, not each row.
+    // Reads the rule, and whether each hogel has a code of its own rather than each row.
     static std::pair<Ordered, bool> take(ByteReader& reader) {
         const auto bits = reader.take<std::uint8_t>();
         const int zero_bits = bits & (hogels_apart - 1);
@@ -58,10 +59,10 @@ class Ordered {
         writer.put(static_cast<std::uint8_t>(zero_bits_ | (apart ? hogels_apart : 0)));
     }
 
-    // Special: +0.
+    // Special means +0.
     Residual residual(float value, float prediction) const {
         if (std::bit_cast<std::uint32_t>(value) == 0) return {0, true};
-        // Differences go around, in as many bits as numbers have.
+        // Differences wrap around at the number of bits that numbers have.
         const std::uint32_t difference = number(value) - nearest(prediction);
         return {static_cast<std::int32_t>(difference << zero_bits_) >> zero_bits_, false};
     }
@@ -80,17 +81,17 @@ class Ordered {
     int zero_bits_;
 };
 
-// Steps of twice the error from the prediction. Special: the float itself follows.
+// The rule of "bounded": steps of twice the error from the prediction. Special means that the float itself follows.
 class Bounded {
   public:
     explicit Bounded(double max_error) : max_error_(max_error) {}
 
     static constexpr bool keeps_every_bit = false;
     static Bounded for_tile(const LightFieldTile&, double max_error) { return Bounded(max_error); }
-    // The sign says whether each hogel has a code of its own.
+    // A negative bound means that each hogel has a code of its own.
     static std::pair<Bounded, bool> take(ByteReader& reader) {
         const double max_error = reader.take_double();
-        if (!(max_error != 0 && std::isfinite(max_error))) reader.damaged("its bound is no bound");
+        if (!(max_error != 0 && std::isfinite(max_error))) reader.damaged("its bound is impossible");
         return {Bounded(std::abs(max_error)), max_error < 0};
     }
     void put(ByteWriter& writer, bool apart) const { writer.put(apart ? -max_error_ : max_error_); }
@@ -102,7 +103,7 @@ class Bounded {
         const double steps = std::nearbyint((static_cast<double>(value) - prediction) / (2 * max_error_));
         if (!(std::abs(steps) < 1 << 30)) return {0, true};
         const Residual found{static_cast<std::int32_t>(steps), false};
-        // Rounding to a float may lead out of the bound.
+        // Rounding to a float may exceed the bound.
         const double error = static_cast<double>(restore(found, prediction)) - value;
         return std::abs(error) <= max_error_ ? found : Residual{0, true};
     }
@@ -116,18 +117,18 @@ class Bounded {
     double max_error_;
 };
 
-// Bytes of a hogel from which on a code of its own costs less than half a per cent.
+// With this many bytes or more, a code of its own for each hogel costs less than half a per cent.
 constexpr std::size_t min_own_code = 16384;
 
-// What the coder of the prediction can work with.
-float tamed(float value) { return std::isfinite(value) ? std::clamp(value, -0x1p60f, 0x1p60f) : 0; }
+// The nearest value that the coder of the prediction takes.
+float codable_prediction(float value) { return std::isfinite(value) ? std::clamp(value, -0x1p60f, 0x1p60f) : 0; }
 
-// Calls use(at, context) for the samples of a hogel, by their places in the tile, which returns what is left there.
+// Calls use(index in the tile, context) for the samples of a hogel, which returns the residual.
 template <class Use>
 void for_each_sample(const LightFieldTile& tile, std::size_t t, std::size_t s, const DirectionCross& counted,
                      Use&& use) {
     const auto& shape = tile.radiance.shape();
-    std::vector<ResidualsAround> around;
+    std::vector<ResidualContexts> around;
     for (std::size_t c = 0; c < shape[0]; ++c) {
         around.emplace_back(shape[4], shape[3]);
         for (std::size_t v = 0; v < shape[3]; ++v) {
@@ -140,7 +141,7 @@ void for_each_sample(const LightFieldTile& tile, std::size_t t, std::size_t s, c
     }
 }
 
-// The parts of a tile's bytes.
+// The contents of a tile's bytes.
 template <class Rule>
 struct ExactTile {
     std::span<const std::uint8_t> prediction;
@@ -161,14 +162,14 @@ struct ExactTile {
         return tile;
     }
 
-    // Hogels of a row, as many as a code has, in place of their prediction.
+    // Decodes the hogels of one code, whose first is (t, s), in place of their prediction.
     void decode(std::size_t code, LightFieldTile& tile, std::size_t t, std::size_t s,
                 const DirectionCross& counted) const {
         const ByteReader whole({}, "tile");
         ResidualReader reader(codes[code]);
         const auto models = std::make_unique<ResidualModels>();
         for (const std::size_t end = hogels_apart ? s + 1 : tile.range.ns; s < end; ++s)
-            for_each_sample(tile, t, s, counted, [&](std::size_t at, const ResidualsAround::Context& context) {
+            for_each_sample(tile, t, s, counted, [&](std::size_t at, const ResidualContexts::Context& context) {
                 const Residual residual = code_residual(reader, *models, context, {});
                 float& value = tile.radiance.data()[at];
                 value = residual.special ? rule.code_special(reader, 0) : rule.restore(residual, value);
@@ -179,7 +180,7 @@ struct ExactTile {
     }
 };
 
-// A tile decoded as far as it is asked for: by hogels, or rows of them. What has been decoded stays.
+// A tile decoded as far as it is read, by hogels or by rows of them. What has been decoded is kept.
 template <class Rule>
 class ExactDecoder final : public TileDecoder {
   public:
@@ -194,7 +195,7 @@ class ExactDecoder final : public TileDecoder {
           decoded_(range.hogels()) {}
 
     void read(LightFieldTile& part) override {
-        // A thread that waits inside must not begin something else that waits for this tile.
+        // A thread that waits inside must not start other work that waits for this tile.
         core::isolate([&] {
             const std::lock_guard lock(mutex_);
             HogelRange coded = part.range;  // whole codes
@@ -243,14 +244,14 @@ class ExactDecoder final : public TileDecoder {
 template <class Rule>
 class ExactCoder final : public TileCoder {
   public:
-    // @param max_error   for encode(), of the rules that have one
+    // @param max_error   for encode(), if the rule has one
     ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted, double max_error)
         : predictor_(make_hogel_coder(grid, counted)), counted_(counted), max_error_(max_error) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override { return predictor_->preferred_tile(grid); }
     std::size_t max_at_once() const override { return predictor_->max_at_once(); }
     bool takes_any_value() const override { return true; }
-    // Those of the prediction, and what is left.
+    // Those of the prediction, and the residuals.
     std::size_t layers(const HogelRange& tile) const override { return predictor_->layers(tile) + 1; }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
@@ -293,11 +294,11 @@ class ExactCoder final : public TileCoder {
         return predictor_->open({bytes.begin(), bytes.end()}, grid, range, levels);
     }
 
-    // Returns the prediction, and where its layers end.
+    // Returns the decoded prediction, and where its layers end.
     std::pair<LightFieldTile, std::vector<std::size_t>> encode_prediction(const LightFieldTile& tile, double step,
                                                                           ByteWriter& writer) const {
         LightFieldTile prediction = tile;
-        for (float& value : prediction.radiance.elements()) value = tamed(value);
+        for (float& value : prediction.radiance.elements()) value = codable_prediction(value);
         auto [code, error, layers] = predictor_->encode(prediction, step);
         writer.put(static_cast<std::uint32_t>(code.size()));
         for (std::size_t& end : layers) end += writer.bytes.size();
@@ -306,7 +307,7 @@ class ExactCoder final : public TileCoder {
         return {std::move(prediction), std::move(layers)};
     }
 
-    // Whether hogels are large enough to have codes of their own, going by a row in the middle.
+    // Whether hogels are large enough for codes of their own, judged by the row in the middle.
     bool hogels_apart(const LightFieldTile& tile, const Rule& rule, const LightFieldTile& prediction) const {
         std::vector<std::size_t> bytes(tile.range.ns);
         core::parallel_for(bytes.size(), [&](std::size_t s) {
@@ -315,15 +316,14 @@ class ExactCoder final : public TileCoder {
         return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= min_own_code * bytes.size();
     }
 
-    // Hogels of a row from one to another. Where `decoded` is given, which may be the prediction, it gets their
-    // samples.
+    // Codes the hogels begin to end of a row. `decoded` gets their samples; it may be null, or the prediction.
     std::vector<std::uint8_t> encode_code(const LightFieldTile& tile, const Rule& rule,
                                           const LightFieldTile& prediction, std::size_t t, std::size_t begin,
                                           std::size_t end, LightFieldTile* decoded) const {
         ResidualWriter writer;
         const auto models = std::make_unique<ResidualModels>();
         for (std::size_t s = begin; s < end; ++s)
-            for_each_sample(tile, t, s, counted_, [&](std::size_t at, const ResidualsAround::Context& context) {
+            for_each_sample(tile, t, s, counted_, [&](std::size_t at, const ResidualContexts::Context& context) {
                 const float value = tile.radiance.data()[at];
                 const float predicted = prediction.radiance.data()[at];
                 const Residual residual = rule.residual(value, predicted);
@@ -336,7 +336,7 @@ class ExactCoder final : public TileCoder {
         return writer.encoder.finish();
     }
 
-    // Replaces the prediction by what decoding gives.
+    // Replaces the prediction by the decoded samples.
     void encode_codes(const LightFieldTile& tile, const Rule& rule, LightFieldTile& prediction, bool apart,
                       ByteWriter& bytes) const {
         const std::size_t across = apart ? tile.range.ns : 1, a_code = tile.range.ns / across;

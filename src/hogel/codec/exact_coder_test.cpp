@@ -23,7 +23,7 @@ CompressionOptions lossless() {
     return options;
 }
 
-CompressionOptions within(double error) {
+CompressionOptions bounded(double error) {
     CompressionOptions options;
     options.target = MaxError{error};
     options.tile = HogelRange{0, 0, 4, 3};
@@ -36,7 +36,7 @@ LightFieldBuffer through(const LightFieldBuffer& field, const CompressionOptions
     const CompressionResult found = compress(field, folder / "a.hgl", options);
     if (result) *result = found;
     LightFieldBuffer decoded(field.grid());
-    copy(*open_front(folder / "a.hgl"), decoded);
+    copy(open_stream(folder / "a.hgl").front(), decoded);
     return decoded;
 }
 
@@ -47,8 +47,8 @@ void expect_same_bits(const LightFieldBuffer& a, const LightFieldBuffer& b) {
             << i;
 }
 
-// Some samples are what no light is.
-LightFieldBuffer with_oddities(std::size_t channels) {
+// Some samples are negative, not finite, subnormal or very large.
+LightFieldBuffer with_odd_values(std::size_t channels) {
     LightFieldBuffer field = textured_planes(5, 4, 13, 11, channels);
     const float odd[] = {
         infinity, -infinity, std::bit_cast<float>(0x7FC12345u), std::bit_cast<float>(0xFF800001u),    -0.0f, 0.0f,
@@ -57,12 +57,12 @@ LightFieldBuffer with_oddities(std::size_t channels) {
     return field;
 }
 
-// The nearest float with ten bits behind the point, as half floats have.
+// The nearest float with a significand of ten bits, as half floats have.
 float ten_bits(float value) { return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) + 0x1000u) & ~0x1FFFu); }
 
 TEST(Lossless, every_bit_comes_back) {
     for (const std::size_t channels : {1, 3}) {
-        const LightFieldBuffer field = with_oddities(channels);
+        const LightFieldBuffer field = with_odd_values(channels);
         CompressionResult result;
         expect_same_bits(field, through(field, lossless(), &result));
         EXPECT_EQ(result.sqnr, infinity);
@@ -74,8 +74,7 @@ TEST(Lossless, every_bit_comes_back) {
     expect_same_bits(dark, through(dark, lossless()));
 }
 
-// Noise of any bits at all cannot become smaller, but not much larger either.
-TEST(Lossless, noise_takes_little_more_than_it_is) {
+TEST(Lossless, random_bits_take_at_most_a_tenth_more) {
     LightFieldBuffer field = textured_planes(6, 6, 32, 24, 1);
     std::uint32_t k = 0;
     for (float& value : field.radiance.elements())
@@ -85,8 +84,8 @@ TEST(Lossless, noise_takes_little_more_than_it_is) {
     EXPECT_LT(double(result.bytes), 1.1 * 4 * 6 * 6 * 32 * 24);
 }
 
-// What half floats hold takes fewer bits than their 16, as it is predicted, and the other 16 of a float none.
-TEST(Lossless, half_floats_cost_no_more_than_half_floats) {
+// They take fewer than their 16 bits, as they are predicted; the other 16 bits of a float take none.
+TEST(Lossless, half_floats_take_less_than_16_bits) {
     LightFieldBuffer field = textured_planes(8, 8, 32, 32, 1);
     for (float& value : field.radiance.elements()) value = ten_bits(value);
     CompressionResult result;
@@ -94,12 +93,12 @@ TEST(Lossless, half_floats_cost_no_more_than_half_floats) {
     EXPECT_GT(result.pixels_per_bit, 1 / 9.0);
 }
 
-TEST(Bounded, no_sample_is_farther_off_than_asked) {
-    const LightFieldBuffer field = with_oddities(3);
+TEST(Bounded, every_sample_is_within_the_bound) {
+    const LightFieldBuffer field = with_odd_values(3);
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
     for (const double error : {1e-9, 1e-6, 1e-3, 0.01, 0.2}) {
         CompressionResult result;
-        const LightFieldBuffer decoded = through(field, within(error), &result);
+        const LightFieldBuffer decoded = through(field, bounded(error), &result);
         double largest = 0;
         for (std::size_t i = 0; i < field.radiance.size(); ++i) {
             const float truth = field.radiance.data()[i], found = decoded.radiance.data()[i];
@@ -114,18 +113,18 @@ TEST(Bounded, no_sample_is_farther_off_than_asked) {
     }
 }
 
-TEST(Bounded, says_the_sqnr_that_it_has) {
+TEST(Bounded, returns_the_sqnr_that_decoding_gives) {
     const LightFieldBuffer field = textured_planes(6, 5, 20, 16, 1);
     CompressionResult result;
-    const LightFieldBuffer decoded = through(field, within(0.01), &result);
+    const LightFieldBuffer decoded = through(field, bounded(0.01), &result);
     EXPECT_NEAR(sqnr_of(field, decoded), result.sqnr, 1e-6);
     EXPECT_GT(result.sqnr, 35);
 }
 
 TEST(Exact, bytes_do_not_depend_on_threads) {
     const TestFolder folder;
-    const LightFieldBuffer field = with_oddities(3);
-    for (const CompressionOptions& options : {lossless(), within(0.01)}) {
+    const LightFieldBuffer field = with_odd_values(3);
+    for (const CompressionOptions& options : {lossless(), bounded(0.01)}) {
         std::vector<std::vector<std::uint8_t>> files;
         for (const std::size_t threads : {1, 3}) {
             const ThreadLimit limit(threads);
@@ -142,20 +141,20 @@ TEST(Exact, other_coders_are_refused) {
     CompressionOptions options = lossless();
     options.method = {"ezw", "haar"};
     EXPECT_THROW(compress(field, folder / "a.hgl", options), Error);
-    EXPECT_THROW(compress(field, folder / "a.hgl", within(-1)), Error);
+    EXPECT_THROW(compress(field, folder / "a.hgl", bounded(-1)), Error);
 }
 
-// Large hogels have codes of their own, small ones one a row; any part of a tile is read the same.
-TEST(Exact, reads_any_hogels_the_same) {
+// Large hogels have codes of their own, small ones one for each row.
+TEST(Exact, any_range_has_the_samples_of_the_whole) {
     const TestFolder folder;
     for (const std::size_t directions : {std::size_t{16}, std::size_t{128}}) {
         const LightFieldBuffer field = textured_planes(5, 4, directions, directions, 1);
         compress(field, folder / "a.hgl", lossless());
         for (const HogelRange& range : {HogelRange{3, 2, 1, 1}, {1, 0, 3, 3}, {0, 3, 5, 1}, {4, 1, 1, 2}}) {
-            const auto source = open_front(folder / "a.hgl");
+            const LightField source = open_stream(folder / "a.hgl");
             for (const HogelRange& next : {range, HogelRange{0, 0, 5, 4}}) {
                 LightFieldTile tile(field.grid(), next, false), expected = tile;
-                source->read(tile);
+                source.front().read(tile);
                 field.read(expected);
                 for (std::size_t k = 0; k < tile.radiance.size(); ++k)
                     ASSERT_EQ(tile.radiance.data()[k], expected.radiance.data()[k]) << directions;
@@ -164,9 +163,9 @@ TEST(Exact, reads_any_hogels_the_same) {
     }
 }
 
-// Whatever the bytes are, decoding ends, in an Error(bad_input) or with a tile.
-TEST(Exact, bytes_of_any_kind_do_no_harm) {
-    const LightFieldBuffer field = with_oddities(1);
+// Decoding ends with a tile or in an Error(bad_input).
+TEST(Exact, damaged_bytes_do_no_harm) {
+    const LightFieldBuffer field = with_odd_values(1);
     LightFieldTile tile(field.grid(), {0, 0, 2, 1}, false);
     field.read(tile);
     const auto try_coder = [&](const TileCoder& coder) {

@@ -13,6 +13,8 @@
 
 #include "hogel/codec/decode/hogel_decoder.h"
 #include "hogel/codec/encode/analysis.h"
+#include "hogel/codec/encode/disparity_estimate.h"
+#include "hogel/codec/encode/rate_weight.h"
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/format/model_states.h"
 #include "hogel/codec/format/pictures.h"
@@ -25,46 +27,48 @@ using namespace format;
 
 namespace {
 
-constexpr std::size_t preferred_side = 32;  // where prediction gains little more
+// Larger tiles gain little (docs/decisions/0035-codec-tile-size.md).
+constexpr std::size_t preferred_side = 32;
 constexpr std::size_t preferred_samples = std::size_t{1} << 27;
-// How the step grows from one level of the order to the next. What all hogels share is best told once and finely.
+// Growth of the step from one layer to the next. What all hogels share is best coded once and finely, so the growth
+// depends on how much of the first hogel its neighbours share. In a single row of hogels a layer has twice as many as
+// those before it, not four times, so less is inherited.
 constexpr float expected_growth = 1.35f;
-// In a single row of hogels a level has twice as many as those before it, not four times: less is inherited.
 float growth_for(float shared, bool single_row) {
     const float growth = 1.27f + 0.63f * shared * shared * shared * shared;
     return single_row ? std::cbrt(growth) : growth;
 }
-// References to the left, to the right, above and below. Where hogels are fine enough to be moved by fractions of a
-// direction the nearest ones serve best; otherwise it takes more to choose from.
+// References on each side. The nearest ones are best where their blocks can be shifted by fractions of a direction;
+// otherwise more are needed to choose from (docs/decisions/0031-codec-references-per-side.md).
 constexpr std::uint8_t max_references = 3;
-constexpr std::size_t counted_hogels = 48;    // of a level, for the states of its models
+constexpr std::size_t counted_hogels = 48;    // of a layer, for the initial states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
-// @param truth   with its colours
+// Σ (picture − truth)² over the directions that count; the truth as red, green and blue.
 double squared_error(const Picture& picture, const TileSetup& setup, const Picture& truth,
                      const DirectionCross& counted) {
     double sum = 0;
     for_each_row(picture, setup, [&](std::size_t c, std::size_t v, std::span<const float> row) {
-        const float* wanted = &truth[c].samples[v * truth[c].width];
+        const float* target = &truth[c].samples[v * truth[c].width];
         const auto [begin, end] = counted.columns(v, row.size());
-        sum += squared_difference_of_rows(wanted + begin, row.data() + begin, end - begin);
+        sum += squared_difference_of_rows(target + begin, row.data() + begin, end - begin);
     });
     return sum;
 }
 
-// Of the first hogels the first one has no references, and the others have none near by.
+// Hogels of the first two layers, for which disparities are estimated: they have no references, or only far ones.
 constexpr std::size_t first_hogels = 9;
 using Estimates = std::array<encode::Estimate, first_hogels>;
 
-// RawPixels a tile level by level: decides on all hogels of a level, and then writes their codes, each by itself.
+// Codes a tile layer by layer: decides on all hogels of a layer, and then writes their codes, each independently.
 class TileEncoder {
   public:
-    // @param tile   is used up
+    // @param tile   its radiance is overwritten
     TileEncoder(LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
                 std::uint8_t references)
         : tile_(tile),
           counted_(counted),
-          setup_(HogelOrder(tile.range.ns, tile.range.nt, references, decode::tellers_a_side), grid.directions_u,
+          setup_(HogelOrder(tile.range.ns, tile.range.nt, references, context_references_per_side), grid.directions_u,
                  grid.directions_v, grid.channels, step, expected_growth,
                  static_cast<float>(grid.step_u() / grid.step_v())),
           references_(references),
@@ -77,12 +81,12 @@ class TileEncoder {
     Estimates estimate() const {
         Estimates estimates;
         core::parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
-            if (order_[k].level < 2) estimates[k] = encode::estimate_disparities(setup_, tile_, order_[k]);
+            if (order_[k].layer < 2) estimates[k] = encode::estimate_disparities(setup_, tile_, order_[k]);
         });
         return estimates;
     }
 
-    // Asks after each wave whether to go on, with what error and bytes come to so far. Returns nothing where not.
+    // Is asked after each wavefront whether to go on; then run() returns nothing if not.
     using GoOn = std::function<bool(double error, std::size_t bytes)>;
     std::optional<TileCoder::Encoded> run(const Estimates& estimates, const GoOn& go_on = {}) {
         for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = estimates[k].disparities;
@@ -91,15 +95,16 @@ class TileEncoder {
         bytes_.put(setup_.step.back());
         bytes_.put(growth);
         bytes_.put(references_);
-        const auto& waves = setup_.order.waves();
-        const auto& waves_of_levels = setup_.order.waves_of_levels();
+        const auto& wavefronts = setup_.order.wavefronts();
+        const auto& of_layers = setup_.order.wavefronts_of_layers();
         TileCoder::Encoded result;
-        for (std::size_t level = 0; level + 1 < waves_of_levels.size(); ++level) {
-            for (std::size_t wave = waves_of_levels[level]; wave < waves_of_levels[level + 1]; ++wave) {
-                core::parallel_for(waves[wave + 1] - waves[wave], [&](std::size_t n) { decide(waves[wave] + n); });
+        for (std::size_t layer = 0; layer + 1 < of_layers.size(); ++layer) {
+            for (std::size_t wavefront = of_layers[layer]; wavefront < of_layers[layer + 1]; ++wavefront) {
+                core::parallel_for(wavefronts[wavefront + 1] - wavefronts[wavefront],
+                                   [&](std::size_t n) { decide(wavefronts[wavefront] + n); });
                 if (go_on && !go_on(error(), bytes_.bytes.size())) return std::nullopt;
             }
-            write(waves[waves_of_levels[level]], waves[waves_of_levels[level + 1]]);
+            write(wavefronts[of_layers[layer]], wavefronts[of_layers[layer + 1]]);
             result.layers.push_back(bytes_.bytes.size());
         }
         result.bytes = std::move(bytes_.bytes);
@@ -110,8 +115,8 @@ class TileEncoder {
   private:
     double error() const { return std::accumulate(errors_.begin(), errors_.end(), 0.0); }
 
-    const std::vector<Block>* beside(const HogelOrder::Hogel& hogel) const {
-        return hogel.tellers.empty() ? nullptr : &coded_[hogel.tellers.front().hogel].blocks;
+    const std::vector<Block>* context_blocks(const HogelOrder::Hogel& hogel) const {
+        return hogel.context_references.empty() ? nullptr : &coded_[hogel.context_references.front().hogel].blocks;
     }
 
     void decide(std::size_t k) {
@@ -119,24 +124,26 @@ class TileEncoder {
         const Picture source = picture_of(tile_, setup_, hogel.s, hogel.t);
         Picture truth;
         if (source.size() > 1) truth = copy_of(tile_, setup_, hogel.s, hogel.t);
-        // Nobody looks at this part of the tile any more: what is decoded may lie there.
+        // This part of the tile is not read any more, so the hogel can be reconstructed in place.
         pictures_[k] = setup_.whole_blocks() ? as_in_tile(tile_, setup_, hogel.s, hogel.t) : setup_.blank();
-        const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
-        coded_[k] = encode::analyse(setup_, k, source, moved, beside(hogel),
-                                    k < estimated_.size() ? estimated_[k] : std::vector<std::int16_t>{}, pictures_);
+        const auto warped = warped_blocks(hogel, coded_, setup_.grid, setup_.aspect);
+        encode::KnownDisparities known{{}, warped, context_blocks(hogel)};
+        if (k < estimated_.size()) known.estimated = estimated_[k];
+        coded_[k] = encode::analyse(setup_, k, source, known, pictures_);
         BlockRecorder recorder;
         BlockModelNumbers numbers = numbers_;
-        code_hogel(recorder, numbers, setup_.grid, hogel, moved, beside(hogel), coded_[k]);
+        code_hogel(recorder, numbers, setup_.grid, hogel, warped, known.context_blocks, coded_[k]);
         records_[k] = recorder.finish();
         coded_[k].levels = {};
         coded_[k].candidates = {};
         errors_[k] = squared_error(pictures_[k], setup_, source.size() > 1 ? truth : source, counted_);
-        if (hogel.wave + 2 == setup_.order.waves().size()) pictures_[k] = Picture();  // nothing comes after it
+        if (hogel.wavefront + 2 == setup_.order.wavefronts().size())
+            pictures_[k] = Picture();  // nothing refers to the last wavefront
     }
 
-    // The hogels of a level, from begin to end.
+    // Writes the hogels of a layer, from begin to end.
     void write(std::size_t begin, std::size_t end) {
-        // As many hogels as tell the models' states well enough.
+        // Some of the hogels are enough for the states of the models.
         const std::size_t apart = 1 + (end - begin) / counted_hogels;
         std::vector<BitCount> counts(states_.count());
         for (std::size_t k = begin; k < end; k += apart) count_bits(records_[k], counts);
@@ -151,9 +158,9 @@ class TileEncoder {
         ModelStates(states).code(side, states_);
         CodeLengths lengths;
         for (const auto& code : codes) lengths.code(side, static_cast<std::uint32_t>(code.size()));
-        const std::vector<std::uint8_t> beside_codes = side.finish();
-        bytes_.put(static_cast<std::uint32_t>(beside_codes.size()));
-        bytes_.put(std::span(beside_codes));
+        const std::vector<std::uint8_t> side_information = side.finish();
+        bytes_.put(static_cast<std::uint32_t>(side_information.size()));
+        bytes_.put(std::span(side_information));
         for (const auto& code : codes) bytes_.put(std::span(code));
         states_ = states;
     }
@@ -163,17 +170,17 @@ class TileEncoder {
     TileSetup setup_;
     std::uint8_t references_;
     const std::vector<HogelOrder::Hogel>& order_;
-    std::vector<Picture> pictures_;                                  // in the order
-    std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first ones
+    std::vector<Picture> pictures_;                                  // of the hogels of the order
+    std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first hogels
     std::vector<CodedHogel> coded_;
     const BlockModelNumbers numbers_;
-    std::vector<BlockRecorder::Record> records_;  // what hogels are told, until it is written
+    std::vector<BlockRecorder::Record> records_;  // syntax elements of hogels, until they are written
     std::vector<double> errors_;
     ModelStates states_;
     ByteWriter bytes_;
 };
 
-// A window of directions of a tile, in both directions one or three quarters of the way.
+// A window of directions of a tile, one or three quarters of the way along both axes.
 struct Window {
     LightFieldGrid grid;
     LightFieldTile tile;
@@ -190,13 +197,13 @@ Window window_of(const LightFieldTile& tile, const LightFieldGrid& grid, std::si
     return window;
 }
 
-// Tries numbers of references on two windows of directions of a tile.
+// Compares numbers of references on two windows of directions of a tile.
 class ReferencesTrial {
   public:
     ReferencesTrial(const LightFieldTile& tile, const LightFieldGrid& grid, double step)
         : tile_(tile), grid_(grid), step_(step) {}
 
-    // Squared error, and what bits are worth; only that it is more where it is more than `most`.
+    // Squared error and weighted bits; infinity where that is more than `most`.
     double cost(std::uint8_t references, double most = std::numeric_limits<double>::infinity()) {
         std::array<std::atomic<double>, windows> costs{};
         std::atomic<bool> too_much = false;
@@ -206,7 +213,7 @@ class ReferencesTrial {
             TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(step_), references);
             if (!estimates_[n]) estimates_[n] = encoder.estimate();
             const auto cost = [&](double error, std::size_t bytes) {
-                return error + encode::bit_worth * step_ * step_ * 8 * static_cast<double>(bytes);
+                return error + encode::lambda * step_ * step_ * 8 * static_cast<double>(bytes);
             };
             const auto coded = encoder.run(*estimates_[n], [&](double error, std::size_t bytes) {
                 costs[n] = cost(error, bytes);
@@ -226,11 +233,11 @@ class ReferencesTrial {
     std::array<std::optional<Estimates>, windows> estimates_;
 };
 
-// The number of references that does best on windows. It does not change with every small change of the step, so that
-// a search for a step sees a function without jumps.
+// The best number of references. It is chosen for a rounded step, so that the search for a step sees a function with
+// few jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
     ReferencesTrial trial(tile, grid, std::exp2(std::round(2 * std::log2(step)) / 2));
-    // What costs so much more, or a bit more than that, is farther from the best than what lies between.
+    // Where the extremes differ by this factor, what lies between is not tried.
     constexpr double far = 1.1, rounding = 1e-9;
     const double many = trial.cost(max_references), one = trial.cost(1, far * many);
     std::uint8_t best = many < one ? max_references : 1;
@@ -252,7 +259,7 @@ class HogelCoder final : public TileCoder {
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         std::size_t side = preferred_side;
         while (side > 1 && side * side * decode::samples_in_blocks(grid) > preferred_samples) --side;
-        // Tiles of nearly one size rather than whole ones and a narrow rest.
+        // Tiles of nearly equal sizes rather than full ones and a narrow rest.
         const auto even = [&](std::size_t count) {
             const std::size_t tiles = (count + side - 1) / side;
             return (count + tiles - 1) / tiles;
@@ -263,7 +270,7 @@ class HogelCoder final : public TileCoder {
     std::size_t max_at_once() const override { return 2; }
 
     std::size_t layers(const HogelRange& tile) const override {
-        return static_cast<std::size_t>(HogelOrder::levels(tile.ns, tile.nt));
+        return static_cast<std::size_t>(HogelOrder::layers(tile.ns, tile.nt));
     }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
@@ -281,8 +288,8 @@ class HogelCoder final : public TileCoder {
     }
 
     std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
-                                      const HogelRange& range, std::size_t levels) const override {
-        return std::make_unique<decode::HogelDecoder>(std::move(bytes), grid, range, levels);
+                                      const HogelRange& range, std::size_t layers) const override {
+        return std::make_unique<decode::HogelDecoder>(std::move(bytes), grid, range, layers);
     }
 
   private:

@@ -7,8 +7,8 @@
 
 namespace hogel::codec {
 
-// The coder "hogel" (docs/codec.md): hogels predicted from each other along their disparities, from far apart to side
-// by side.
+// The coder "hogel" (docs/codec.md): hogels are predicted from each other along disparities.
+// @param counted   the directions whose errors count
 std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted = {});
 
 }  // namespace hogel::codec

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/codec/encode/analysis.h"
+#include "hogel/codec/encode/disparity_estimate.h"
 #include "hogel/codec/format/level_syntax.h"
 #include "hogel/codec/test_damage.h"
 #include "hogel/codec/test_fields.h"
@@ -25,7 +25,7 @@ LightFieldTile whole(const LightFieldBuffer& field) {
     return tile;
 }
 
-// A plane with a picture of waves that directions sample well, `disparity` directions away from hogel to hogel.
+// A plane with a pattern that directions sample well and a disparity of `disparity` directions.
 LightFieldBuffer plane_at(double disparity, std::size_t hogels, std::size_t directions, std::size_t directions_v) {
     LightFieldGrid grid{hogels, hogels, 1e-3, directions, directions_v, Perspective{0.3, 0.25}, 1};
     LightFieldBuffer field(grid);
@@ -42,35 +42,35 @@ LightFieldBuffer plane_at(double disparity, std::size_t hogels, std::size_t dire
     return field;
 }
 
-TEST(HogelOrder, reaches_every_hogel_once_and_refers_to_what_was_before) {
+TEST(HogelOrder, has_every_hogel_once_with_references_from_earlier_wavefronts) {
     using Sides = std::pair<std::size_t, std::size_t>;
     for (const auto& [columns, rows] : {Sides{1, 1}, {2, 1}, {1, 7}, {16, 16}, {13, 32}}) {
         const HogelOrder order(columns, rows, 3, 1);
-        ASSERT_EQ(order.levels(), HogelOrder::levels(columns, rows));
+        ASSERT_EQ(order.layers(), HogelOrder::layers(columns, rows));
         const HogelOrder::Hogel& first = order.hogels().front();
         EXPECT_EQ(first.s, (columns - 1) / 2);
         EXPECT_EQ(first.t, (rows - 1) / 2);
         ASSERT_EQ(order.hogels().size(), columns * rows);
         std::vector<bool> seen(columns * rows);
-        ASSERT_EQ(order.waves().back(), order.hogels().size());
-        for (std::size_t wave = 0; wave + 1 < order.waves().size(); ++wave)
-            for (std::size_t k = order.waves()[wave]; k < order.waves()[wave + 1]; ++k) {
+        ASSERT_EQ(order.wavefronts().back(), order.hogels().size());
+        for (std::size_t wavefront = 0; wavefront + 1 < order.wavefronts().size(); ++wavefront)
+            for (std::size_t k = order.wavefronts()[wavefront]; k < order.wavefronts()[wavefront + 1]; ++k) {
                 const HogelOrder::Hogel& hogel = order.hogels()[k];
                 ASSERT_FALSE(seen[hogel.t * columns + hogel.s]);
                 seen[hogel.t * columns + hogel.s] = true;
                 EXPECT_EQ(hogel.references.empty(), k == 0);
-                EXPECT_EQ(hogel.tellers.empty(), k == 0);
+                EXPECT_EQ(hogel.context_references.empty(), k == 0);
                 EXPECT_LE(hogel.references.size(), 12u);
-                // On each side the nearest three that came earlier, and of these the nearest one.
+                // On each side the nearest three earlier ones are references, the nearest one is a context reference.
                 const auto on_same_side = [](const HogelOrder::Reference& a, const HogelOrder::Reference& b) {
                     return a.ds * b.ds > 0 || a.dt * b.dt > 0;
                 };
-                for (std::size_t other = 0; other < order.waves()[wave]; ++other) {
+                for (std::size_t other = 0; other < order.wavefronts()[wavefront]; ++other) {
                     const HogelOrder::Hogel& earlier = order.hogels()[other];
                     if ((earlier.s == hogel.s) == (earlier.t == hogel.t)) continue;
                     const HogelOrder::Reference it{other, int(earlier.s) - int(hogel.s), int(earlier.t) - int(hogel.t)};
                     std::size_t nearer = 0;
-                    for (std::size_t third = 0; third < order.waves()[wave]; ++third) {
+                    for (std::size_t third = 0; third < order.wavefronts()[wavefront]; ++third) {
                         const HogelOrder::Hogel& h = order.hogels()[third];
                         const HogelOrder::Reference r{third, int(h.s) - int(hogel.s), int(h.t) - int(hogel.t)};
                         if ((r.ds == 0) == (r.dt == 0) || !on_same_side(r, it)) continue;
@@ -80,11 +80,11 @@ TEST(HogelOrder, reaches_every_hogel_once_and_refers_to_what_was_before) {
                         return std::ranges::count(list, other, &HogelOrder::Reference::hogel) > 0;
                     };
                     ASSERT_EQ(among(hogel.references), nearer < 3);
-                    ASSERT_EQ(among(hogel.tellers), nearer < 1);
+                    ASSERT_EQ(among(hogel.context_references), nearer < 1);
                 }
-                EXPECT_GE(hogel.level, order.hogels()[k > 0 ? k - 1 : 0].level);
+                EXPECT_GE(hogel.layer, order.hogels()[k > 0 ? k - 1 : 0].layer);
                 for (const HogelOrder::Reference& reference : hogel.references) {
-                    ASSERT_LT(reference.hogel, order.waves()[wave]);  // nothing of its own wave
+                    ASSERT_LT(reference.hogel, order.wavefronts()[wavefront]);
                     const HogelOrder::Hogel& other = order.hogels()[reference.hogel];
                     EXPECT_EQ(std::ptrdiff_t(hogel.s) + reference.ds, std::ptrdiff_t(other.s));
                     EXPECT_EQ(std::ptrdiff_t(hogel.t) + reference.dt, std::ptrdiff_t(other.t));
@@ -94,24 +94,24 @@ TEST(HogelOrder, reaches_every_hogel_once_and_refers_to_what_was_before) {
     }
 }
 
-TEST(Prediction, moves_a_block_by_fractions) {
+TEST(Prediction, shifts_a_block_by_fractions) {
     Plane plane(32, 24);
-    const auto wave = [](double x, double y) { return std::sin(0.6 * x + 0.2) * std::cos(0.5 * y - 0.3 * x); };
+    const auto pattern = [](double x, double y) { return std::sin(0.6 * x + 0.2) * std::cos(0.5 * y - 0.3 * x); };
     for (std::size_t y = 0; y < plane.height; ++y)
         for (std::size_t x = 0; x < plane.width; ++x)
-            plane.samples[y * plane.width + x] = static_cast<float>(wave(double(x), double(y)));
+            plane.samples[y * plane.width + x] = static_cast<float>(pattern(double(x), double(y)));
     for (const Shift shift : {Shift{0, 0}, {64, -128}, {37, 0}, {0, -21}, {-90, 75}}) {
         BlockSamples block;
-        fetch_moved(plane, 8, 8, shift, block);
+        fetch_warped(plane, 8, 8, shift, block);
         for (std::size_t r = 0; r < block_side; ++r)
             for (std::size_t c = 0; c < block_side; ++c)
                 ASSERT_NEAR(block[r * block_side + c],
-                            wave(8 + double(c) + shift.u / 64.0, 8 + double(r) + shift.v / 64.0), 0.01)
+                            pattern(8 + double(c) + shift.u / 64.0, 8 + double(r) + shift.v / 64.0), 0.01)
                     << shift.u << " " << shift.v;
     }
-    // Beyond its edges a plane goes on as they are.
+    // Beyond its borders a plane repeats its outermost samples.
     BlockSamples block;
-    fetch_moved(plane, 24, 16, {64 * 1000, 64 * 1000}, block);
+    fetch_warped(plane, 24, 16, {64 * 1000, 64 * 1000}, block);
     for (const float value : block) EXPECT_NEAR(value, plane.samples.back(), 1e-6);
 }
 
@@ -122,7 +122,7 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
         const TileSetup setup(HogelOrder(9, 9, 3, 1), 64, 48, 1, 0.01f, 1.35f,
                               static_cast<float>(grid.step_u() / grid.step_v()));
         for (const HogelOrder::Hogel& hogel : setup.order.hogels()) {
-            if (hogel.level > 0) break;
+            if (hogel.layer > 0) break;
             std::vector<std::int16_t> estimated = encode::estimate_disparities(setup, tile, hogel).disparities;
             std::ranges::nth_element(estimated, estimated.begin() + std::ptrdiff_t(estimated.size() / 2));
             EXPECT_NEAR(estimated[estimated.size() / 2] / 64.0, disparity, 0.04) << disparity;
@@ -130,11 +130,10 @@ TEST(Prediction, estimates_the_disparity_of_a_plane) {
     }
 }
 
-// A picture that is the same along a direction goes on along it.
-TEST(Prediction, within_goes_on_along_directions) {
+TEST(Prediction, intra_predictors_continue_directions) {
     struct Along {
-        int how;
-        double u, v;  // how far the direction leads
+        int predictor;
+        double u, v;  // the direction
     };
     for (const Along along : {Along{4, -1, 1}, {5, -0.5, 1}, {6, 0.5, 1}, {7, 1, 1}, {8, 1, 0.5}, {9, 1, -0.5}}) {
         Plane plane(32, 24);
@@ -142,18 +141,18 @@ TEST(Prediction, within_goes_on_along_directions) {
             for (std::size_t x = 0; x < plane.width; ++x)
                 plane.samples[y * plane.width + x] = static_cast<float>(along.v * double(x) - along.u * double(y));
         BlockSamples block;
-        predict_within(plane, 8, 8, along.how, block);
+        predict_intra(plane, 8, 8, along.predictor, block);
         for (std::size_t r = 0; r < block_side; ++r)
             for (std::size_t c = 0; c < block_side; ++c) {
-                // What would come from below the block is not known.
+                // Samples below the block are not known.
                 if (along.u > 0 && along.v < 0 && double(r) + 0.5 * double(c + 1) > 7) continue;
                 ASSERT_FLOAT_EQ(block[r * block_side + c], plane.samples[(8 + r) * plane.width + 8 + c])
-                    << along.how << " " << r << " " << c;
+                    << along.predictor << " " << r << " " << c;
             }
     }
 }
 
-// In every basis, and along the axes alone on which it has cosines.
+// In every basis, only along the axes on which it has cosines.
 TEST(Blocks, transform_is_the_orthonormal_cosine_transform) {
     BlockSamples block, coefficients, back;
     for (std::size_t k = 0; k < block_samples; ++k) block[k] = static_cast<float>(std::sin(double(k * k)));
@@ -176,7 +175,7 @@ TEST(Blocks, transform_is_the_orthonormal_cosine_transform) {
     }
 }
 
-// What stands out alone takes a level in a basis of samples, and most of the block's in one of cosines.
+// A single sample takes one level in a basis of samples, but most levels of a block in one of cosines.
 TEST(HogelCoder, single_samples_and_lines_take_few_bits) {
     constexpr std::size_t side = 256;
     LightFieldBuffer field({1, 1, 1e-3, side, side, Perspective{0.3, 0.3}, 1});
@@ -190,7 +189,7 @@ TEST(HogelCoder, single_samples_and_lines_take_few_bits) {
     const auto place = [](std::size_t at, std::uint32_t seed) {
         return 1 + core::philox({static_cast<std::uint32_t>(at / block_side), seed, 0, 0}, {7, 8})[0] % 6;
     };
-    // A sample somewhere in each block; a line across all blocks below each other; across all those side by side.
+    // A sample in each block; a vertical line through all blocks of a column; a horizontal one through those of a row.
     EXPECT_LT(bits_of_a_block([&](std::size_t v, std::size_t u) {
                   const std::size_t block = v / block_side * side + u;
                   return v % block_side == place(block, 1) && u % block_side == place(block, 2) ? 1.0f : 0.0f;
@@ -202,7 +201,6 @@ TEST(HogelCoder, single_samples_and_lines_take_few_bits) {
               30);
 }
 
-// Levels of any size come back, in every basis.
 TEST(Blocks, levels_of_all_bases_come_back) {
     std::vector<Levels> given;
     std::vector<std::uint8_t> basis;
@@ -238,8 +236,7 @@ TEST(Blocks, levels_of_all_bases_come_back) {
     EXPECT_FALSE(reader.ended());
 }
 
-// What one hogel shows, the others show moved: a plane takes nearly no more bytes seen by 64 hogels than by one.
-TEST(HogelCoder, views_of_a_plane_come_nearly_free) {
+TEST(HogelCoder, a_plane_seen_by_64_hogels_takes_few_more_bytes_than_by_one) {
     const LightFieldBuffer field = plane_at(0.6, 8, 96, 64);
     const auto coder = make_hogel_coder(field.grid());
     LightFieldTile one(field.grid(), {0, 0, 1, 1}, false);
@@ -251,8 +248,8 @@ TEST(HogelCoder, views_of_a_plane_come_nearly_free) {
     EXPECT_LT(all.squared_error / 64, 2 * (alone.squared_error + 96 * 64 * step * step / 12));
 }
 
-// Also where hogels are whole blocks, and what is decoded while coding lies in the tile.
-TEST(HogelCoder, error_is_what_decoding_gives) {
+// Also for hogels of whole blocks, which are reconstructed in place in the tile.
+TEST(HogelCoder, returns_the_error_that_decoding_gives) {
     for (const auto& [width, height, channels] :
          {std::array<std::size_t, 3>{21, 19, 3}, {24, 16, 3}, {24, 16, 1}, {17, 8, 1}}) {
         const LightFieldBuffer field = textured_planes(6, 5, width, height, channels);
@@ -272,8 +269,8 @@ TEST(HogelCoder, error_is_what_decoding_gives) {
     }
 }
 
-// Whatever the bytes are, decoding ends, in an Error(bad_input) or with a tile.
-TEST(HogelCoder, bytes_of_any_kind_do_no_harm) {
+// Decoding ends with a tile or in an Error(bad_input).
+TEST(HogelCoder, damaged_bytes_do_no_harm) {
     const LightFieldBuffer field = textured_planes(5, 4, 20, 12, 1);
     const auto coder = make_hogel_coder(field.grid());
     LightFieldTile tile = whole(field);
@@ -293,7 +290,7 @@ TEST(HogelCoder, tiles_that_are_too_large_are_refused) {
     LightFieldTile tile(grid, {0, 0, 65, 1}, false);
     EXPECT_THROW(coder->encode(tile, 0.1), Error);
     EXPECT_LE(coder->preferred_tile(grid).ns, 33u);
-    // A colour light field of 512 × 512 directions: tiles that still fit.
+    // Tiles of a large light field that fit.
     const LightFieldGrid large{128, 128, 1e-3, 512, 512, Perspective{0.3, 0.3}, 3};
     const HogelRange preferred = coder->preferred_tile(large);
     EXPECT_LE(double(preferred.hogels()) * 512 * 512 * 3, 0x1p27);

@@ -25,12 +25,12 @@ CompressionOptions small_tiles(const char* coder, const char* transform) {
     return options;
 }
 
-TEST(Stream, checksum_is_the_one_of_png) {
+TEST(Stream, checksum_is_that_of_png) {
     const std::string text = "123456789";
     EXPECT_EQ(core::checksum({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0xCBF43926u);
 }
 
-TEST(Stream, header_says_what_was_written) {
+TEST(Stream, header_comes_back) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(7, 5, 8, 6, 3);
     compress(field, folder / "a.hgl", small_tiles("ezw", "haar"));
@@ -42,21 +42,21 @@ TEST(Stream, header_says_what_was_written) {
     EXPECT_EQ(info.metadata, (Metadata{{"what", "a test"}, {"", "Ελλάδα"}}));
 }
 
-// Any range of hogels, from any thread and with room for one tile or all, gives the same samples.
-TEST(Stream, reads_any_range_the_same) {
+// From any thread, and with memory for one tile or for all.
+TEST(Stream, any_range_has_the_samples_of_the_whole) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(7, 5, 8, 6, 3);
     compress(field, folder / "a.hgl", small_tiles("threepass", "cdf97"));
     LightFieldBuffer whole(field.grid());
-    copy(*open_front(folder / "a.hgl"), whole);
+    copy(open_stream(folder / "a.hgl").front(), whole);
     for (const std::size_t memory : {std::size_t{1}, std::size_t{5000}, std::size_t{1} << 30}) {
-        const auto source = open_front(folder / "a.hgl", {.memory = memory});
+        const LightField source = open_stream(folder / "a.hgl", {.memory = memory});
         core::parallel_for(200, [&](std::size_t i) {
             HogelRange range{i % 7, i / 7 % 5, 0, 0};
             range.ns = 1 + i % (7 - range.s0);
             range.nt = 1 + i % (5 - range.t0);
             LightFieldTile tile(field.grid(), range, false), expected = tile;
-            source->read(tile);
+            source.front().read(tile);
             whole.read(expected);
             for (std::size_t k = 0; k < tile.radiance.size(); ++k)
                 ASSERT_EQ(tile.radiance.data()[k], expected.radiance.data()[k]);
@@ -64,22 +64,22 @@ TEST(Stream, reads_any_range_the_same) {
     }
 }
 
-// All of the sampling comes back, directions off centre too.
+// Also directions off centre.
 TEST(Stream, keeps_the_grid) {
     const TestFolder folder;
     LightFieldGrid grid{3, 2, 1e-3, 4, 5, Perspective{0.5, 0.7}, 1};
     grid.range().center_u = 0.5;
     grid.range().center_v = -0.75;
     compress(LightFieldBuffer(grid), folder / "a.hgl", small_tiles("threepass", "haar"));
-    EXPECT_TRUE(open_front(folder / "a.hgl")->grid() == grid);
+    EXPECT_TRUE(open_stream(folder / "a.hgl").grid() == grid);
 }
 
-// What reading a damaged file comes to: an error, or nothing.
+// The error that reading a file ends in, if there is one.
 std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
     try {
-        const auto source = open_front(path);
-        LightFieldBuffer field(source->grid());
-        copy(*source, field);
+        const LightField source = open_stream(path);
+        LightFieldBuffer field(source.front().grid());
+        copy(source.front(), field);
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
@@ -110,7 +110,7 @@ TEST(Stream, every_truncation_and_every_flipped_byte_is_noticed) {
     EXPECT_EQ(outcome(folder / "b.hgl"), ErrorCode::bad_input);
 }
 
-// A file that was cut off is refused, unless no more is asked for than it has.
+// A file that was cut off is refused if more layers are asked for than it has.
 TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(9, 5, 24, 16, 1);
@@ -134,24 +134,24 @@ TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
                 write_bytes(folder / "b.hgl", {good.begin(), good.begin() + std::ptrdiff_t(length)});
                 EXPECT_EQ(read_stream_info(folder / "b.hgl").layers_there, layer);
                 LightFieldBuffer coarse(field.grid());
-                copy(*open_front(folder / "b.hgl", {.layers = layer}), coarse);
+                copy(open_stream(folder / "b.hgl", {.layers = layer}).front(), coarse);
                 const double sqnr = sqnr_of(field, coarse);
                 EXPECT_GT(sqnr, length == end ? before : before - 1e-9);
                 before = sqnr;
                 if (layer < layers) {
-                    EXPECT_THROW(open_front(folder / "b.hgl"), Error);
-                    EXPECT_THROW(open_front(folder / "b.hgl", {.layers = layer + 1}), Error);
+                    EXPECT_THROW(open_stream(folder / "b.hgl"), Error);
+                    EXPECT_THROW(open_stream(folder / "b.hgl", {.layers = layer + 1}), Error);
                 }
             }
         }
-        EXPECT_THROW(open_front(folder / "a.hgl", {.layers = layers + 1}), Error);
+        EXPECT_THROW(open_stream(folder / "a.hgl", {.layers = layers + 1}), Error);
         write_bytes(folder / "b.hgl", {good.begin(), good.begin() + std::ptrdiff_t(info.layer_ends[0] - 1)});
         EXPECT_THROW(read_stream_info(folder / "b.hgl"), Error);
     }
 }
 
-// A header whose checksum is right may still lie; it may not make the reader take memory for what it claims.
-TEST(Stream, header_that_lies_is_refused) {
+// With the right checksum; it must not make the reader allocate memory for impossible sizes.
+TEST(Stream, forged_header_does_no_harm) {
     const TestFolder folder;
     compress(textured_planes(4, 3, 4, 4, 1), folder / "a.hgl", small_tiles("threepass", "ai13"));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
@@ -159,7 +159,7 @@ TEST(Stream, header_that_lies_is_refused) {
         write_bytes(folder / "b.hgl", with_number(good, 16 + 8 * field, value));
         return outcome(folder / "b.hgl");
     };
-    EXPECT_EQ(forged(0, 1), std::nullopt);  // that is what it was
+    EXPECT_EQ(forged(0, 1), std::nullopt);  // the true value
     for (std::size_t field = 0; field < 10; ++field)
         for (const std::uint64_t value : {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{1} << 40, ~std::uint64_t{0},
                                           std::uint64_t{0x7FF} << 52}) {
@@ -169,14 +169,14 @@ TEST(Stream, header_that_lies_is_refused) {
     EXPECT_EQ(forged(1, std::uint64_t{1} << 40), ErrorCode::bad_input);
 }
 
-TEST(Stream, other_versions_and_other_files_are_named) {
+TEST(Stream, other_versions_and_other_files_are_refused_by_name) {
     const TestFolder folder;
     compress(textured_planes(2, 2, 4, 4, 1), folder / "a.hgl", small_tiles("threepass", "ai13"));
     std::vector<std::uint8_t> bytes = bytes_of_file(folder / "a.hgl");
     bytes[8] = 9;
     write_bytes(folder / "b.hgl", bytes);
     try {
-        open_front(folder / "b.hgl");
+        open_stream(folder / "b.hgl");
         FAIL();
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("version 9"), std::string::npos);
@@ -186,7 +186,7 @@ TEST(Stream, other_versions_and_other_files_are_named) {
     EXPECT_EQ(outcome(folder / "c.hgl"), ErrorCode::bad_input);
 }
 
-// Two depths and nothing at all, at which no ray is like its neighbour.
+// Depths around two values and infinity, in a pattern without coherence.
 LightFieldBuffer with_depth(std::size_t hogels) {
     const LightFieldBuffer textured = textured_planes(hogels, 3, 11, 9, 3);
     LightFieldBuffer field(textured.grid(), true);
@@ -214,7 +214,7 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
         EXPECT_NEAR(result.depth_error, expected, error > 0 ? 0 : 1e-5);
         EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "d.hgl"));
         LightFieldBuffer decoded(field.grid(), true);
-        copy(*open_front(folder / "d.hgl"), decoded);
+        copy(open_stream(folder / "d.hgl").front(), decoded);
         EXPECT_GE(sqnr_of(field, decoded), 25);
         std::size_t finite = 0;
         for (std::size_t i = 0; i < field.depth.size(); ++i) {
@@ -228,9 +228,9 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
         }
         EXPECT_GT(finite, field.depth.size() / 2);
     }
-    // A part of it, and a light field in which nothing is to be seen.
+    // A part of it, and a light field of infinite depth.
     LightFieldTile part(field.grid(), {1, 1, 3, 2}, true), same(field.grid(), {1, 1, 3, 2}, true);
-    open_front(folder / "d.hgl")->read(part);
+    open_stream(folder / "d.hgl").front().read(part);
     field.read(same);
     for (std::size_t i = 0; i < part.depth.size(); ++i)
         if (std::isfinite(same.depth.data()[i])) {
@@ -240,7 +240,7 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
     std::ranges::fill(empty.depth.elements(), std::numeric_limits<float>::infinity());
     compress(empty, folder / "e.hgl", options);
     LightFieldBuffer decoded(field.grid(), true);
-    copy(*open_front(folder / "e.hgl"), decoded);
+    copy(open_stream(folder / "e.hgl").front(), decoded);
     for (const float depth : decoded.depth.elements()) ASSERT_EQ(depth, std::numeric_limits<float>::infinity());
     EXPECT_THROW(compress(textured_planes(3, 3, 5, 5, 1), folder / "no.hgl", options), Error);
     empty.depth(0, 0, 0, 0) = std::nanf("");
@@ -248,8 +248,8 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
     EXPECT_FALSE(std::filesystem::exists(folder / "no.hgl"));
 }
 
-// Damage in the stream of depths is noticed as any other; who asks for layers of the radiance alone needs none of it.
-TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
+// Layers of the radiance alone can be read without the depth stream.
+TEST(Stream, truncated_or_damaged_depth_is_noticed) {
     const TestFolder folder;
     const LightFieldBuffer field = with_depth(2);
     CompressionOptions options;
@@ -263,9 +263,9 @@ TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
     const auto decodes = [&](const std::vector<std::uint8_t>& bytes, std::size_t wanted) {
         write_bytes(folder / "bad.hgl", bytes);
         try {
-            const auto source = open_front(folder / "bad.hgl", {.layers = wanted});
-            LightFieldTile tile(field.grid(), {0, 0, 2, 3}, source->has_depth());
-            source->read(tile);
+            const LightField source = open_stream(folder / "bad.hgl", {.layers = wanted});
+            LightFieldTile tile(field.grid(), {0, 0, 2, 3}, source.front().has_depth());
+            source.front().read(tile);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::bad_input);
             return false;
@@ -277,7 +277,7 @@ TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
         const std::vector<std::uint8_t> cut(good.begin(), good.begin() + std::ptrdiff_t(length));
         ASSERT_FALSE(decodes(cut, 0)) << length;
         ASSERT_TRUE(decodes(cut, layers)) << length;
-        ASSERT_FALSE(open_front(folder / "bad.hgl", {.layers = layers})->has_depth());
+        ASSERT_FALSE(open_stream(folder / "bad.hgl", {.layers = layers}).has_depth());
     }
     for (std::size_t at = 0; at < good.size(); at += 3) {
         std::vector<std::uint8_t> bad = good;
@@ -287,7 +287,7 @@ TEST(Stream, depth_that_is_cut_off_or_damaged_is_noticed) {
     std::vector<std::uint8_t> longer = good;
     longer.push_back(0);
     EXPECT_FALSE(decodes(longer, 0));
-    // The header ends with how many bytes of depth there are, their error, and where infinity begins.
+    // The header ends with the bytes of depth, their error, and the value that means infinity.
     const std::size_t end = end_of_header(good);
     EXPECT_TRUE(decodes(with_number(good, end - 24, result.depth_bytes), 0));
     for (const std::uint64_t bytes : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{0}})

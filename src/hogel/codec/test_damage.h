@@ -14,7 +14,7 @@
 
 namespace hogel::codec {
 
-/// Whether a tile's bytes are refused, which must be by Error(bad_input).
+/// Whether decoding a tile's bytes throws, which must be Error(bad_input).
 inline bool refuses(const TileCoder& coder, std::span<const std::uint8_t> bytes, LightFieldTile tile) {
     try {
         coder.decode(bytes, tile);
@@ -42,7 +42,7 @@ inline void expect_harmless_damage(const TileCoder& coder, const std::vector<std
     EXPECT_TRUE(refuses(coder, longer, tile));
 }
 
-/// Of a stream.
+/// End of the header of a stream, where its checksum is.
 inline std::size_t end_of_header(const std::vector<std::uint8_t>& stream) {
     return 16 + (stream[12] | std::size_t{stream[13]} << 8);
 }

@@ -24,7 +24,7 @@ inline LightFieldBuffer textured_planes(std::size_t hogels_s, std::size_t hogels
                                         std::size_t directions_v, std::size_t channels) {
     LightFieldGrid grid{hogels_s, hogels_t, 1e-3, directions_u, directions_v, Perspective{0.3, 0.3}, channels};
     LightFieldBuffer field(grid);
-    const double per_hogel = grid.pitch / grid.step_u();  // depth at which a hogel is a direction
+    const double per_hogel = grid.pitch / grid.step_u();  // depth with a disparity of one direction
     for (std::size_t j = 0; j < hogels_t; ++j)
         for (std::size_t i = 0; i < hogels_s; ++i)
             for (std::size_t l = 0; l < directions_v; ++l)
@@ -57,7 +57,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::vector<std
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-// A folder that goes with its content.
+// A temporary folder, removed with its content.
 class TestFolder {
   public:
     TestFolder() {
@@ -82,13 +82,13 @@ inline double sqnr_of(const LightFieldBuffer& truth, const LightFieldBuffer& oth
 }
 
 inline LightFieldBuffer decoded(const std::filesystem::path& path) {
-    const auto source = hogel::open_stream(path).faces().front();
-    LightFieldBuffer field(source->grid());
-    copy(*source, field);
+    const LightField opened = open_stream(path);
+    LightFieldBuffer field(opened.grid());
+    copy(opened.front(), field);
     return field;
 }
 
-// What a call throws, in one line; 0 if nothing.
+// The code of the error that a call throws, whose message must be one line; 0 if it throws none.
 inline ErrorCode code_of(const std::function<void()>& call) {
     try {
         call();
@@ -99,22 +99,14 @@ inline ErrorCode code_of(const std::function<void()>& call) {
     return ErrorCode{0};
 }
 
-// The library's verbs on local objects, which outlive the calls.
+// compress() of local objects, which outlive the call.
 inline CompressionResult compress(const LightFieldSource& field, const std::filesystem::path& path,
                                   const CompressionOptions& options) {
     return hogel::compress(borrow(field), path, options);
 }
-inline CompressionResult compress(const std::vector<const LightFieldSource*>& faces,
-                                  const std::filesystem::path& path, const CompressionOptions& options) {
+inline CompressionResult compress(const std::vector<const LightFieldSource*>& faces, const std::filesystem::path& path,
+                                  const CompressionOptions& options) {
     return hogel::compress(borrow(faces), path, options);
-}
-inline LightField::Source open_front(const std::filesystem::path& path, const StreamOptions& options = {}) {
-    return open_stream(path, options).faces().front();
-}
-inline std::vector<LightField::Source> open_faces(const std::filesystem::path& path,
-                                                  const StreamOptions& options = {}) {
-    const LightField light_field = open_stream(path, options);
-    return {light_field.faces().begin(), light_field.faces().end()};
 }
 
 }  // namespace hogel::codec

@@ -8,7 +8,7 @@ namespace hogel::coding {
 namespace {
 
 constexpr std::uint32_t max_total = 1u << 16;
-constexpr std::uint32_t increment = 32;  // learns an alphabet of hundreds of symbols from some thousand of them
+constexpr std::uint32_t increment = 32;  // adapts alphabets of hundreds of symbols within some thousand symbols
 
 }  // namespace
 
@@ -82,13 +82,13 @@ void ArithmeticEncoder::raw(std::uint32_t value, int count) {
 }
 
 std::vector<std::uint8_t> ArithmeticEncoder::finish() {
-    // The number with the most trailing zero bytes such that it and all that only differ in these are in the range.
+    // The number with the most trailing zero bytes such that all numbers that differ in these bytes only are in range.
     for (int unused = 3; unused >= 0; --unused) {
         const std::uint64_t mask = (std::uint64_t{1} << (8 * unused)) - 1;
         const std::uint64_t value = (low_ + mask) & ~mask;
         if (value + mask > low_ + range_ - 1) continue;
         low_ = value;
-        // One more than the bytes that matter, to get the last of them and what is pending out.
+        // One shift more than there are significant bytes, which releases the held and pending ones.
         for (int used = 4 - unused; used >= 0; --used) shift();
         break;
     }

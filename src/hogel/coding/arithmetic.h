@@ -8,17 +8,17 @@
 
 namespace hogel::coding {
 
-/// Adaptive arithmetic coding: a range coder with carry propagation, and models that learn as they code. Encoder and
-/// decoder have to be given the same models in the same order.
-/// Source: Witten, Neal and Cleary, CACM 30 (1987), [K] 4.3's [127]; range coding after Martin 1979.
+// Adaptive arithmetic coding: a range coder with carry propagation, and models that adapt to what they code. Encoder
+// and decoder must use the same models in the same order. Source: Witten, Neal and Cleary, CACM 30 (1987), [K] 4.3's
+// [127]; range coding after Martin 1979.
 
-/// The probability of a bit, learnt at two speeds.
+/// The probability of a bit, adapted at two rates.
 class BitModel {
   public:
     BitModel() = default;
-    /// @param zero   probability of a zero to begin with, as a fraction of 2¹⁶; not 0
+    /// @param zero   initial probability of a zero, as a fraction of 2¹⁶; not 0
     explicit BitModel(std::uint16_t zero) : fast_(zero), slow_(zero) {}
-    /// Of a zero, as a fraction of 2¹⁶; never 0 or 1.
+    /// Probability of a zero as a fraction of 2¹⁶; neither 0 nor 2¹⁶.
     std::uint32_t zero() const { return (std::uint32_t{fast_} + slow_) / 2; }
     void learn(bool bit) {
         fast_ = static_cast<std::uint16_t>(bit ? fast_ - (fast_ >> 4) : fast_ + ((65536 - fast_) >> 4));
@@ -29,7 +29,7 @@ class BitModel {
     std::uint16_t fast_ = 32768, slow_ = 32768;
 };
 
-/// The probabilities of the symbols 0..count−1 of an alphabet, from how often each was seen. Cost: O(log count).
+/// The frequencies of the symbols 0..count−1 of an alphabet. Cost: O(log count).
 class SymbolModel {
   public:
     /// @param count   1 to 32768
@@ -50,7 +50,7 @@ class SymbolModel {
     std::uint32_t total_ = 0;
 };
 
-/// Below this range a byte is moved out, or in.
+/// Below this range a byte is shifted out or in.
 constexpr std::uint32_t min_coding_range = 1u << 24;
 
 class ArithmeticEncoder {
@@ -61,7 +61,7 @@ class ArithmeticEncoder {
     void raw(std::uint32_t value, int count);
     /// Bytes so far; finish() adds one to five.
     std::size_t size() const { return bytes_.size() + pending_; }
-    /// Ends the stream with as few bytes as still decode to everything encoded, whatever follows them.
+    /// Ends the code with as few bytes as decode to everything that was encoded, whatever follows them.
     std::vector<std::uint8_t> finish();
 
   private:
@@ -76,9 +76,9 @@ class ArithmeticEncoder {
     bool first_ = true;        // nothing is held yet
 };
 
-/// Reads what an ArithmeticEncoder wrote. Past the end of the bytes it knows what it does not know: once a decision
-/// depends on missing bytes, ended() is true, and that decision and all later ones mean nothing (but are still within
-/// their alphabets). So every prefix of a stream gives exactly the decisions that it determines.
+/// Decodes what an ArithmeticEncoder encoded. As soon as a decision depends on bytes beyond the end, ended() is true;
+/// that decision and all later ones are meaningless, but within their alphabets. So a prefix of a code gives exactly
+/// the decisions that it determines.
 class ArithmeticDecoder {
   public:
     explicit ArithmeticDecoder(std::span<const std::uint8_t> bytes);
@@ -87,7 +87,7 @@ class ArithmeticDecoder {
     std::uint32_t raw(int count);
     bool even();  ///< raw(1)
     bool ended() const { return ended_; }
-    /// All bytes have been taken in: true at the end of a stream, unless something else follows.
+    /// Whether all bytes have been read, as at the end of an undamaged code.
     bool all_read() const { return next_ == bytes_.size(); }
 
   private:
@@ -97,11 +97,11 @@ class ArithmeticDecoder {
     std::span<const std::uint8_t> bytes_;
     std::size_t next_ = 0;
     std::uint32_t range_ = 0xFFFFFFFF, code_ = 0;
-    std::uint32_t unknown_ = 0;  // ones where code_ lacks bits that lie past the end
+    std::uint32_t unknown_ = 0;  // ones where code_ lacks bits beyond the end
     bool ended_ = false;
 };
 
-// Here for speed: most of what a coder does.
+// Inline, because coders spend most of their time here.
 
 inline void ArithmeticEncoder::narrow(std::uint32_t start, std::uint32_t size) {
     low_ += start;
@@ -130,7 +130,7 @@ inline std::uint32_t ArithmeticDecoder::take() {
 inline void ArithmeticDecoder::narrow(std::uint32_t start, std::uint32_t size) {
     code_ -= start;
     range_ = size;
-    // With nothing missing, a code beyond the range is one that no encoder makes.
+    // If no byte is missing, a code beyond the range is damaged.
     if (std::uint64_t{code_} + unknown_ >= range_) ended_ = true;
     while (range_ < min_coding_range) {
         range_ <<= 8;

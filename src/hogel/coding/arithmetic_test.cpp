@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// A message that mixes everything: bits of three probabilities, symbols of four alphabets, raw numbers.
+// A message of bits of three probabilities, symbols of four alphabets and raw numbers.
 struct Models {
     std::vector<BitModel> bits = std::vector<BitModel>(3);
     std::vector<SymbolModel> symbols{SymbolModel(1), SymbolModel(2), SymbolModel(5), SymbolModel(700)};
@@ -54,7 +54,7 @@ Bytes encode(const std::vector<Item>& items) {
     return encoder.finish();
 }
 
-// How many items decode as they were before the decoder says that the bytes have ended.
+// The number of items that decode correctly before the decoder reports the end of the bytes.
 std::size_t decoded(const std::vector<Item>& items, std::span<const std::uint8_t> bytes, bool* all_read = nullptr) {
     ArithmeticDecoder decoder(bytes);
     Models models;
@@ -95,7 +95,7 @@ TEST(Arithmetic, every_prefix_gives_what_it_determines_and_no_more) {
     EXPECT_GT(before + 60, items.size());
 }
 
-// Low approaches its top again and again when the last symbols of alphabets follow each other: carries run far.
+// The last symbols of alphabets in a row bring low close to its top, so that carries run far.
 TEST(Arithmetic, carries_run_through_long_rows_of_ones) {
     for (int last = 0; last < 64; ++last) {
         std::vector<Item> items(400, Item{2, 16, 0xFFFF});
@@ -106,7 +106,7 @@ TEST(Arithmetic, carries_run_through_long_rows_of_ones) {
     }
 }
 
-TEST(Arithmetic, takes_hardly_more_than_the_entropy) {
+TEST(Arithmetic, takes_little_more_than_the_entropy) {
     std::mt19937 random(2);
     const std::size_t count = 200000;
     ArithmeticEncoder bits, symbols;

@@ -18,9 +18,9 @@ constexpr int planes = 30;
 constexpr std::size_t header = 4;
 
 struct Models {
-    // By whether leaf or known not to be a zerotree (0 neither), parent found, previous found.
+    // [0 neither, 1 leaf, 2 known not to be a zerotree][parent found][previous found]
     std::array<std::array<std::array<BitModel, 2>, 2>, 3> significant;
-    std::array<BitModel, 2> zerotree;  // by parent found
+    std::array<BitModel, 2> zerotree;  // [parent found]
     std::array<BitModel, planes> refinement;
 
     BitModel& significance(const EzwContext& context) {
@@ -29,7 +29,7 @@ struct Models {
     }
 };
 
-// What is known of a coefficient, as twice its magnitude so that the middle of the last interval is an integer.
+// Twice the magnitude in the middle of a coefficient's interval, which is an integer.
 std::uint32_t found_at(int plane) { return 3u << plane; }
 std::uint32_t refined(std::uint32_t twice, bool bit, int plane) {
     return bit ? twice + (1u << plane) : twice - (1u << plane);
@@ -63,7 +63,7 @@ class Encoding {
         if (limit_.sqnr) now_known(index, refined(twice_[index], bit, plane));
     }
     bool full() {
-        // What is cut off later must not be needed to tell anything from this on, hence the bytes on top.
+        // Bytes on top, so that the end of the code determines all symbols so far.
         if (!enough_ && limit_.sqnr && error_ <= allowed_) enough_ = encoder_.size() + 5;
         return encoder_.size() >= limit_.bytes || (enough_ && encoder_.size() >= *enough_);
     }
@@ -164,7 +164,7 @@ void ezw_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t>
     const float most = get_float(bytes);
     if (!(most >= 0) || !std::isfinite(most))
         throw Error(ErrorCode::bad_input,
-                    "EZW stream: its largest magnitude is no magnitude, expected an undamaged stream");
+                    "EZW stream: its largest magnitude is impossible, expected an undamaged stream");
     if (most == 0) return;
     Decoding decoding(bytes.subspan(header), std::ldexp(static_cast<double>(most), -planes), values);
     ezw_passes(Forest(pyramid), planes, decoding);

@@ -13,18 +13,18 @@ namespace hogel::coding {
 
 enum class EzwSymbol { positive, negative, zerotree, isolated };
 
-// What encoder and decoder both know when a coefficient's turn comes.
+// The context of a symbol.
 struct EzwContext {
     bool leaf;            // no isolated zeros
-    bool not_a_zerotree;  // its subtree is known to hold something: no zerotrees
+    bool not_a_zerotree;  // its subtree is known to hold a found coefficient: no zerotrees
     bool parent_found;
     bool previous_found;  // the coefficient before it in this pass was
 };
 
-// The passes of EZW over integer magnitudes of `planes` bits, apart from what becomes of the symbols. Threshold T is
-// 2^plane: a magnitude m in (T, 2T] on the scale of the values is an integer with floor(log2) = plane.
-// The coder is told symbol(context, index, plane) and returns what it wrote or read; refine(index, plane) likewise
-// returns the bit of that plane. It says full() to stop.
+// The passes of EZW over integer magnitudes of `planes` bits, shared by encoder and decoder. Threshold T is 2^plane: a
+// magnitude m in (T, 2T] on the scale of the values is an integer with floor(log2) = plane.
+// coder.symbol(context, index, plane) writes or reads a symbol and returns it; coder.refine(index, plane) writes or
+// reads the bit of that plane; coder.full() stops the passes.
 template <class Coder>
 void ezw_passes(const Forest& forest, int planes, Coder& coder) {
     std::vector<bool> is_found(forest.size()),
@@ -56,7 +56,7 @@ void ezw_passes(const Forest& forest, int planes, Coder& coder) {
     }
 }
 
-// The symbols that integer magnitudes and signs give.
+// The symbols of integer magnitudes and signs.
 class EzwMagnitudes {
   public:
     EzwMagnitudes(const Forest& forest, std::vector<std::uint32_t> magnitudes, std::vector<bool> negative)

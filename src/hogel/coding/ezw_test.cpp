@@ -17,7 +17,7 @@ namespace {
 using Extents = std::vector<std::size_t>;
 using Bytes = std::vector<std::uint8_t>;
 
-// The tree of [K] fig. 4.16, breadth first below a coarse sample that the figure has not. T_max = 64, three planes of
+// The tree of [K] fig. 4.16, breadth first below a coarse sample that is not in the figure. T_max = 64, three planes of
 // T_max/8.
 class Figure {
   public:
@@ -129,7 +129,7 @@ TEST(Ezw, stops_at_the_sqnr_asked_for) {
         ezw_decode(pyramid, bytes, decoded);
         const double allowed = energy(values) * std::pow(10, -asked / 10);
         EXPECT_LE(error(values, decoded), allowed);
-        // And as soon as it is there, to the few bytes that an end needs.
+        // It stops as soon as the SQNR is reached, but for the few bytes of the end.
         ASSERT_GT(bytes.size(), 10u);
         ezw_decode(pyramid, std::span(bytes).first(bytes.size() - 10), decoded);
         EXPECT_GT(error(values, decoded), allowed);

@@ -9,13 +9,13 @@
 
 namespace hogel::coding {
 
-/// The coefficients of a wavelet transform as trees ([K] 4.4.2, fig. 4.15, in any dimensions): the parent of a
-/// coefficient is the one at the same place in the same orientation one level coarser, that of the coarsest details the
-/// coarse sample at their place, and coarse samples are roots. With several groups of axes the step from child to
-/// parent is taken in each group at once; a group that is at its coarse samples stays there.
+/// The coefficients of a wavelet transform as trees ([K] 4.4.2, fig. 4.15, in any number of dimensions). The parent of
+/// a coefficient is the one at the same place in the same orientation one level coarser; that of the coarsest details
+/// is the coarse sample at their place; coarse samples are roots. With several groups of axes the parent is found in
+/// each group independently; a group that has reached its coarse samples stays there.
 ///
-/// Sizes are any: where a band has an odd child too many, the last parent has three. Where an axis is down to one
-/// sample and halves no more, orientations that need it hang below the nearest that does not.
+/// Sizes are arbitrary: where a band has an odd number of children, the last parent has three. Orientations that need
+/// an axis that is not split any more are children of the nearest orientation that does not.
 class Forest {
   public:
     static constexpr std::size_t no_parent = std::numeric_limits<std::size_t>::max();
@@ -24,8 +24,8 @@ class Forest {
     struct Band {
         std::vector<std::size_t> extent;
         std::size_t origin;
-        /// Along each axis, the offset in the array of the parents of the box's places; the sum over the axes is a
-        /// parent.
+        /// For each axis and place of the box, the offset of its parent in the array; the sum over the axes is the
+        /// index of a parent.
         std::vector<std::vector<std::size_t>> parents;
         int depth;  ///< of its coefficients in their trees, 0 for roots
         bool leaf;  ///< none of its coefficients has children
@@ -34,7 +34,7 @@ class Forest {
     /// Throws Error(usage) for more than 8 axes or more than 100000 bands.
     explicit Forest(const transform::Pyramid& pyramid);
 
-    /// From roots to leaves: a band stands after that of its parents.
+    /// From roots to leaves: a band comes after that of its parents.
     const std::vector<Band>& bands() const { return bands_; }
     int depth() const { return bands_.back().depth; }
     std::size_t size() const { return size_; }

@@ -25,7 +25,7 @@ constexpr int own_table = 0x80;  // in the byte of b_max
 struct Models {
     explicit Models(int b_max) : tuples(static_cast<std::size_t>((z_max + 1) * (b_max + 1))) {}
     SymbolModel tuples;
-    // Of the bit below the leading one, by the number of bits; the lower ones are nearly even.
+    // The bit below the leading one, by the number of bits; lower bits are nearly even.
     std::array<BitModel, b_limit + 1> second;
 };
 
@@ -35,7 +35,7 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
                     fmt::format("jpeg4d: {} values given, expected the {} of the pyramid", size, pyramid.size()));
 }
 
-// Of all values, before rounding.
+// The largest level of all values.
 double max_level(const Blocks& blocks, std::span<const float> values, const Quantisation& quantisation) {
     double most = 0;
     const auto least = min_values(blocks, quantisation);
@@ -67,8 +67,8 @@ std::int32_t read_level(ArithmeticDecoder& decoder, Models& models, int bits) {
     return negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
 }
 
-// Calls take(place, level) for the levels of a block of `count` entries that are not zero. False when the tuples run
-// past its end.
+// Calls take(place, level) for the levels of a block of `count` entries that are not zero. False if the tuples exceed
+// the block.
 template <class Take>
 bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, Take&& take) {
     for (std::size_t at = 0; at < count && !decoder.ended(); ++at) {
@@ -166,7 +166,7 @@ void jpeg4d_decode(const transform::Pyramid& pyramid, std::span<const std::uint8
             const double step = quantisation.steps[kind.whole[entry]];
             values[block.origin + kind.offsets[entry]] = static_cast<float>(step * level);
         });
-        if (!whole) damaged("a row of zeros runs past the end of a block");
+        if (!whole) damaged("a run of zeros exceeds a block");
         if (decoder.ended()) damaged("it ends too early or is damaged");
     }
     if (!decoder.all_read()) damaged("bytes are left over");

@@ -18,26 +18,26 @@ namespace hogel::coding {
 // An entry of a block: its frequency along each transformed axis.
 using Frequency = std::vector<std::size_t>;
 
-// All frequencies of a block of 8 along each of `axes` axes, in the zigzag of [K] fig. 4.14 carried to any dimensions:
-// by the sum of the frequencies, and in alternating directions within a sum. In 2D it is JPEG's.
+// All frequencies of a block of 8 along each of `axes` axes, in the zigzag of [K] fig. 4.14 in any number of
+// dimensions: by the sum of the frequencies, and in alternating directions for each sum. In 2D it is JPEG's.
 std::vector<Frequency> zigzag(std::size_t axes);
 
-// Where a frequency stands in a block of 8 along each axis, row-major.
+// Index of a frequency in a block of 8 along each axis, row-major.
 std::size_t place_in_block(const Frequency& frequency);
 
-// [K] fig. 4.13 (JPEG's example for luminance) for two axes; for four, the outer product of two copies, the first for
-// the first two axes. An odd last axis has the table's first row.
+// JPEG's table: for two axes [K] fig. 4.13 (JPEG's example for luminance); for four axes its outer product with itself.
+// An odd last axis has the table's first row.
 double table_entry(const Frequency& frequency);
 
 // The blocks of an array. Those of the same extents are of one kind. Entries of a block are numbered row-major.
 class Blocks {
   public:
     struct Kind {
-        std::vector<std::size_t> offsets;  // of the entries, from that of the first one
-        std::size_t run = 1;               // so many entries at a time follow each other in memory
-        std::vector<std::uint16_t> place;  // of each entry in zigzag order
-        std::vector<std::uint16_t> entry;  // at each place
-        std::vector<std::uint16_t> whole;  // of each entry: the place_in_block() of the frequency that oscillates so
+        std::vector<std::size_t> offsets;  // of the entries from the first one, in the array
+        std::size_t run = 1;               // number of entries that follow each other in memory
+        std::vector<std::uint16_t> place;  // for each entry its place in zigzag order
+        std::vector<std::uint16_t> entry;  // for each place its entry
+        std::vector<std::uint16_t> whole;  // for each entry place_in_block() of the comparable frequency
     };
     struct Block {
         std::size_t origin;  // offset of its first entry
@@ -47,10 +47,10 @@ class Blocks {
     explicit Blocks(const transform::Pyramid& pyramid);
     std::size_t count() const { return count_; }
     Block operator[](std::size_t number) const;
-    // Some may be of no block, and are empty.
+    // Kinds that no block has are empty.
     std::span<const Kind> kinds() const { return kinds_; }
     const Kind& kind(const Block& block) const { return kinds_[block.kind]; }
-    // The frequencies of a whole block that blocks here can have, in zigzag order: all up to some along each axis.
+    // The frequencies of a whole block that blocks of this array can have, in zigzag order.
     std::vector<Frequency> frequencies() const;
     std::size_t axes() const { return axes_.size(); }
 
@@ -58,15 +58,15 @@ class Blocks {
     Kind make_kind(const std::vector<std::size_t>& extents, const std::vector<Frequency>& order) const;
 
     std::vector<std::size_t> shape_, strides_, axes_, grid_;  // grid_: blocks along each axis
-    std::vector<std::size_t> bit_of_axis_;  // what an axis of the array adds to the kind of its shorter blocks, or 0
+    std::vector<std::size_t> bit_of_axis_;                    // what a shorter block along an axis adds to its kind
     std::vector<Kind> kinds_;
     std::size_t count_ = 1;
 };
 
-// Frequency k of n points oscillates as 8k/n of eight do.
+// Frequency k of n points is comparable with frequency 8k/n of eight.
 constexpr std::size_t comparable_frequency(std::size_t k, std::size_t n) { return k * transform::dct_block / n; }
 
-// Steps of the frequencies of a whole block by place_in_block(), and from which fraction of a step on levels are
+// Steps of the frequencies of a whole block by place_in_block(), and the fraction of a step from which on levels are
 // rounded up.
 struct Quantisation {
     std::vector<double> steps;
@@ -85,7 +85,7 @@ struct Quantisation {
 
 Quantisation jpegs_quantisation(double scale, std::size_t axes);
 
-// Of the values of a block those not below `least`, entry by entry: visit(entry, value).
+// Calls visit(entry, value) for the values of a block that are not below `least`, entry by entry.
 template <class Visit>
 void for_each_large(const Blocks::Kind& kind, const float* block, std::span<const float> least, Visit&& visit) {
     for (std::size_t first = 0; first < kind.offsets.size(); first += kind.run) {
@@ -101,7 +101,7 @@ void for_each_large(const Blocks::Kind& kind, const float* block, std::span<cons
     }
 }
 
-// What Quantisation::least() says of each entry, for each kind of block.
+// Quantisation::least() of each entry, for each kind of block.
 std::vector<std::vector<float>> min_values(const Blocks& blocks, const Quantisation& quantisation);
 
 // The levels of a block that are not zero, by their place in zigzag order.
@@ -128,7 +128,7 @@ class SparseLevels {
     std::array<std::int32_t, most> levels_;
 };
 
-// Fills in the levels of a block.
+// Quantises a block.
 void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> least,
                     const Quantisation& quantisation, SparseLevels& levels);
 
@@ -141,7 +141,7 @@ struct Tuple {
     bool operator==(const Tuple&) const = default;
 };
 
-// The tuples of a block of `count` entries: visit(tuple, level), the level 0 for tuples without bits.
+// Calls visit(tuple, level) for the tuples of a block of `count` entries; the level is 0 for tuples without bits.
 template <class Visit>
 void for_each_tuple(const SparseLevels& levels, std::size_t count, Visit&& visit) {
     std::size_t next = 0;

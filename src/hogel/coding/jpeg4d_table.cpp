@@ -10,12 +10,12 @@ namespace hogel::coding {
 namespace {
 
 constexpr double round_up = 0.6;
-constexpr double bits_worth = 0.12;          // squared scales a bit: what is best for fine steps is ln 2 / 6
-constexpr int candidates = 13;               // 8 times the scale is nearly always too much
-constexpr std::size_t max_looked_at = 4096;  // blocks
+constexpr double lambda = 0.12;            // squared scales a bit; for fine steps ln 2 / 6 is best
+constexpr int candidates = 13;             // steps up to 8 times the scale
+constexpr std::size_t max_sampled = 4096;  // blocks
 constexpr std::size_t max_bits = 31;
 
-// What tells an exponent from the ones before it: the mean of those one lower along an axis, rounded down.
+// The expected exponent of a frequency: the mean, rounded down, of those of frequencies one lower along an axis.
 class Prediction {
   public:
     explicit Prediction(const Exponents& exponents) : exponents_(exponents) {}
@@ -34,24 +34,24 @@ class Prediction {
     const Exponents& exponents_;
 };
 
-// How a difference from the prediction is told: is it any (by whether the one before was), its sign, and its size in
-// unary.
+// Models of a difference from the prediction: whether there is one (by that of the frequency before), its sign, and its
+// size in unary.
 struct Models {
     std::array<BitModel, 2> differs;
     BitModel sign;
     std::array<BitModel, max_exponent + 1> more;
 };
 
-// About what that takes.
-double bits_to_tell(int difference) { return difference == 0 ? 0.2 : 4 + std::abs(difference); }
+// Estimated bits of a difference.
+double bits_of_difference(int difference) { return difference == 0 ? 0.2 : 4 + std::abs(difference); }
 
 std::size_t bits_of(std::uint32_t magnitude) { return static_cast<std::size_t>(std::bit_width(magnitude)); }
 
-// One block of so many is looked at where not all are needed.
-std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + max_looked_at - 1) / max_looked_at; }
+// Only every n-th block is sampled where there are more than max_sampled.
+std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + max_sampled - 1) / max_sampled; }
 
-// What a level takes, by the number of its bits: the mean of the tuples of such levels, and of what stands for the
-// zeros before them, by how often each is there when all frequencies have the same step; and its own bits.
+// Estimated bits of a level by the number of its bits: its own bits, and the mean cost of the tuples of such levels and
+// of the tuples for zeros before them, by their frequencies when all steps are equal.
 class Costs {
   public:
     Costs(const Blocks& blocks, std::span<const float> values, const Quantisation& even) {
@@ -88,7 +88,7 @@ class Costs {
     std::array<double, max_bits + 1> of_bits_{};
 };
 
-// Of each frequency of a whole block, and each candidate, distortion + λ · bits of its levels.
+// For each frequency of a whole block and each candidate step, distortion + λ · bits of its levels.
 using Prices = std::vector<std::array<double, candidates>>;
 
 Prices prices(const Blocks& blocks, std::span<const float> values, double scale, const Costs& costs) {
@@ -96,9 +96,9 @@ Prices prices(const Blocks& blocks, std::span<const float> values, double scale,
     for (std::size_t e = 0; e < candidates; ++e) steps[e] = scale * std::exp2(static_cast<double>(e) / 4);
     const Quantisation finest = own_quantisation(scale, Exponents(zigzag(blocks.axes()).size(), 0));
     const auto least = min_values(blocks, finest);
-    const double price = bits_worth * scale * scale, part = 1 / static_cast<double>(stride_of(blocks));
+    const double price = lambda * scale * scale, part = 1 / static_cast<double>(stride_of(blocks));
     Prices result(finest.steps.size(), std::array<double, candidates>{});
-    // What is zero with all candidates has the same distortion with all of them, which is left out.
+    // The distortion of values that are zero with all candidates is the same, and is left out.
     for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
@@ -134,7 +134,7 @@ Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, 
         double least = std::numeric_limits<double>::infinity();
         for (int e = 0; e < candidates; ++e) {
             const double price =
-                of[place][static_cast<std::size_t>(e)] + bits_worth * scale * scale * bits_to_tell(e - expected);
+                of[place][static_cast<std::size_t>(e)] + lambda * scale * scale * bits_of_difference(e - expected);
             if (price >= least) continue;
             least = price;
             exponents[place] = static_cast<std::uint8_t>(e);

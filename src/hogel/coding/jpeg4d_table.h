@@ -17,11 +17,11 @@ constexpr int max_exponent = 24;
 
 Quantisation own_quantisation(double scale, const Exponents& exponents);
 
-// The table with the least distortion + 0.12 scale² · bits, those that tell the table among them.
+// The table with the least distortion + 0.12 scale² · bits, including the bits of the table itself.
 Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, double scale);
 
 void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exponents& exponents);
-// False where they are none that can be written, or end too early.
+// False for exponents out of range, and for a code that ends too early.
 bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents& exponents);
 
 }  // namespace hogel::coding

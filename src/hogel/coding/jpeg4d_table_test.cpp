@@ -51,7 +51,7 @@ double bytes_at(const transform::Pyramid& pyramid, const std::vector<float>& val
     return HUGE_VAL;
 }
 
-// What is told of a table is that table, with whatever exponents, for all shapes.
+// Any exponents, for all shapes.
 TEST(OwnTable, comes_back) {
     std::mt19937 random(2);
     for (const std::vector<std::size_t>& shape :
@@ -73,14 +73,14 @@ TEST(OwnTable, comes_back) {
     }
 }
 
-// Told are exactly the frequencies that some block of the array has, or that lie below one.
+// Exactly the frequencies that some block of the array has, or that are below one.
 TEST(OwnTable, has_the_frequencies_of_the_blocks) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 9, 1, 17}, {3}, {5, 12}, {2, 7, 8}}) {
         const Blocks blocks(transform::Pyramid::interleaved(shape));
-        std::vector<bool> told(zigzag(shape.size()).size());
-        for (const Frequency& frequency : blocks.frequencies()) told[place_in_block(frequency)] = true;
+        std::vector<bool> listed(zigzag(shape.size()).size());
+        for (const Frequency& frequency : blocks.frequencies()) listed[place_in_block(frequency)] = true;
         for (const Blocks::Kind& kind : blocks.kinds())
-            for (const std::uint16_t whole : kind.whole) EXPECT_TRUE(told[whole]);
+            for (const std::uint16_t whole : kind.whole) EXPECT_TRUE(listed[whole]);
     }
     EXPECT_EQ(Blocks(transform::Pyramid::interleaved({9, 1, 16})).frequencies().size(), 64u);
     EXPECT_EQ(Blocks(transform::Pyramid::interleaved({4, 2})).frequencies().size(), 7u * 5u);
@@ -114,7 +114,7 @@ TEST(OwnTable, decodes_to_multiples_of_its_steps) {
 }
 
 // For squared error a flat table is right where steps are fine: theory's D'(q) = q/6 and R'(q) = -1/(q ln 2) meet at
-// q = scale. Where values lie below half a step, so that zeros are had for nothing, coarser steps are.
+// q = scale. Where values lie below half a step, so that zeros cost nothing, coarser steps are.
 TEST(OwnTable, is_flat_for_fine_steps_and_coarser_for_coarse_ones) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({64, 64, 8});
     const std::vector<float> values = noise(pyramid, [](std::size_t) { return 1.0; });
@@ -129,7 +129,7 @@ TEST(OwnTable, is_flat_for_fine_steps_and_coarser_for_coarse_ones) {
     EXPECT_GT(mean(3), 1.5);
 }
 
-// Also where there is but one block: the table costs less than it gains.
+// Also for a single block: the table costs less than it gains.
 TEST(OwnTable, takes_fewer_bytes_than_jpegs) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 8, 8, 8}, {64, 64, 8}, {64, 64}}) {
         const transform::Pyramid pyramid = transform::Pyramid::interleaved(shape);

@@ -71,9 +71,9 @@ TEST(Jpeg4d, tuples_count_zeros_and_bits) {
     levels[1] = -1;
     levels[4] = -8;
     levels[40] = 1;
-    const auto [tuples, told] = tuples_of(levels);
+    const auto [tuples, after] = tuples_of(levels);
     EXPECT_EQ(tuples, (std::vector<Tuple>{{0, 3}, {0, 1}, {2, 4}, {31, 0}, {4, 1}, {0, 0}}));
-    EXPECT_EQ(told, (std::vector<std::int32_t>{5, -1, -8, 1}));
+    EXPECT_EQ(after, (std::vector<std::int32_t>{5, -1, -8, 1}));
     levels.assign(40, 0);
     EXPECT_EQ(tuples_of(levels).first, (std::vector<Tuple>{{0, 0}}));
     levels[31] = 1;
@@ -106,7 +106,7 @@ std::vector<transform::Pyramid> pyramids() {
             transform::Pyramid(Extents{5, 6}, {})};
 }
 
-// Each entry of each block, plainly: visit(offset, frequency that it is quantised as).
+// The plain twin: calls visit(offset, comparable frequency) for each entry of each block.
 template <class Visit>
 void for_each_entry(const transform::Pyramid& pyramid, Visit&& visit) {
     std::vector<std::size_t> axes;
@@ -138,7 +138,7 @@ TEST(Jpeg4d, decodes_to_the_nearest_multiple_of_the_table) {
         }
 }
 
-TEST(Jpeg4d, every_truncation_is_found_out_and_hostile_bytes_do_no_harm) {
+TEST(Jpeg4d, every_truncation_is_noticed_and_hostile_bytes_do_no_harm) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 16, 10});
     for (const QuantisationTable table : {QuantisationTable::jpeg, QuantisationTable::own}) {
         const Bytes good = jpeg4d_encode(pyramid, picture(pyramid), 0.05, table);

@@ -43,7 +43,7 @@ double step_for_sqnr(std::span<const float> values, double sqnr) {
     const double most = max_magnitude(values);
     if (most == 0) return 1;
     const double allowed = energy(values) * std::pow(10, -sqnr / 10);
-    // With this step everything is zero; with 2^-30 of it a float is nearly exact.
+    // With the coarse step all levels are zero; with the fine one floats are nearly exact.
     double coarse = most, fine = most * 0x1p-30;
     while (coarse > fine * 1.001) {
         const double step = std::sqrt(coarse * fine);

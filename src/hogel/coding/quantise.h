@@ -8,8 +8,8 @@
 namespace hogel::coding {
 
 /// The quantiser of the zerotree coders: magnitudes in (k·step, (k+1)·step] are level k, so level 0 is twice as wide as
-/// the others. Half-open in this direction so that the largest magnitude T = 2^n · step has an n-bit level, as the
-/// zerotrees' p_n = ⌊log2(T/|x|)⌋ wants.
+/// the others. The intervals are closed above so that the largest magnitude T = 2^n · step has a level of n bits, as
+/// p_n = ⌊log2(T/|x|)⌋ of the zerotrees requires.
 class Quantiser {
   public:
     explicit Quantiser(double step) : step_(step), per_step_(1 / step) {}
@@ -30,16 +30,17 @@ class Quantiser {
     double step_, per_step_;
 };
 
-/// Σ f², and Σ (f − f')² when f is quantised with a step.
+/// Σ f².
 double energy(std::span<const float> values);
+/// Σ (f − f')² of values quantised with a step.
 double squared_error(std::span<const float> values, double step);
 
-/// The largest step (to 0.1%) that keeps 10 log10(Σ f² / Σ (f − f')²) at `sqnr` decibels or above. Of coefficients in
-/// near-orthonormal scaling that is about the SQNR of what they stand for. Anything but 0 < sqnr <= 130 throws
-/// Error(usage): floats themselves hold no more. All zeros: any step.
+/// The largest step (to 0.1%) that keeps 10 log10(Σ f² / Σ (f − f')²) at `sqnr` decibels or above; 1 if all values are
+/// zero. For coefficients in nearly orthonormal scaling that is about the SQNR of the signal. Throws Error(usage)
+/// unless 0 < sqnr <= 130, which is as much as floats hold.
 double step_for_sqnr(std::span<const float> values, double sqnr);
 
-/// The largest magnitude. Throws Error(usage) when a value is not finite.
+/// The largest magnitude. Throws Error(usage) if a value is not finite.
 float max_magnitude(std::span<const float> values);
 
 }  // namespace hogel::coding

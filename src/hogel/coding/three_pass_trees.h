@@ -12,8 +12,8 @@
 
 namespace hogel::coding {
 
-// The passes of the three-pass coder over the trees, apart from what becomes of the symbols. Numbers of bits take the
-// place of [K]'s p: a level of n bits has p_n = b_max − n, a subtree whose largest has t bits has p_t = b_max − t.
+// The passes of the three-pass coder over the trees, shared by encoder and decoder. They use numbers of bits in place
+// of [K]'s p: a level of n bits has p_n = b_max − n, a subtree whose largest level has t bits has p_t = b_max − t.
 
 // Second pass, from leaves to roots: the bits of the largest level in each subtree.
 inline std::vector<std::uint8_t> subtree_bits(const Forest& forest, std::span<const float> values,
@@ -28,9 +28,10 @@ inline std::vector<std::uint8_t> subtree_bits(const Forest& forest, std::span<co
     return bits;
 }
 
-// Third pass, from roots to leaves. The sink is told, for each coefficient that is said anything of,
-//   tree(Δp_t or −1, bits of the parent's subtree, leaf), node(Δp_n or −1, bits of its subtree) unless it is a leaf,
-//   magnitude(level, its bits, negative).
+// Third pass, from roots to leaves. Calls for each coefficient that has symbols
+//   sink.tree(Δp_t or −1, bits of the parent's subtree, leaf),
+//   sink.node(Δp_n or −1, bits of its subtree) unless it is a leaf, and
+//   sink.magnitude(level, its bits, negative).
 template <class Sink>
 void write_three_pass(const Forest& forest, std::span<const float> values, const Quantiser& quantiser, int planes,
                       Sink& sink) {
@@ -49,8 +50,8 @@ void write_three_pass(const Forest& forest, std::span<const float> values, const
         });
 }
 
-// The way back: the source gives the symbols, tree(above, leaf) -> Δp_t below `above` or −1, node(tree) likewise, and
-// magnitude(own bits) -> level and sign.
+// The inverse of the third pass. source.tree(bits of the parent's subtree, leaf) returns Δp_t below them or −1,
+// source.node(bits of the subtree) likewise Δp_n, source.magnitude(bits of the level) level and sign.
 template <class Source>
 void read_three_pass(const Forest& forest, const Quantiser& quantiser, int planes, Source& source,
                      std::span<float> values) {

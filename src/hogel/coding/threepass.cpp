@@ -18,28 +18,28 @@ namespace {
 constexpr int max_planes = 30;
 constexpr std::size_t header = 5;
 
-// Models of the bits that symbols are told by.
+// Models of the bits of symbols.
 struct Models {
     using Unary = std::array<BitModel, max_planes>;
-    static constexpr std::size_t contexts = 6;  // what was told of the two coefficients before
-    // By bits of the parent's subtree, leaf, context.
+    static constexpr std::size_t contexts = 6;  // by the two coefficients before
+    // [bits of the parent's subtree][leaf][context]
     std::array<std::array<std::array<BitModel, contexts>, 2>, max_planes + 1> tree_found;
     std::array<std::array<std::array<Unary, contexts>, 2>, max_planes + 1> tree_less;
-    // By bits of the subtree, context.
+    // [bits of the subtree][context]
     std::array<std::array<BitModel, contexts>, max_planes + 1> node_found;
     std::array<Unary, max_planes + 1> node_less;
     std::array<Unary, max_planes + 1> magnitude;  // [bits of the level][which bit]
 };
 
-// The symbols of the third pass as bits, told to an encoder or by a decoder: the one description of both. Its
-// bit(model, value) and even(value) return the bit; an encoder's that which it is given.
+// The symbols of the third pass as bits, shared by encoder and decoder: bit(model, value) and even(value) of a coder
+// write the bit or read it, and return it.
 template <class Coder>
 class Symbols {
   public:
     explicit Symbols(Coder of) : coder(std::move(of)), models_(std::make_unique<Models>()) {}
 
     int tree(int symbol, int above, bool leaf) {
-        // Near a coefficient that was found, and as large, others are likely.
+        // Next to a large coefficient others are likely.
         const std::size_t before = tree_before_ == 0 ? 0u : tree_before_ < above ? 1u : 2u;
         context_ = 2 * before + (tree_before_that_ > 0 ? 1u : 0u);
         const auto up = static_cast<std::size_t>(above);
@@ -78,7 +78,7 @@ class Symbols {
 
     std::unique_ptr<Models> models_;
     std::size_t context_ = 0;
-    int tree_before_ = 0, tree_before_that_ = 0;  // bits of the subtrees that were told last
+    int tree_before_ = 0, tree_before_that_ = 0;  // bits of the last two subtrees
 };
 
 struct BitEncoder {
@@ -112,7 +112,7 @@ struct Decoding {
 
     explicit Decoding(std::span<const std::uint8_t> code) : symbols(BitDecoder{ArithmeticDecoder(code)}) {}
     const ArithmeticDecoder& decoder() const { return symbols.coder.decoder; }
-    // What lies past the end of a cut stream is read as zerotrees, which ends soon.
+    // Beyond the end of a truncated stream all are zerotrees, which ends the passes soon.
     int tree(int above, bool leaf) { return decoder().ended() ? -1 : symbols.tree(0, above, leaf); }
     int node(int tree_bits) { return symbols.node(0, tree_bits); }
     std::pair<std::uint32_t, bool> magnitude(int bits) { return symbols.magnitude(0, bits, false); }
@@ -128,8 +128,8 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
                                                   size, pyramid.size()));
 }
 
-// How often magnitudes fall between numbers whose logarithms are nearly equally spaced, 32 to an octave: a float
-// without its 18 lowest bits.
+// Counts magnitudes in bins that are nearly equally spaced in their logarithm, 32 to an octave: floats without their 18
+// lowest bits.
 class Histogram {
   public:
     static constexpr int dropped = 18;
@@ -140,7 +140,7 @@ class Histogram {
     static double lower_edge(std::size_t bin) {
         return std::bit_cast<float>(static_cast<std::uint32_t>(bin) << dropped);
     }
-    // Σ (n + c) over what is significant at this step: magnitudes in (2^(n−1), 2^n] steps have n-bit levels.
+    // Σ (n + c) over significant values: magnitudes in (2^(n−1), 2^n] steps have n-bit levels.
     double bits(double step, double c) const {
         double sum = 0;
         for (std::size_t bin = 0; bin < counts_.size(); ++bin) {
@@ -214,7 +214,7 @@ double three_pass_step(std::span<const float> values, double bits, double c) {
 std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values,
                                                     double bits) {
     const double most = max_magnitude(values);
-    // Steps known to fit and to give too much; their logarithms, as those of sizes over steps are nearly straight.
+    // Logarithms of a step that fits and of one that is too fine; those of sizes are nearly linear in them.
     double fits = most > 0 ? std::log2(most) : 0, too_fine = fits - max_planes;
     std::vector<std::uint8_t> best = three_pass_encode(pyramid, values, std::exp2(fits));
     const auto log_size = [](const std::vector<std::uint8_t>& bytes) {
@@ -230,7 +230,7 @@ std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& py
         const double size = log_size(bytes);
         (size <= asked ? fits : too_fine) = step;
         if (size <= asked && size > log_size(best)) best = std::move(bytes);
-        // The secant through the last two, or the middle when that leads out of what is known or too slowly on.
+        // The secant through the last two, or bisection where that leads out of the interval or advances slowly.
         const double secant = step + (aim - size) * (step - before) / (size - size_before);
         before = step;
         size_before = size;

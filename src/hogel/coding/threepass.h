@@ -13,37 +13,37 @@ namespace hogel::coding {
 /// `pyramid`, row-major.
 ///
 /// With T the largest magnitude, rounded up to a power of two times the quantiser's step (so step = T_min and
-/// b_max = log2(T / T_min)), p_n = ⌊log2(T / |x|)⌋ says in which pass of EZW a coefficient x would be found, and p_t is
-/// the least p_n in its subtree. From the roots to the leaves each coefficient gives
-///   Δp_t = p_t − p_t(parent), or −1 when p_t >= b_max: a zerotree, of which nothing more is said;
-///   Δp_n = p_n − p_t, or −1 when p_n >= b_max: an isolated zero; not for leaves, where it is 0;
+/// b_max = log2(T / T_min)), p_n = ⌊log2(T / |x|)⌋ is the pass of EZW in which a coefficient x would be found, and p_t
+/// is the least p_n in its subtree. From the roots to the leaves each coefficient gives
+///   Δp_t = p_t − p_t(parent), or −1 if p_t >= b_max: a zerotree, which has no further symbols;
+///   Δp_n = p_n − p_t, or −1 if p_n >= b_max: an isolated zero; not for leaves, where it is 0;
 ///   its sign, and the b_max − p_n − 1 bits of its level below the leading one.
-/// Differs: here T may be any number from the largest magnitude up to twice of it, so that the step and not its power
-/// of two is free; symbols are told to the arithmetic coder bit by bit, in unary, as a bit is learnt faster than an
-/// alphabet: those of Δp_t apart for each p_t(parent), leaves or not, and by what the two coefficients before were, and
-/// those of Δp_n for each p_t. In place of an alphabet for each that takes a sixth off the size.
+/// Differs: here T may be any number from the largest magnitude up to twice of it, so that the step is free and not
+/// only its power of two. Symbols are coded bit by bit in unary, because a bit adapts faster than an alphabet: Δp_t
+/// with models for each p_t(parent), for leaves and others, and for the two coefficients before; Δp_n with models for
+/// each p_t. That is a sixth smaller than an alphabet for each of them.
 ///
 /// Stream: the step as a float32, little-endian; b_max, one byte; the arithmetic code.
 ///
-/// Throws Error(usage) when a value is not finite, their number is not the pyramid's, or the step is not positive or is
+/// Throws Error(usage) if a value is not finite, their number is not the pyramid's, or the step is not positive or is
 /// less than 2⁻³⁰ of the largest magnitude. Cost: O(size), two bytes of memory a coefficient.
 std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values,
                                             double step);
 
-/// Throws Error(bad_input) when the bytes are not a whole stream; every truncated one is found out. Bytes that were
-/// changed may give other values, as only a checksum around the stream can tell.
+/// Throws Error(bad_input) if the bytes are not a complete stream; every truncation is noticed. Damaged bytes may give
+/// other values, so streams need a checksum.
 void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values);
 
-/// Makes of values what three_pass_decode() makes of their stream, which is looked at for its step alone: much sooner.
+/// Replaces values by what three_pass_decode() makes of their stream, of which it needs the step only; much faster.
 void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> values);
 
-/// The step for a size, by [K]'s histogram rule Σ_{p < b_max} h(p) (b_max − p + c) = bits, made continuous in the step.
-/// c is the overhead of the tree for each significant coefficient; with the default the size comes out within some 20%
-/// for smooth values, from 0.05 to 4 bits each. One pass over the values.
+/// The step for a size, by [K]'s histogram rule Σ_{p < b_max} h(p) (b_max − p + c) = bits, continuous in the step. c is
+/// the overhead of the tree for each significant coefficient; with the default the size is within some 20% for smooth
+/// values, from 0.05 to 4 bits each. One pass over the values.
 double three_pass_step(std::span<const float> values, double bits, double c = 4.8);
 
-/// Encodes in `bits` or up to 2% less where that is possible, by correcting the rule's step with what it gave: a few
-/// times the cost of three_pass_encode. Fewer bits than the shortest stream has throw Error(usage).
+/// Encodes in `bits` or up to 2% less where that is possible, by correcting the step of the rule: a few times the cost
+/// of three_pass_encode(). Throws Error(usage) for fewer bits than the shortest stream has.
 std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values,
                                                     double bits);
 

@@ -17,7 +17,7 @@ using Extents = std::vector<std::size_t>;
 using Bytes = std::vector<std::uint8_t>;
 
 // The tree of [K] fig. 4.17, breadth first, with the children of −14 in the order in which fig. 4.16 codes them. The
-// coarse sample above it, which the figure has not, is 0.
+// coarse sample above it, which is not in the figure, is 0.
 const std::vector<float> figure{0, 64, -42, 27, -14, 26, -30, 8, 2, -10, -35, 3, -10, -24, 7, 5};
 const Forest figure_forest{transform::Pyramid(Extents{16}, {{{0}, 4}})};
 
@@ -51,7 +51,7 @@ TEST(ThreePass, figure_4_17_c_symbol_by_symbol) {
     EXPECT_EQ(recorder.levels, (std::vector<std::uint32_t>{7, 5, 3, 1, 3, 3, 1, 4, 1, 2}));
 }
 
-// Something like a light field: smooth, with edges, and its transform.
+// The transform of a picture that is smooth, with edges.
 std::vector<float> picture(const transform::Pyramid& pyramid) {
     const std::vector<std::size_t> strides = pyramid.strides();
     std::vector<float> values(pyramid.size());
@@ -110,7 +110,7 @@ TEST(ThreePass, zeros_take_next_to_nothing) {
     EXPECT_EQ(decoded, zeros);
 }
 
-TEST(ThreePass, every_truncation_is_found_out) {
+TEST(ThreePass, every_truncation_is_noticed) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 8, 7});
     const Bytes bytes = three_pass_encode(pyramid, picture(pyramid), 0.05);
     std::vector<float> decoded(pyramid.size());

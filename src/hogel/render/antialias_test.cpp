@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/renderer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/render/test_renderers.h"
 #include "hogel/units.h"
 
 namespace hogel::render {
@@ -21,17 +20,7 @@ using namespace literals;
 constexpr double depth = 6e-3;
 const LightFieldGrid grid{6, 3, 1_mm, 12, 10, Perspective{0.4, 0.3}, 3};
 
-void add_triangle(ShadedScene& scene, Vec3 a, Vec3 b, Vec3 c, const std::function<Rgb(Vec3)>& radiance) {
-    const auto first = static_cast<std::uint32_t>(scene.positions.size());
-    for (const Vec3& corner : {a, b, c}) {
-        scene.positions.push_back(corner);
-        scene.radiance.push_back(radiance(corner));
-        scene.texture_coordinates.push_back({});
-    }
-    scene.triangles.push_back({{first, first + 1, first + 2}, ShadedScene::no_texture, 0});
-}
-
-// Upright strips of a wall behind the hologram, each from x to the next.
+// Vertical stripes of a wall behind the hologram, each from one x to the next.
 ShadedScene wall(const std::vector<double>& x, const std::function<Rgb(Vec3)>& radiance) {
     ShadedScene scene;
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
@@ -42,15 +31,8 @@ ShadedScene wall(const std::vector<double>& x, const std::function<Rgb(Vec3)>& r
     return scene;
 }
 
-LightFieldBuffer render(std::string_view name, const ShadedScene& scene, const LightFieldGrid& sampled,
-                        SamplesPerRay samples) {
-    LightFieldBuffer light_field(sampled, true);
-    copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), sampled, samples), light_field);
-    return light_field;
-}
-
-TEST(SamplesPerRay, leave_a_constant_as_it_is_to_the_last_bit) {
-    const ShadedScene scene = wall({-0.1, 0.1}, [](Vec3) { return Rgb{1, 1, 1}; });
+TEST(SamplesPerRay, keep_a_constant_exactly) {
+    const ShadedScene scene = wall({-0.1, 0.1}, white);
     ShadedScene tinted = scene;
     tinted.background = {0.1f, 0.7f, 1.0f / 3};
     tinted.triangles.clear();
@@ -65,9 +47,9 @@ TEST(SamplesPerRay, leave_a_constant_as_it_is_to_the_last_bit) {
     }
 }
 
-// A wave on the wall loses sinc(f d) by the width of the hogel and sinc(f ζ ΔU) by that of the direction's cell; n
-// samples instead of the whole box make of sinc(x) sin(πx)/(n sin(πx/n)).
-TEST(SamplesPerRay, weaken_a_wave_as_the_box_does) {
+// A wave on the wall is attenuated by sinc(f d) over the width of the hogel and by sinc(f ζ ΔU) over the cell of the
+// direction. With n samples instead of the whole box, sinc(x) becomes sin(πx)/(n sin(πx/n)).
+TEST(SamplesPerRay, attenuate_a_wave_as_a_box_does) {
     constexpr double pi = std::numbers::pi;
     std::vector<double> x;
     for (int i = -800; i <= 800; ++i) x.push_back(i * 12.5e-6);
@@ -77,11 +59,11 @@ TEST(SamplesPerRay, weaken_a_wave_as_the_box_does) {
             return Rgb{value, value, value};
         });
         for (const SamplesPerRay samples : {SamplesPerRay{4, 4}, {1, 8}, {8, 1}}) {
-            const auto by = [&](double width, std::size_t n) {
+            const auto factor = [&](double width, std::size_t n) {
                 const double a = pi * frequency * width;
                 return std::sin(a) / (double(n) * std::sin(a / double(n)));
             };
-            const double left = by(grid.pitch, samples.hogel) * by(depth * grid.step_u(), samples.direction);
+            const double left = factor(grid.pitch, samples.hogel) * factor(depth * grid.step_u(), samples.direction);
             const LightFieldBuffer seen = render("epi", scene, grid, samples);
             double error = 0;
             for (std::size_t s = 0; s < grid.hogels_s; ++s)
@@ -101,10 +83,10 @@ TEST(SamplesPerRay, weaken_a_wave_as_the_box_does) {
     }
 }
 
-// How much of a cell lies left of an edge is the integral over the boxes of s and of ζU.
-TEST(SamplesPerRay, cover_the_share_of_a_silhouette_to_one_sample) {
+// The share of a ray's cell left of an edge is an integral over the boxes of s and of ζU.
+TEST(SamplesPerRay, give_the_covered_share_of_a_silhouette_to_one_sample) {
     for (const double edge : {-0.21e-3, 0.077e-3, 0.34e-3}) {
-        const ShadedScene scene = wall({-0.1, edge}, [](Vec3) { return Rgb{1, 1, 1}; });
+        const ShadedScene scene = wall({-0.1, edge}, white);
         for (const std::size_t n : {2, 4, 7}) {
             const LightFieldBuffer seen = render("zbuffer", scene, grid, {n, n});
             std::size_t partial = 0;
@@ -120,7 +102,7 @@ TEST(SamplesPerRay, cover_the_share_of_a_silhouette_to_one_sample) {
                     const float value = seen.radiance(0, 2, s, 3, u);
                     ASSERT_NEAR(value, covered, 1.0 / double(n)) << edge << " " << n;
                     partial += value > 0 && value < 1 ? 1 : 0;
-                    // A ray that shows any of the wall has the wall's depth.
+                    // A ray that shows any part of the wall has the wall's depth.
                     ASSERT_EQ(std::isfinite(seen.depth(2, s, 3, u)), value > 0);
                 }
             EXPECT_GT(partial, 5u);
@@ -128,7 +110,7 @@ TEST(SamplesPerRay, cover_the_share_of_a_silhouette_to_one_sample) {
     }
 }
 
-ShadedScene two_leaves() {
+ShadedScene two_triangles() {
     ShadedScene scene;
     scene.background = {0.2f, 0.1f, 0.3f};
     const auto colour = [](Vec3 p) { return Rgb{float(0.5 + 90 * p.x), float(0.5 - 60 * p.y), 0.8f}; };
@@ -137,16 +119,16 @@ ShadedScene two_leaves() {
     return scene;
 }
 
-TEST(SamplesPerRay, are_the_same_for_every_algorithm) {
+TEST(SamplesPerRay, agree_between_renderers) {
     const SamplesPerRay samples{2, 3};
-    const LightFieldBuffer truth = render("raytrace", two_leaves(), grid, samples);
-    const LightFieldBuffer once = render("raytrace", two_leaves(), grid, {1, 1});
+    const LightFieldBuffer truth = render("raytrace", two_triangles(), grid, samples);
+    const LightFieldBuffer once = render("raytrace", two_triangles(), grid, {1, 1});
     double smoothed = 0;
     for (std::size_t i = 0; i < truth.radiance.size(); ++i)
         smoothed = std::max<double>(smoothed, std::abs(truth.radiance.data()[i] - once.radiance.data()[i]));
     EXPECT_GT(smoothed, 0.1);
     for (const RendererInfo& info : renderers().rows()) {
-        const LightFieldBuffer seen = render(info.name, two_leaves(), grid, samples);
+        const LightFieldBuffer seen = render(info.name, two_triangles(), grid, samples);
         double sum = 0, worst = 0;
         for (std::size_t i = 0; i < seen.radiance.size(); ++i) {
             const double error = std::abs(seen.radiance.data()[i] - truth.radiance.data()[i]);
@@ -154,13 +136,13 @@ TEST(SamplesPerRay, are_the_same_for_every_algorithm) {
             worst = std::max(worst, error);
         }
         EXPECT_LT(sum / double(seen.radiance.size()), 1e-4) << info.name;
-        EXPECT_LT(worst, 3.0 / double(samples.count())) << info.name;  // rays through an edge may fall either way
+        EXPECT_LT(worst, 3.0 / double(samples.count())) << info.name;  // rounding decides about rays through an edge
     }
 }
 
-TEST(SamplesPerRay, give_the_same_bytes_in_any_tiling_and_with_any_number_of_threads) {
+TEST(SamplesPerRay, give_the_same_bytes_for_any_tiling_and_number_of_threads) {
     const SamplesPerRay samples{3, 2};
-    const auto scene = std::make_shared<const ShadedScene>(two_leaves());
+    const auto scene = std::make_shared<const ShadedScene>(two_triangles());
     LightFieldBuffer single(grid, true);
     {
         const ThreadLimit one(1);

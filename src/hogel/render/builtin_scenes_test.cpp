@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every renderer on the built-in scenes: against closed forms, and against each other.
+// Every renderer on the built-in scenes: against closed forms, and against ray casting.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "hogel/bake.h"
-#include "hogel/renderer.h"
+#include "hogel/render/test_renderers.h"
 #include "hogel/scene/analytic.h"
 #include "hogel/scenes.h"
 #include "hogel/shading.h"
@@ -20,8 +20,8 @@ using namespace literals;
 
 constexpr double size = 20_mm;
 
-// The church with given radiance as church-radiance has it, but lit with a few rays and cut less finely, which takes
-// a moment.
+// The scene of that name; instead of church-radiance, which takes long, a church that is baked with few rays and larger
+// triangles.
 Scene quick_scene(std::string_view name) {
     if (name != "church-radiance") return make_scene(name, size);
     Scene church = make_scene("church", size);
@@ -29,15 +29,15 @@ Scene quick_scene(std::string_view name) {
     return bake_scene(church, {.rays = 2, .bounces = 1, .tessellation = 2});
 }
 
-// The scene as it is made, or pushed back behind the hologram for a renderer that needs that.
-LightFieldBuffer render(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid,
-                        bool behind = false) {
+// Renders the scene as it is made, or moved behind the hologram plane for a renderer that needs that.
+LightFieldBuffer render_scene(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid,
+                              bool behind = false) {
     LightFieldBuffer light_field(grid, true);
     Scene scene = quick_scene(name);
     const double back = behind ? bounds(scene).high.z + 1_mm : 0;
     for (Mesh& mesh : scene.meshes)
         for (Vec3& position : mesh.positions) position.z -= back;
-    // Without shadows, which take longer than all the rest, and are the same for all renderers.
+    // Without shadows, which take longest and are the same for all renderers.
     for (Light& light : scene.lights) {
         light.position.z -= back;
         light.casts_shadows = false;
@@ -62,18 +62,16 @@ std::vector<Case> analytic_cases() {
 }
 
 std::string name_of(const ::testing::TestParamInfo<Case>& info) {
-    std::string name = info.param.algorithm + "_" + info.param.scene;
-    std::ranges::replace(name, '-', '_');
-    return name;
+    return test_name(info.param.algorithm + "_" + info.param.scene);
 }
 
 class ClosedForm : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(RenderersAndScenes, ClosedForm, ::testing::ValuesIn(analytic_cases()), name_of);
 
-TEST_P(ClosedForm, is_what_the_renderer_sees) {
+TEST_P(ClosedForm, is_what_the_renderer_gives) {
     const auto& [algorithm, scene] = GetParam();
     const LightFieldGrid grid{16, 16, size / 16, 40, 40, Perspective{0.4, 0.4}, 3};
-    const LightFieldBuffer seen = render(algorithm, scene, grid);
+    const LightFieldBuffer seen = render_scene(algorithm, scene, grid);
     std::size_t compared = 0, hits = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
@@ -97,7 +95,7 @@ TEST_P(ClosedForm, is_what_the_renderer_sees) {
     EXPECT_GT(hits, 0u);
 }
 
-// Whether the depths around a sample jump, as they do at a silhouette.
+// Whether the depth jumps between neighbouring directions, as at a silhouette.
 bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     const LightFieldGrid& grid = light_field.grid();
     float low = light_field.depth(t, s, v, u), high = low;
@@ -117,22 +115,19 @@ std::vector<Case> showpieces() {
     return list;
 }
 
-bool crosses_plane(std::string_view algorithm) { return renderers().find(algorithm).crosses_plane; }
+class Showpieces : public ::testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(RenderersAndScenes, Showpieces, ::testing::ValuesIn(showpieces()), name_of);
 
-class TwoWitnesses : public ::testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Showpieces, TwoWitnesses, ::testing::ValuesIn(showpieces()), name_of);
-
-// What rays see any other renderer must see.
-TEST_P(TwoWitnesses, agree_away_from_silhouettes) {
+TEST_P(Showpieces, agree_with_ray_casting_away_from_silhouettes) {
     const auto& [algorithm, scene] = GetParam();
-    // Some take their time over few rays.
+    // Smaller light fields for slow renderers.
     LightFieldGrid grid{5, 5, size / 5, 64, 64, Perspective{0.1, 0.1}, 3};
     if (algorithm == "oblique") grid = {5, 5, size / 5, 24, 24, Perspective{0.0375, 0.0375}, 3};
     if (algorithm == "simplex3d") grid = {3, 3, size / 30, 24, 24, Perspective{0.09, 0.09}, 3};
     if (algorithm == "simplex") grid = {2, 2, size / 20, 8, 8, Perspective{0.03, 0.03}, 3};
     const bool behind = !crosses_plane(algorithm);
-    const LightFieldBuffer rays = render("raytrace", scene, grid, behind),
-                           other = render(algorithm, scene, grid, behind);
+    const LightFieldBuffer rays = render_scene("raytrace", scene, grid, behind),
+                           other = render_scene(algorithm, scene, grid, behind);
     std::size_t compared = 0, hits = 0, different = 0;
     double worst = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)

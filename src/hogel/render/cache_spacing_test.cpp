@@ -19,7 +19,7 @@ namespace {
 
 using namespace literals;
 
-// Passes on to another lighting and counts the points that it is asked for.
+// Another lighting, with a count of the points at which it is evaluated.
 class Counted final : public SampleLighting {
   public:
     explicit Counted(std::shared_ptr<const SampleLighting> inner) : inner_(std::move(inner)) {}
@@ -52,7 +52,7 @@ Mesh quad(Vec3 middle, Vec3 right, Vec3 up) {
     return mesh;
 }
 
-// A tilted wall that crosses the hologram, a board that throws shadows on it, glossy, and twelve lamps.
+// A tilted wall that crosses the hologram plane, a glossy board that casts shadows on it, and twelve lamps.
 Scene lit_wall() {
     Scene scene;
     scene.meshes = {quad({0, 0, -4e-3}, {4e-3, 0, 2e-3}, {0, 4e-3, 3e-3}),
@@ -89,17 +89,18 @@ LightFieldBuffer render(const std::shared_ptr<const ShadedScene>& scene, std::st
     return light_field;
 }
 
-TEST(LightSpacing, is_the_finest_width_of_a_sample_on_the_triangle) {
+TEST(CacheSpacing, is_the_smallest_width_of_a_sample_on_the_triangle) {
     const ShadedScene scene = shade_scene_vertices(lit_wall());
     const std::vector<float> spacing = cache_spacing(scene, grid, 0.5);
     ASSERT_EQ(spacing.size(), 4u);
-    EXPECT_FLOAT_EQ(spacing[0], 0.5f * 0.2e-3f);  // reaches through the hologram
-    EXPECT_FLOAT_EQ(spacing[2], 0.5f * 0.2e-3f);  // 1.5 mm · 0.025 are less than a hogel
+    EXPECT_FLOAT_EQ(spacing[0], 0.5f * 0.2e-3f);  // crosses the hologram plane
+    EXPECT_FLOAT_EQ(spacing[2], 0.5f * 0.2e-3f);  // 1.5 mm · 0.025 is less than a hogel
     const LightFieldGrid fine{24, 20, 0.02_mm, 24, 24, Perspective{0.3, 0.3}, 3};
     EXPECT_FLOAT_EQ(cache_spacing(scene, fine, 2)[2], 2 * 1.5e-3f * 0.025f);
 }
 
-TEST(LightSpacing, shows_the_light_of_each_ray_but_for_the_edges_of_shadows_from_a_twentieth_of_the_points) {
+// The cache changes radiance at the edges of shadows only, and evaluates light at a twentieth of the points.
+TEST(CacheSpacing, keeps_radiance_away_from_the_edges_of_shadows) {
     for (const char* model : {"direct", "shadowed"}) {
         std::shared_ptr<Counted> counted;
         const LightFieldBuffer truth = render(shaded(model, 0)), seen = render(shaded(model, 0.5, &counted));
@@ -121,7 +122,7 @@ TEST(LightSpacing, shows_the_light_of_each_ray_but_for_the_edges_of_shadows_from
     }
 }
 
-TEST(LightSpacing, gives_the_same_bytes_for_any_number_of_threads_any_tiling_and_nearly_so_for_any_algorithm) {
+TEST(CacheSpacing, gives_the_same_bytes_for_any_tiling_and_number_of_threads) {
     const LightFieldBuffer many = render(shaded("direct", 0.5));
     LightFieldBuffer tiled(grid);
     {
@@ -136,7 +137,7 @@ TEST(LightSpacing, gives_the_same_bytes_for_any_number_of_threads_any_tiling_and
     }
     EXPECT_TRUE(std::ranges::equal(many.radiance.elements(), tiled.radiance.elements()));
     const LightFieldBuffer traced = render(shaded("direct", 0.5), "raytrace");
-    // At the edges of shadows epi interpolates what the others read between the points.
+    // Other renderers give nearly the same: at the edges of shadows epi interpolates between knots.
     std::size_t off = 0, far_off = 0;
     for (std::size_t i = 0; i < traced.radiance.size(); ++i) {
         const double expected = traced.radiance.data()[i], difference = many.radiance.data()[i] - expected;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every renderer against rays, over combinations of what can be asked for: numbers of hogels and directions down to
-// one, faces and off-centre views, samples a ray, culling, and every model of shading, on textures, gloss and shadows.
+// Every renderer against ray casting, over combinations of options: numbers of hogels and directions down to one, faces
+// and off-centre views, samples per ray, culling, and every shading model, on textures, gloss and shadows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "hogel/render/cache_spacing.h"
-#include "hogel/render/test_names.h"
-#include "hogel/renderer.h"
+#include "hogel/render/test_renderers.h"
 #include "hogel/scene/mesh_builder.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/shading.h"
@@ -22,8 +21,8 @@ namespace {
 
 using namespace literals;
 
-// A pictured wall that leans, a glossy ball before it, and a matt sheet that shows its back and throws a shadow; `back`
-// behind the hologram plane or about it.
+// A sloping textured wall, a glossy ball in front of it, and a matt triangle that shows its back and casts a shadow;
+// all around the hologram plane, or moved `back` behind it.
 Scene still_life(double back) {
     Scene scene;
     scene.background = {0.1f, 0.2f, 0.3f};
@@ -65,17 +64,18 @@ struct Case {
     SamplesPerRay samples;
     bool fronts_only;
     const char* model;
-    double spacing;  // of points where light is kept, 0: anew for each ray
+    double spacing;  // of the radiance cache, as a share of a sample's width; 0: no cache
 
     std::string text() const {
         return std::to_string(front.hogels_s) + "x" + std::to_string(front.hogels_t) + " hogels, " +
                std::to_string(front.directions_u) + "x" + std::to_string(front.directions_v) + " directions, samples " +
                std::to_string(samples.hogel) + "x" + std::to_string(samples.direction) + ", model " + model +
-               (hemicube ? ", hemicube" : "") + (fronts_only ? ", culled" : "") + (spacing > 0 ? ", light kept" : "");
+               (hemicube ? ", hemicube" : "") + (fronts_only ? ", culled" : "") +
+               (spacing > 0 ? ", radiance cache" : "");
     }
 };
 
-// The lists have lengths without common factors, so that each thing meets each other one.
+// The lengths of the lists have no common factors, so that all pairs of options occur.
 std::vector<Case> cases() {
     struct Size {
         std::size_t hogels_s, hogels_t, directions_u, directions_v;
@@ -108,33 +108,18 @@ std::vector<Case> cases() {
     return list;
 }
 
-LightFieldBuffer render(std::string_view name, const std::shared_ptr<const ShadedScene>& scene,
-                        const LightFieldGrid& grid, const SamplesPerRay& samples) {
-    LightFieldBuffer light_field(grid, true);
-    copy(*make_renderer(name, scene, grid, samples), light_field);
-    return light_field;
-}
-
-std::vector<std::string> names() {
-    std::vector<std::string> list;
-    for (const RendererInfo& info : renderers().rows())
-        if (info.name != "raytrace") list.emplace_back(info.name);
-    return list;
-}
-
 class Combinations : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(renderer_names("raytrace")),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-// Only rays along an edge may see one thing or the other; and where light is kept on surfaces, epi interpolates between
-// places where the others do, which shows at the edges of shadows.
-TEST_P(Combinations, show_what_rays_see) {
-    const bool crosses_plane = renderers().find(GetParam()).crosses_plane;
+// Rounding decides about rays along edges. With a radiance cache, epi interpolates between knots where the others read
+// the cache, which shows at the edges of shadows.
+TEST_P(Combinations, agree_with_ray_casting) {
     std::size_t hits = 0, rays = 0, hemicubes = 0;
     std::size_t number = 0;
     for (const Case& one : cases()) {
-        if (GetParam() == "simplex" && number++ / 2 % 3 != 0) continue;  // takes its time
-        const Scene scene = still_life(crosses_plane ? 0 : 1e-3);
+        if (GetParam() == "simplex" && number++ / 2 % 3 != 0) continue;  // slow
+        const Scene scene = still_life(crosses_plane(GetParam()) ? 0 : 1e-3);
         ShadedScene lit = shade_scene(scene, {.model = one.model, .shadow_map = 64});
         lit.fronts_only = one.fronts_only;
         if (one.spacing > 0)
@@ -159,9 +144,9 @@ TEST_P(Combinations, show_what_rays_see) {
             rays += truth.depth.size();
             values += truth.radiance.size();
         }
-        const bool interpolates_otherwise = GetParam() == "epi" && one.spacing > 0;
+        const bool has_knots = GetParam() == "epi" && one.spacing > 0;
         EXPECT_LE(far_off, 1 + values / 300) << one.text();
-        EXPECT_LE(off, 1 + values / (interpolates_otherwise ? 10 : 300)) << one.text();
+        EXPECT_LE(off, 1 + values / (has_knots ? 10 : 300)) << one.text();
         EXPECT_LE(depths_off, 1 + values / 900) << one.text();
     }
     EXPECT_GT(hits, rays / 2);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sides of a hemicube, and directions that are not centred: what a renderer makes of them against the front of the
-// same scene turned, where geometry alone says what is to be seen.
+// The sides of a hemicube and off-centre directions, against the front view of the scene rotated around each hogel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +7,7 @@
 #include <random>
 #include <string>
 
-#include "hogel/render/test_names.h"
-#include "hogel/renderer.h"
+#include "hogel/render/test_renderers.h"
 #include "hogel/units.h"
 
 namespace hogel::render {
@@ -19,8 +17,8 @@ using namespace literals;
 
 const LightFieldGrid front{5, 4, 1_mm, 22, 18, Perspective{1, 1}, 3};
 
-// Flat triangles of random colours, some far aside, from 0.2 to 8 mm behind the hologram or on both sides of it.
-ShadedScene random_scene(std::mt19937& random, bool behind) {
+// Flat triangles of random colours, some far to the sides, from 0.2 to 8 mm behind the hologram or on both sides of it.
+ShadedScene scattered_scene(std::mt19937& random, bool behind) {
     std::uniform_real_distribution<double> aside(-16e-3, 16e-3), depth(behind ? 0.2e-3 : -4e-3, 8e-3),
         step(-9e-3, 9e-3);
     std::uniform_real_distribution<float> colour(0, 1);
@@ -41,43 +39,30 @@ ShadedScene random_scene(std::mt19937& random, bool behind) {
     return scene;
 }
 
-LightFieldBuffer render(std::string_view name, const ShadedScene& scene, const LightFieldGrid& grid) {
-    LightFieldBuffer light_field(grid, true);
-    copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), grid), light_field);
-    return light_field;
-}
-
 class Faces : public ::testing::TestWithParam<std::string> {};
-std::vector<std::string> names() {
-    std::vector<std::string> list;
-    for (const RendererInfo& info : renderers().rows()) list.emplace_back(info.name);
-    return list;
-}
-INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(renderer_names()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-const RendererInfo& info(std::string_view name) { return renderers().find(name); }
-
-// What face `grid` of each hogel sees must be what the front of a single hogel sees of the scene turned around it. Only
-// a ray along an edge may see one thing or the other.
-void compare_with_turned_scene(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
+// A face of a hogel sees what the front of a single hogel sees of the scene rotated around it, except for rays along
+// edges, where rounding decides.
+void compare_with_rotated_scene(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
     const LightFieldBuffer seen = render(name, scene, grid);
     std::size_t hits = 0, different = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s) {
-            ShadedScene turned = scene;
-            for (Vec3& p : turned.positions) {
+            ShadedScene rotated = scene;
+            for (Vec3& p : rotated.positions) {
                 const Vec3 q = to_face(grid.face(), {p.x - grid.s(double(s)), p.y - grid.t(double(t)), -p.z});
                 p = {q.x, q.y, -q.z};
             }
             LightFieldGrid one = grid;
             one.hogels_s = one.hogels_t = 1;
             one.view = Perspective{one.range()};
-            const LightFieldBuffer expected = render("raytrace", turned, one);
+            const LightFieldBuffer expected = render("raytrace", rotated, one);
             for (std::size_t v = 0; v < grid.directions_v; ++v)
                 for (std::size_t u = 0; u < grid.directions_u; ++u) {
-                    const double way = grid.direction_of(grid.u(double(u)), grid.v(double(v))).z;
-                    const double depth = expected.depth(0, 0, v, u) * way, found = seen.depth(t, s, v, u);
+                    const double deepening = grid.direction_of(grid.u(double(u)), grid.v(double(v))).z;
+                    const double depth = expected.depth(0, 0, v, u) * deepening, found = seen.depth(t, s, v, u);
                     hits += std::isfinite(depth) ? 1 : 0;
                     bool same = found == depth || std::abs(found - depth) < 1e-7;
                     for (std::size_t c = 0; c < 3; ++c)
@@ -89,25 +74,25 @@ void compare_with_turned_scene(const std::string& name, const ShadedScene& scene
     EXPECT_LE(different, grid.hogels() * grid.directions() / 2000) << hogel::face_name(grid.face());
 }
 
-TEST_P(Faces, are_the_front_of_the_scene_turned) {
+TEST_P(Faces, are_front_views_of_the_rotated_scene) {
     std::mt19937 random(3);
     for (int round = 0; round < 4; ++round) {
         const bool behind = round % 2 == 0;
-        ShadedScene scene = random_scene(random, behind);
+        ShadedScene scene = scattered_scene(random, behind);
         scene.fronts_only = round >= 2;
-        if (!behind && !info(GetParam()).crosses_plane) continue;
-        for (const LightFieldGrid& face : hemicube(front)) compare_with_turned_scene(GetParam(), scene, face);
+        if (!behind && !crosses_plane(GetParam())) continue;
+        for (const LightFieldGrid& face : hemicube(front)) compare_with_rotated_scene(GetParam(), scene, face);
     }
 }
 
-TEST_P(Faces, off_centre_directions_are_the_front_of_the_scene_too) {
+TEST_P(Faces, off_centre_directions_see_what_centred_ones_see) {
     std::mt19937 random(4);
-    const ShadedScene scene = random_scene(random, true);
+    const ShadedScene scene = scattered_scene(random, true);
     LightFieldGrid aside = front;
     aside.range().center_u = 0.7;
     aside.range().center_v = -0.4;
-    compare_with_turned_scene(GetParam(), scene, aside);
-    // Off-centre samples that coincide with centred ones see the same.
+    compare_with_rotated_scene(GetParam(), scene, aside);
+    // The last six columns as a view of their own.
     LightFieldGrid part = front;
     part.directions_u = 6;
     part.range().half_u = front.half_u() * 6 / 22;
@@ -120,9 +105,9 @@ TEST_P(Faces, off_centre_directions_are_the_front_of_the_scene_too) {
                     ASSERT_NEAR(whole.radiance(0, t, s, v, 16 + u), right.radiance(0, t, s, v, u), 1e-5);
 }
 
-TEST_P(Faces, sides_are_the_same_bytes_in_any_tiling) {
+TEST_P(Faces, give_the_same_bytes_for_any_tiling) {
     std::mt19937 random(5);
-    const ShadedScene scene = random_scene(random, !info(GetParam()).crosses_plane);
+    const ShadedScene scene = scattered_scene(random, !crosses_plane(GetParam()));
     for (const LightFieldGrid& face : hemicube(front)) {
         const LightFieldBuffer whole = render(GetParam(), scene, face);
         const auto renderer = make_renderer(GetParam(), std::make_shared<const ShadedScene>(scene), face);

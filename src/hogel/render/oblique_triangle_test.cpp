@@ -20,17 +20,17 @@ void add_triangle(ShadedScene& scene, std::size_t a, std::size_t b, std::size_t 
     scene.triangles.push_back({{index(a), index(b), index(c)}, ShadedScene::no_texture, 0});
 }
 
-// Corners at whole millimetres and depths, rays at whole millimetres along directions that take corners to corners:
-// most rays go through a vertex or along an edge. Corners lie at random depths on both sides of the plane, so the order
-// of vertices in space says nothing about their order in the picture.
-TEST(ObliqueTriangle, every_ray_through_a_mesh_belongs_to_one_triangle) {
+// Corners at whole millimetres and depths, and rays at half millimetres along directions that take corners to corners,
+// so that most rays go through a vertex or along an edge. The depths of corners are random on both sides of the plane,
+// so the order of vertices in space is unrelated to their order in the picture.
+TEST(ObliqueTriangle, every_ray_through_a_mesh_belongs_to_exactly_one_triangle) {
     constexpr int n = 8;
     std::mt19937 random(3);
     std::uniform_int_distribution<int> depth(-3, 3), shift(-2, 2), coin(0, 1);
     for (int round = 0; round < 50; ++round) {
         const int U = shift(random), V = shift(random);
         ShadedScene scene;
-        // Corner (i, j) is where the ray of (U, V) through the plane's point (i, j) is at that depth.
+        // Corner (i, j) lies on the ray (U, V) through point (i, j) of the plane.
         for (int j = 0; j <= n; ++j)
             for (int i = 0; i <= n; ++i) {
                 const int z = depth(random);
@@ -41,7 +41,7 @@ TEST(ObliqueTriangle, every_ray_through_a_mesh_belongs_to_one_triangle) {
             for (int i = 0; i < n; ++i) {
                 const std::size_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
                                   d = corner(i, j + 1);
-                // Some turn one way, some the other, as seen from the front.
+                // In both orientations, as seen from the front.
                 if (coin(random) == 0) {
                     add_triangle(scene, a, b, c);
                     add_triangle(scene, a, d, c);
@@ -60,12 +60,12 @@ TEST(ObliqueTriangle, every_ray_through_a_mesh_belongs_to_one_triangle) {
     }
 }
 
-TEST(ObliqueTriangle, weights_and_depth_give_back_the_point_that_the_ray_was_sent_through) {
+TEST(ObliqueTriangle, weights_and_depth_are_those_of_a_point_on_the_ray) {
     std::mt19937 random(4);
-    std::uniform_real_distribution<double> place(-4e-3, 4e-3), weight(0.05, 1), slope(-0.5, 0.5);
+    std::uniform_real_distribution<double> coordinate(-4e-3, 4e-3), weight(0.05, 1), slope(-0.5, 0.5);
     for (int i = 0; i < 1000; ++i) {
         ShadedScene scene;
-        for (int k = 0; k < 3; ++k) add_vertex(scene, {place(random), place(random), place(random)});
+        for (int k = 0; k < 3; ++k) add_vertex(scene, {coordinate(random), coordinate(random), coordinate(random)});
         add_triangle(scene, 0, 1, 2);
         std::array<double, 3> w{weight(random), weight(random), weight(random)};
         const double sum = w[0] + w[1] + w[2];
@@ -76,7 +76,7 @@ TEST(ObliqueTriangle, weights_and_depth_give_back_the_point_that_the_ray_was_sen
         }
         const Vec3 &a = scene.positions[0], ab = scene.positions[1] - a, ac = scene.positions[2] - a;
         const double U = slope(random), V = slope(random);
-        // Rays that graze the triangle tell little about where they meet it.
+        // For grazing rays the point is ill-conditioned.
         if (std::abs(dot(normalize(cross(ab, ac)), {U, V, -1})) < 0.01 || length(cross(ab, ac)) < 1e-7) continue;
         const ObliqueTriangle::Hit hit = ObliqueTriangle(scene, 0, U, V).at(p.x + U * p.z, p.y + V * p.z);
         ASSERT_TRUE(hit);
@@ -85,19 +85,18 @@ TEST(ObliqueTriangle, weights_and_depth_give_back_the_point_that_the_ray_was_sen
     }
 }
 
-TEST(ObliqueTriangle, triangles_without_area_are_left_out) {
+TEST(ObliqueTriangle, triangles_without_area_are_skipped) {
     ShadedScene scene;
     for (Vec3 p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{2, 0, 0}, Vec3{0.5, 1e-9, 0}})
         add_vertex(scene, p);
     add_triangle(scene, 0, 1, 3);  // on a line
     add_triangle(scene, 0, 1, 2);
     add_triangle(scene, 1, 1, 2);  // twice the same corner
-    add_triangle(scene, 0, 1, 4);  // thin, but not nothing
+    add_triangle(scene, 0, 1, 4);  // thin, but with an area
     EXPECT_EQ(triangles_with_area(scene), (std::vector<std::uint32_t>{1, 3}));
 }
 
-// Of two triangles at one depth the first is seen, whatever comes between.
-TEST(ObliqueTriangle, the_nearest_is_seen_and_of_equals_the_first) {
+TEST(ObliqueTriangle, the_nearest_is_seen_and_of_equal_depths_the_first) {
     ShadedScene scene;
     for (double z : {-2.0, -2.0, -1.0})
         for (Vec3 p : {Vec3{-1, -1, z}, Vec3{1, -1, z}, Vec3{0, 1, z}}) add_vertex(scene, p);

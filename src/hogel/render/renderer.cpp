@@ -18,7 +18,7 @@
 namespace hogel {
 namespace {
 
-// A source that is no Renderer as one: for each scene it is made anew.
+// Adapts a source that is no Renderer: it is made anew for each scene.
 class RemadeRenderer final : public Renderer {
   public:
     RemadeRenderer(const RendererInfo& info, const LightFieldGrid& grid, std::unique_ptr<LightFieldSource> source)

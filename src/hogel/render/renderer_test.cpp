@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/renderer.h"
-
+// Laws that every renderer keeps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <random>
 #include <string>
 
 #include "hogel/error.h"
-#include "hogel/render/oblique_triangle.h"
-#include "hogel/render/simplex/volume.h"
-#include "hogel/render/test_names.h"
+#include "hogel/render/test_renderers.h"
 #include "hogel/units.h"
 
 namespace hogel::render {
@@ -20,73 +17,19 @@ namespace {
 
 using namespace literals;
 
-std::uint32_t add_vertex(ShadedScene& scene, Vec3 position, Rgb radiance) {
-    scene.positions.push_back(position);
-    scene.radiance.push_back(radiance);
-    scene.texture_coordinates.push_back({});
-    return static_cast<std::uint32_t>(scene.positions.size() - 1);
-}
-
-void add_triangle(ShadedScene& scene, Vec3 a, Vec3 b, Vec3 c, const std::function<Rgb(Vec3)>& radiance) {
-    const std::uint32_t first = add_vertex(scene, a, radiance(a));
-    add_vertex(scene, b, radiance(b));
-    add_vertex(scene, c, radiance(c));
-    scene.triangles.push_back({{first, first + 1, first + 2}, ShadedScene::no_texture, 0});
-}
-
-LightFieldBuffer render(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
-    LightFieldBuffer light_field(grid, true);
-    copy(*make_renderer(name, std::make_shared<const ShadedScene>(scene), grid), light_field);
-    return light_field;
-}
-
 const LightFieldGrid grid{5, 4, 1_mm, 33, 31, Perspective{0.5, 0.4}, 3};
 
-std::vector<std::string> names() {
-    std::vector<std::string> list;
-    for (const RendererInfo& info : renderers().rows()) list.emplace_back(info.name);
-    return list;
-}
-
-bool crosses_plane(std::string_view name) { return renderers().find(name).crosses_plane; }
-
-// Random triangles within 4 mm of the hologram plane, or from 1 to 9 mm behind it. Some have no area, some are as thin
-// as a line, and of some both faces show, one from some hogels and the other from the rest; behind the plane some come
-// as near to it as any renderer can look.
-ShadedScene random_scene(std::mt19937& random, std::size_t count, bool behind) {
-    std::uniform_real_distribution<double> place(-4e-3, 4e-3);
-    std::uniform_real_distribution<float> colour(0, 1);
-    ShadedScene scene;
-    scene.background = {0.5f, 0.5f, 0.5f};
-    const auto point = [&] { return Vec3{place(random), place(random), place(random) - (behind ? 5e-3 : 0)}; };
-    for (std::size_t i = 0; i < count; ++i) {
-        Vec3 a = point(), b = point(), c = point();
-        if (i % 8 == 0) c = a;
-        if (i % 8 == 1) c = 0.5 * (a + b) + 1e-9 * c;
-        if (i % 8 == 2 || i % 8 == 3) {
-            // A plane through a point among the hogels.
-            const Vec3 seen_edge_on{0.4 * place(random), 0.4 * place(random), 0};
-            b = a + 0.1 * b;
-            c = seen_edge_on + 0.6 * (a - seen_edge_on) + 0.3 * (b - seen_edge_on);
-        }
-        if (i % 8 == 4 && behind) c.z = -1e-9;
-        const Rgb flat{colour(random), colour(random), colour(random)};
-        add_triangle(scene, a, b, c, [&](Vec3) { return flat; });
-    }
-    return scene;
-}
-
 class EveryRenderer : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Renderers, EveryRenderer, ::testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(Renderers, EveryRenderer, ::testing::ValuesIn(renderer_names()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-// A radiance that is linear over a plane is reproduced exactly by interpolation over any of its triangles, also where
-// the plane passes through the hologram: there ζ changes sign and the view of a hogel turns inside out.
-TEST_P(EveryRenderer, sees_a_tilted_plane_where_geometry_says) {
+// Radiance that is linear over a plane is reproduced exactly by interpolation over any of its triangles, also where the
+// plane passes through the hologram: there ζ changes sign and the view of a hogel turns inside out.
+TEST_P(EveryRenderer, renders_a_tilted_plane_as_its_closed_form) {
     const auto radiance = [](Vec3 p) {
         return Rgb{float(0.5 + 40 * p.x), float(0.5 - 30 * p.y), float(0.5 + 50 * p.z)};
     };
-    // z = 0.3 x − 0.2 y + offset, as a fan of triangles around a point off centre.
+    // z = 0.3 x − 0.2 y + offset, as a fan of triangles around a point off its centre.
     const double offset = crosses_plane(GetParam()) ? 0.4e-3 : -7e-3;
     const auto plane = [&](double x, double y) { return Vec3{x, y, 0.3 * x - 0.2 * y + offset}; };
     ShadedScene scene;
@@ -118,17 +61,16 @@ TEST_P(EveryRenderer, sees_a_tilted_plane_where_geometry_says) {
     EXPECT_GT(behind, 100u);
 }
 
-// A wall of triangles that share edges and corners, many of which rays meet exactly: no ray slips through.
-TEST_P(EveryRenderer, leaves_no_crack_between_triangles_that_share_edges) {
+// A wall of triangles that share edges and corners, many of which are met by rays exactly.
+TEST_P(EveryRenderer, leaves_no_gap_between_triangles_that_share_edges) {
     ShadedScene scene;
     scene.background = {0, 0, 0};
     const double depth = 4e-3;
-    // With these steps many corners lie on rays: x = s + Uζ for U a multiple of ΔU/2.
+    // With these steps many corners lie on rays: x = s + Uζ with U a multiple of ΔU/2.
     const double step_x = 0.5 * grid.step_u() * depth * 3, step_y = 0.5 * grid.step_v() * depth * 3;
     const auto corner = [&](int i, int j) { return Vec3{i * step_x, j * step_y, -depth}; };
     for (int j = -40; j < 40; ++j)
         for (int i = -40; i < 40; ++i) {
-            const auto white = [](Vec3) { return Rgb{1, 1, 1}; };
             if ((i + j) % 2 == 0) {
                 add_triangle(scene, corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), white);
                 add_triangle(scene, corner(i, j), corner(i + 1, j + 1), corner(i, j + 1), white);
@@ -143,14 +85,12 @@ TEST_P(EveryRenderer, leaves_no_crack_between_triangles_that_share_edges) {
     for (float value : seen.radiance.elements()) ASSERT_NEAR(value, 1, 1e-6);
 }
 
-// A wall like the one above, one triangle at a time: no sample belongs to two of them. (A ray caster may well hit both
-// neighbours where it meets their edge.)
-TEST(Renderers, that_scan_convert_give_no_sample_to_two_triangles_that_share_an_edge) {
+// A wall like the one above, one triangle at a time. (A ray caster may hit both neighbours where it meets their edge.)
+TEST(Renderers, that_scan_convert_give_each_sample_to_one_of_two_adjacent_triangles) {
     const double depth = 4e-3, step_x = 0.5 * grid.step_u() * depth * 9, step_y = 0.5 * grid.step_v() * depth * 9;
     LightFieldGrid centred = grid;
     centred.pitch = step_x;
     const auto corner = [&](int i, int j) { return Vec3{i * step_x, j * step_y, -depth + 1e-4 * ((i * i + j) % 3)}; };
-    const auto white = [](Vec3) { return Rgb{1, 1, 1}; };
     for (const std::string name : {"zbuffer", "epi"}) {
         ShadedScene whole;
         Array<int, 1> owners({centred.hogels() * centred.directions()});
@@ -176,7 +116,7 @@ TEST(Renderers, that_scan_convert_give_no_sample_to_two_triangles_that_share_an_
     }
 }
 
-TEST_P(EveryRenderer, prefers_tiles_that_exist) {
+TEST_P(EveryRenderer, prefers_a_tile_that_lies_in_the_grid) {
     for (std::size_t hogels : {1, 7, 300})
         for (std::size_t directions : {1, 50, 1000}) {
             const LightFieldGrid g{hogels, 5, 1_mm, directions, 40, Perspective{0.5, 0.4}, 3};
@@ -185,7 +125,7 @@ TEST_P(EveryRenderer, prefers_tiles_that_exist) {
         }
 }
 
-TEST_P(EveryRenderer, gives_the_same_bytes_in_any_tiling) {
+TEST_P(EveryRenderer, gives_the_same_bytes_for_any_tiling) {
     std::mt19937 random(11);
     const ShadedScene scene = random_scene(random, 40, !crosses_plane(GetParam()));
     const LightFieldBuffer whole = render(GetParam(), scene, grid);
@@ -193,7 +133,7 @@ TEST_P(EveryRenderer, gives_the_same_bytes_in_any_tiling) {
     for (const HogelRange& range : {HogelRange{0, 0, 1, 1}, HogelRange{2, 1, 3, 2}, HogelRange{4, 3, 1, 1},
                                     HogelRange{0, 2, 5, 1}, HogelRange{3, 0, 1, 4}, HogelRange{0, 0, 5, 4}}) {
         LightFieldTile tile(grid, range, true), expected(grid, range, true);
-        // Whatever the tile held before.
+        // What the tile holds before must not matter.
         std::ranges::fill(tile.radiance.elements(), -7.0f);
         std::ranges::fill(tile.depth.elements(), -7.0f);
         renderer->read(tile);
@@ -203,7 +143,7 @@ TEST_P(EveryRenderer, gives_the_same_bytes_in_any_tiling) {
     }
 }
 
-TEST_P(EveryRenderer, an_empty_scene_is_background_at_infinity) {
+TEST_P(EveryRenderer, renders_an_empty_scene_as_background_at_infinite_depth) {
     ShadedScene scene;
     scene.background = {0.1f, 0.2f, 0.3f};
     const LightFieldBuffer seen = render(GetParam(), scene, grid);
@@ -212,86 +152,8 @@ TEST_P(EveryRenderer, an_empty_scene_is_background_at_infinity) {
         for (float value : seen.radiance[c].elements()) ASSERT_EQ(value, 0.1f * float(c + 1) + 0.0f) << c;
 }
 
-// Whether a sample lies within one sample of a silhouette: a neighbour sees something else, much nearer or farther.
-bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u,
-                     double jump) {
-    const float here = light_field.depth(t, s, v, u);
-    const LightFieldGrid& sampled = light_field.grid();
-    for (std::size_t l = v > 0 ? v - 1 : 0; l < std::min(v + 2, sampled.directions_v); ++l)
-        for (std::size_t k = u > 0 ? u - 1 : 0; k < std::min(u + 2, sampled.directions_u); ++k) {
-            const float there = light_field.depth(t, s, l, k);
-            if (std::isinf(here) != std::isinf(there) || std::abs(here - there) > jump) return true;
-        }
-    return false;
-}
-
-// How many samples were compared away from silhouettes, and how many of them show a triangle.
-struct Compared {
-    std::size_t samples = 0, hits = 0;
-};
-
-// Samples less than `margin` from the border of a hogel's view are left out: what is beside them is not known.
-void expect_agreement(const LightFieldBuffer& first, const LightFieldBuffer& second, std::size_t margin,
-                      Compared& compared) {
-    const LightFieldGrid& sampled = first.grid();
-    for (std::size_t t = 0; t < sampled.hogels_t; ++t)
-        for (std::size_t s = 0; s < sampled.hogels_s; ++s)
-            for (std::size_t v = margin; v + margin < sampled.directions_v; ++v)
-                for (std::size_t u = margin; u + margin < sampled.directions_u; ++u) {
-                    if (near_silhouette(first, t, s, v, u, 0.4e-3)) continue;
-                    ++compared.samples;
-                    const bool hit = std::isfinite(first.depth(t, s, v, u));
-                    compared.hits += hit ? 1 : 0;
-                    ASSERT_EQ(hit, std::isfinite(second.depth(t, s, v, u)));
-                    if (hit) {
-                        ASSERT_NEAR(first.depth(t, s, v, u), second.depth(t, s, v, u), 1e-7);
-                    }
-                    for (std::size_t c = 0; c < 3; ++c)
-                        ASSERT_NEAR(first.radiance(c, t, s, v, u), second.radiance(c, t, s, v, u), 1e-3);
-                }
-}
-
-// The first intersects rays with a hierarchy; the others project and scan convert in different ways and orders.
-TEST_P(EveryRenderer, agrees_with_ray_casting_on_random_scenes) {
-    std::mt19937 random(1);
-    Compared compared;
-    // The plain algorithm for whole tiles takes its time.
-    const int rounds = GetParam() == "simplex" ? 8 : 40;
-    for (int round = 0; round < rounds; ++round) {
-        const bool behind = round % 2 == 0 || !crosses_plane(GetParam());
-        ShadedScene scene = random_scene(random, 16, behind);
-        scene.fronts_only = round % 4 >= 2;
-        expect_agreement(render("raytrace", scene, grid), render(GetParam(), scene, grid), 0, compared);
-        ASSERT_FALSE(HasFatalFailure()) << round;
-    }
-    EXPECT_GT(compared.samples, static_cast<std::size_t>(rounds) * 7000);
-    EXPECT_GT(compared.hits, static_cast<std::size_t>(rounds) * 3000);
-}
-
-// Windows as small as they can be into many more scenes, of one triangle and of several.
-TEST_P(EveryRenderer, agrees_with_ray_casting_on_2000_random_scenes) {
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> aside(-0.4, 0.4);
-    Compared compared;
-    for (int round = 0; round < 2000; ++round) {
-        const bool behind = round % 2 == 0;
-        ShadedScene scene = random_scene(random, 8, behind);
-        if (!behind && !crosses_plane(GetParam())) continue;
-        scene.fronts_only = round % 8 >= 4;
-        // One kind of triangle after the other by itself, then all together.
-        if (round % 32 < 16) scene.triangles = {scene.triangles[static_cast<std::size_t>(round / 2 % 8)]};
-        LightFieldGrid window{2, 2, 1.7_mm, 5, 4, Perspective{0.0758, 0.0516}, 3};
-        window.range().center_u = aside(random);
-        window.range().center_v = aside(random);
-        expect_agreement(render("raytrace", scene, window), render(GetParam(), scene, window), 1, compared);
-        ASSERT_FALSE(HasFatalFailure()) << round;
-    }
-    EXPECT_GT(compared.samples, 7000u);
-    EXPECT_GT(compared.hits, 1500u);
-}
-
-// The convex hull of points on a ball, by halving the edges of an octahedron, turned at random. The faces' corners go
-// round counterclockwise for who looks from outside.
+// A convex body of 32 faces around a point: an octahedron in a random orientation, its edges halved and all corners
+// moved onto a sphere. The corners of faces run counterclockwise as seen from outside.
 std::vector<std::array<Vec3, 3>> random_body(std::mt19937& random, Vec3 middle) {
     std::normal_distribution<double> normal;
     const auto direction = [&] { return normalize(Vec3{normal(random), normal(random), normal(random)}); };
@@ -310,16 +172,16 @@ std::vector<std::array<Vec3, 3>> random_body(std::mt19937& random, Vec3 middle) 
     return faces;
 }
 
-// A ray meets a convex body exactly if it is on the inner side of all faces somewhere on its way. Of a body that shows
-// the fronts of its faces alone it sees the same, and of one turned inside out the far side.
-TEST_P(EveryRenderer, covers_a_closed_body_without_a_gap) {
+// A ray meets a convex body exactly if some of its points lie on the inner side of all faces. It sees the same of a
+// body whose back faces are culled, and the far side of one that is turned inside out.
+TEST_P(EveryRenderer, covers_a_closed_body_without_gaps) {
     std::mt19937 random(3);
     std::size_t inside = 0, outside = 0;
     for (int round = 0; round < (GetParam() == "simplex" ? 1 : 6); ++round) {
         const Vec3 middle{0.2e-3, -0.3e-3, crosses_plane(GetParam()) && round % 2 == 0 ? 0.4e-3 : -4e-3};
         const std::vector<std::array<Vec3, 3>> faces = random_body(random, middle);
         ShadedScene scene;
-        for (const auto& [p, q, r] : faces) add_triangle(scene, p, q, r, [](Vec3) { return Rgb{1, 1, 1}; });
+        for (const auto& [p, q, r] : faces) add_triangle(scene, p, q, r, white);
         const LightFieldBuffer seen = render(GetParam(), scene, grid);
         scene.fronts_only = true;
         const LightFieldBuffer fronts = render(GetParam(), scene, grid);
@@ -331,11 +193,11 @@ TEST_P(EveryRenderer, covers_a_closed_body_without_a_gap) {
                     for (std::size_t u = 0; u < grid.directions_u; ++u) {
                         // (s + Uζ, t + Vζ, −ζ) on the inner side of a face bounds ζ from one side.
                         const Vec3 from{grid.s(double(s)), grid.t(double(t)), 0},
-                            way{grid.u(double(u)), grid.v(double(v)), -1};
+                            direction{grid.u(double(u)), grid.v(double(v)), -1};
                         double enters = -1, leaves = 1;
                         for (const auto& [p, q, r] : faces) {
                             const Vec3 out = cross(q - p, r - p);
-                            const double slope = dot(out, way), at = dot(out, p - from) / slope;
+                            const double slope = dot(out, direction), at = dot(out, p - from) / slope;
                             if (slope < 0) enters = std::max(enters, at);
                             if (slope > 0) leaves = std::min(leaves, at);
                         }
@@ -354,50 +216,9 @@ TEST_P(EveryRenderer, covers_a_closed_body_without_a_gap) {
     EXPECT_GT(outside, 2000u);
 }
 
-// Every ray against every triangle, by the test that these renderers apply to the samples that they find: they miss
-// none, and order, region and the way of finding leave no trace. The grid has its centre on samples, where rays go
-// through vertices and along edges.
-class SampleFindingRenderer : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer,
-                         ::testing::Values("simplex", "simploid", "simplex3d", "oblique", "mvr"),
-                         [](const auto& parameter) { return test_name(parameter.param); });
-
-TEST_P(SampleFindingRenderer, finds_what_a_test_of_all_rays_against_all_triangles_finds) {
-    const LightFieldGrid odd{3, 5, 1_mm, 21, 19, Perspective{0.5, 0.4}, 3};
-    std::mt19937 random(5);
-    std::uniform_int_distribution<int> step(-4, 4), deeper(1, 6);
-    const int rounds = GetParam() == "simplex" ? 10 : 40;
-    for (int round = 0; round < rounds; ++round) {
-        const bool behind = !crosses_plane(GetParam()) || round % 4 < 2;
-        ShadedScene scene = random_scene(random, 16, behind);
-        // Half of the scenes have all vertices on a lattice of half hogels and millimetres of depth.
-        if (round % 2 == 0)
-            for (Vec3& p : scene.positions)
-                p = {0.5e-3 * step(random), 0.5e-3 * step(random), 1e-3 * (behind ? -deeper(random) : step(random))};
-        scene.fronts_only = round % 8 >= 4;
-        const double least = crosses_plane(GetParam()) ? -1 : simplex::near_plane(scene, GetParam());
-        LightFieldBuffer expected(odd, true);
-        LightFieldTile tile(odd, {0, 0, odd.hogels_s, odd.hogels_t}, true);
-        for (std::size_t t = 0; t < odd.hogels_t; ++t)
-            for (std::size_t s = 0; s < odd.hogels_s; ++s)
-                for (std::size_t v = 0; v < odd.directions_v; ++v)
-                    for (std::size_t u = 0; u < odd.directions_u; ++u) {
-                        NearestTriangle seen;
-                        for (std::uint32_t i : triangles_with_area(scene))
-                            see(seen, i, ObliqueTriangle(scene, i, odd.u(double(u)), odd.v(double(v))),
-                                odd.s(double(s)), odd.t(double(t)), least);
-                        store(tile, scene, odd, seen, t, s, v, u);
-                    }
-        expected.write(tile);
-        const LightFieldBuffer found = render(GetParam(), scene, odd);
-        ASSERT_TRUE(std::ranges::equal(found.radiance.elements(), expected.radiance.elements())) << round;
-        ASSERT_TRUE(std::ranges::equal(found.depth.elements(), expected.depth.elements())) << round;
-    }
-}
-
-TEST(Renderers, that_need_the_scene_behind_the_plane_say_so_and_name_one_that_does_not) {
+TEST(Renderers, that_do_not_cross_the_plane_refuse_scenes_that_do) {
     ShadedScene scene;
-    add_triangle(scene, {0, 0, -1e-3}, {1e-3, 0, -1e-3}, {0, 1e-3, 2e-3}, [](Vec3) { return Rgb{1, 1, 1}; });
+    add_triangle(scene, {0, 0, -1e-3}, {1e-3, 0, -1e-3}, {0, 1e-3, 2e-3}, white);
     std::size_t refused = 0;
     for (const RendererInfo& info : renderers().rows()) {
         try {
@@ -415,13 +236,14 @@ TEST(Renderers, that_need_the_scene_behind_the_plane_say_so_and_name_one_that_do
     EXPECT_TRUE(crosses_plane("raytrace"));
 }
 
-// A flake in front of the middle of a hogel, at twice and at half of a millionth of the scene's size.
-TEST(Renderers, that_need_the_scene_behind_the_plane_see_up_to_their_near_plane) {
+// A tiny triangle in front of a hogel, at twice and at half the depth of the near plane, a millionth of the scene's
+// size.
+TEST(Renderers, that_do_not_cross_the_plane_see_up_to_their_near_plane) {
     const double size = 8e-3, near = 1e-6 * size;
     for (double depth : {2 * near, 0.5 * near}) {
         const Vec3 p{grid.s(1), grid.t(2), -depth};
         ShadedScene scene;
-        add_triangle(scene, {-1e-3, 0, -size}, {1e-3, 0, -size}, {0, 1e-6, -size}, [](Vec3) { return Rgb{1, 1, 1}; });
+        add_triangle(scene, {-1e-3, 0, -size}, {1e-3, 0, -size}, {0, 1e-6, -size}, white);
         add_triangle(scene, p + Vec3{-100e-9, -80e-9, 0}, p + Vec3{100e-9, -80e-9, 0}, p + Vec3{0, 90e-9, 0}, [](Vec3) {
             return Rgb{1, 1, 1};
         });
@@ -436,92 +258,6 @@ TEST(Renderers, that_need_the_scene_behind_the_plane_see_up_to_their_near_plane)
                 }
             }
         }
-    }
-}
-
-// Triangles much smaller than the distance between hogels, in front of the hologram, in it and behind it.
-TEST(Renderers, agree_on_a_fine_mesh_around_the_hologram) {
-    ShadedScene scene;
-    scene.background = {0.5f, 0.5f, 0.5f};
-    const std::size_t around = 72, down = 36;
-    for (std::size_t j = 0; j <= down; ++j)
-        for (std::size_t i = 0; i < around; ++i) {
-            const double theta = 3.14159265358979 * double(j) / double(down);
-            const double phi = 6.28318530717959 * double(i) / double(around);
-            const Vec3 n{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
-            const double radius = 2e-3 * (1 + 0.1 * std::sin(5 * phi) * std::sin(4 * theta) * std::sin(theta));
-            add_vertex(scene, radius * n + Vec3{0.3e-3, -0.2e-3, -0.7e-3},
-                       {float(0.5 + 0.5 * n.x), float(0.5 + 0.5 * n.y), float(0.5 + 0.5 * n.z)});
-        }
-    const auto at = [&](std::size_t j, std::size_t i) { return static_cast<std::uint32_t>(j * around + i % around); };
-    for (std::size_t j = 0; j < down; ++j)
-        for (std::size_t i = 0; i < around; ++i) {
-            scene.triangles.push_back({{at(j, i), at(j + 1, i), at(j + 1, i + 1)}, ShadedScene::no_texture, 0});
-            scene.triangles.push_back({{at(j, i), at(j + 1, i + 1), at(j, i + 1)}, ShadedScene::no_texture, 0});
-        }
-    const LightFieldBuffer first = render(names()[0], scene, grid);
-    for (std::size_t other = 1; other < names().size(); ++other) {
-        if (!crosses_plane(names()[other])) continue;
-        const LightFieldBuffer second = render(names()[other], scene, grid);
-        std::size_t hits = 0, different = 0;
-        for (std::size_t i = 0; i < first.depth.size(); ++i) {
-            const float a = first.depth.data()[i], b = second.depth.data()[i];
-            hits += std::isfinite(a) ? 1 : 0;
-            if (std::isfinite(a) != std::isfinite(b) || (std::isfinite(a) && std::abs(a - b) > 1e-7f)) ++different;
-        }
-        EXPECT_GT(hits, 5000u);
-        // Only a ray along a silhouette may be seen one way or the other.
-        EXPECT_LE(different, 1u) << names()[other];
-    }
-}
-
-// A sloping quadrilateral with a picture on it beside a plain triangle, in one channel and in three.
-TEST(Renderers, agree_on_textures_with_and_without_depth) {
-    ShadedScene scene;
-    scene.background = {0.1f, 0.2f, 0.3f};
-    auto picture = std::make_shared<Image>();
-    picture->pixels = Array<float, 3>({4, 5, 3});
-    for (std::size_t i = 0; i < picture->pixels.size(); ++i)
-        picture->pixels.data()[i] = 0.5f + 0.5f * std::sin(float(3 * i));
-    scene.textures.emplace_back(picture);
-    const auto vertex = [&](Vec3 p, Rgb radiance, float u, float v) {
-        scene.positions.push_back(p);
-        scene.radiance.push_back(radiance);
-        scene.texture_coordinates.push_back({u, v});
-    };
-    vertex({-2.05e-3, -2.1e-3, 1e-3}, {1, 0.5f, 0.2f}, 0, 0);
-    vertex({2.02e-3, -1.9e-3, -3e-3}, {0.5f, 0.5f, 0.9f}, 1, 0);
-    vertex({2.1e-3, 2e-3, -3e-3}, {1, 1, 1}, 1, 1);
-    vertex({-1.95e-3, 2.03e-3, 1e-3}, {0.2f, 0.9f, 0.2f}, 0, 1);
-    scene.triangles = {{{0, 1, 2}, 0, 0}, {{0, 2, 3}, 0, 0}};
-    add_triangle(scene, {-4.1e-3, -4.3e-3, -2e-3}, {0.11e-3, -4.2e-3, -2e-3}, {0.17e-3, 3e-3, -6e-3}, [](Vec3 p) {
-        return Rgb{float(0.5 + 40 * p.x), float(0.5 - 30 * p.y), float(0.5 + 50 * p.z)};
-    });
-    for (const std::size_t channels : {1, 3}) {
-        LightFieldGrid sampled = grid;
-        sampled.channels = channels;
-        const LightFieldBuffer first = render(names()[0], scene, sampled);
-        for (std::size_t other = 1; other < names().size(); ++other) {
-            if (!crosses_plane(names()[other])) continue;
-            const auto source = make_renderer(names()[other], std::make_shared<const ShadedScene>(scene), sampled);
-            LightFieldTile tile(sampled, {0, 0, grid.hogels_s, grid.hogels_t}, false);
-            source->read(tile);
-            std::size_t different = 0;
-            for (std::size_t i = 0; i < tile.radiance.size(); ++i)
-                if (std::abs(tile.radiance.data()[i] - first.radiance.data()[i]) > 1e-4f) ++different;
-            // Only a ray along an edge may be seen one way or the other.
-            EXPECT_LE(different, 2 * channels) << names()[other];
-        }
-    }
-}
-
-TEST(Renderers, an_unknown_name_is_a_usage_error_that_lists_the_known_ones) {
-    try {
-        make_renderer("radiosity", std::make_shared<const ShadedScene>(), grid);
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::usage);
-        EXPECT_NE(std::string(error.what()).find("raytrace, zbuffer"), std::string::npos) << error.what();
     }
 }
 

@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Rgb background{0.02f, 0.02f, 0.03f};
 
-/// The pictures: sums of waves with whole periods across the picture, so that its texture may repeat. p to the right
+/// The pictures are sums of waves with whole periods across the picture, so that its texture may repeat. p to the right
 /// and q up run from 0 to 1.
 Rgb picture(int number, double p, double q) {
     const double a = 2 * pi * p, b = 2 * pi * q;
@@ -32,7 +32,7 @@ Rgb picture(int number, double p, double q) {
             static_cast<float>(0.4 + 0.3 * std::cos(a + 2 * b)), static_cast<float>(0.3 + 0.2 * std::cos(3 * a - b))};
 }
 
-/// A picture in space; lengths in units of the hologram's side.
+/// A picture in space. Lengths are in units of the hologram's side.
 struct Panel {
     int picture;
     double x, y, half_width, depth;
@@ -49,19 +49,24 @@ const Vec3 to_lamp = normalize({-0.5, 0.6, 0.7});
 
 constexpr double dot_x = 0.1, dot_y = 0.05, dot_depth = 0.15, dot_radius = 0.005;
 
-/// The panel as a mesh that is lit evenly (by ambient light 1): its radiance is its texture. The texture samples the
-/// waves finely enough that interpolating between its texels is within 2e-4 of them.
-Mesh panel_mesh(const Panel& panel, double size) {
-    constexpr std::size_t texels = 512, cells = 8;
+/// A picture as a texture whose bilinear interpolation is within 2e-4 of the waves.
+std::shared_ptr<const Image> picture_texture(int number) {
+    constexpr std::size_t texels = 512;
     auto image = std::make_shared<Image>(texels, texels, 3);
     for (std::size_t row = 0; row < texels; ++row)
         for (std::size_t column = 0; column < texels; ++column) {
-            const Rgb c = picture(panel.picture, (static_cast<double>(column) + 0.5) / texels,
+            const Rgb c = picture(number, (static_cast<double>(column) + 0.5) / texels,
                                   1 - (static_cast<double>(row) + 0.5) / texels);
             image->pixels(row, column, 0) = c.r;
             image->pixels(row, column, 1) = c.g;
             image->pixels(row, column, 2) = c.b;
         }
+    return image;
+}
+
+/// The panel as a mesh for ambient light of radiance 1, in which its radiance is its texture.
+Mesh panel_mesh(const Panel& panel, double size) {
+    constexpr std::size_t cells = 8;
     MeshBuilder builder;
     const auto part = [](std::size_t i) { return static_cast<double>(i) / cells; };
     builder.patch(
@@ -79,7 +84,7 @@ Mesh panel_mesh(const Panel& panel, double size) {
             mesh.texture_coordinates.push_back({static_cast<float>(part(i)), static_cast<float>(part(k))});
     mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
     mesh.material.base_color = {1, 1, 1};
-    mesh.material.base_color_texture = image;
+    mesh.material.base_color_texture = picture_texture(panel.picture);
     mesh.name = panel.picture == 0 ? "back" : "front";
     return mesh;
 }
@@ -90,6 +95,40 @@ Scene panel_scene(std::initializer_list<Panel> panels, double size) {
     scene.ambient = {1, 1, 1};
     scene.background = background;
     return scene;
+}
+
+// The poles of the tessellation lie on the axis of the light, so the terminator is one of its rings and the kink of
+// max(0, n·l) lies between triangles.
+Mesh sphere_mesh(double size) {
+    constexpr std::size_t columns = 240, rows = 160;
+    const Vec3 side = normalize(cross({0, 1, 0}, to_lamp)), other = cross(to_lamp, side);
+    Mesh mesh;
+    const auto add = [&](Vec3 normal) {
+        mesh.normals.push_back(normal);
+        mesh.positions.push_back(size * ball_radius * normal);
+        return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    };
+    const auto ring = [&](std::size_t k, std::size_t i) {
+        return 1 + static_cast<std::uint32_t>((k - 1) * columns + i % columns);
+    };
+    const std::uint32_t south = add(-to_lamp);
+    for (std::size_t k = 1; k < rows; ++k)
+        for (std::size_t i = 0; i < columns; ++i) {
+            const double polar = pi * static_cast<double>(k) / rows, angle = 2 * pi * static_cast<double>(i) / columns;
+            add(-std::cos(polar) * to_lamp + std::sin(polar) * (std::cos(angle) * side + std::sin(angle) * other));
+        }
+    const std::uint32_t north = add(to_lamp);
+    for (std::size_t i = 0; i < columns; ++i) {
+        mesh.triangles.push_back({south, ring(1, i + 1), ring(1, i)});
+        for (std::size_t k = 1; k + 1 < rows; ++k) {
+            mesh.triangles.push_back({ring(k, i), ring(k, i + 1), ring(k + 1, i + 1)});
+            mesh.triangles.push_back({ring(k, i), ring(k + 1, i + 1), ring(k + 1, i)});
+        }
+        mesh.triangles.push_back({ring(rows - 1, i), ring(rows - 1, i + 1), north});
+    }
+    mesh.material.base_color = ball_color;
+    mesh.name = "ball";
+    return mesh;
 }
 
 void see_panel(const Panel& panel, double s, double t, double U, double V, AnalyticSample& seen) {
@@ -127,39 +166,9 @@ void see_dot(double s, double t, double U, double V, AnalyticSample& seen) {
 Scene make_plane(double size) { return panel_scene({back}, size); }
 Scene make_two_planes(double size) { return panel_scene({back, front}, size); }
 
-// The poles of the tessellation lie on the axis of the light, so the terminator is one of its rings and the kink of
-// max(0, n·l) is between triangles.
 Scene make_sphere(double size) {
-    constexpr std::size_t columns = 240, rows = 160;
-    const Vec3 side = normalize(cross({0, 1, 0}, to_lamp)), other = cross(to_lamp, side);
     Scene scene;
-    Mesh mesh;
-    const auto add = [&](Vec3 normal) {
-        mesh.normals.push_back(normal);
-        mesh.positions.push_back(size * ball_radius * normal);
-        return static_cast<std::uint32_t>(mesh.positions.size() - 1);
-    };
-    const auto ring = [&](std::size_t k, std::size_t i) {
-        return 1 + static_cast<std::uint32_t>((k - 1) * columns + i % columns);
-    };
-    const std::uint32_t south = add(-to_lamp);
-    for (std::size_t k = 1; k < rows; ++k)
-        for (std::size_t i = 0; i < columns; ++i) {
-            const double polar = pi * static_cast<double>(k) / rows, angle = 2 * pi * static_cast<double>(i) / columns;
-            add(-std::cos(polar) * to_lamp + std::sin(polar) * (std::cos(angle) * side + std::sin(angle) * other));
-        }
-    const std::uint32_t north = add(to_lamp);
-    for (std::size_t i = 0; i < columns; ++i) {
-        mesh.triangles.push_back({south, ring(1, i + 1), ring(1, i)});
-        for (std::size_t k = 1; k + 1 < rows; ++k) {
-            mesh.triangles.push_back({ring(k, i), ring(k, i + 1), ring(k + 1, i + 1)});
-            mesh.triangles.push_back({ring(k, i), ring(k + 1, i + 1), ring(k + 1, i)});
-        }
-        mesh.triangles.push_back({ring(rows - 1, i), ring(rows - 1, i + 1), north});
-    }
-    mesh.material.base_color = ball_color;
-    mesh.name = "ball";
-    scene.meshes.push_back(std::move(mesh));
+    scene.meshes.push_back(sphere_mesh(size));
     Light lamp;
     lamp.direction = -to_lamp;
     lamp.intensity = ball_irradiance;

@@ -11,8 +11,9 @@ namespace hogel {
 
 void fit_scene(Scene& scene, const Fit& fit) {
     if (!(fit.width > 0 && fit.height > 0 && fit.fill > 0))
-        throw Error(ErrorCode::usage, fmt::format("fit: {} m x {} m filled to {}; expected sizes above zero", fit.width,
-                                                  fit.height, fit.fill));
+        throw Error(ErrorCode::usage,
+                    fmt::format("fit: hologram of {} m x {} m filled to {}; expected sizes above zero", fit.width,
+                                fit.height, fit.fill));
     const auto [low, high] = bounds(scene);
     const Vec3 size = high - low;
     constexpr double inf = std::numeric_limits<double>::infinity();
@@ -20,7 +21,7 @@ void fit_scene(Scene& scene, const Fit& fit) {
         fit.fill * std::min(size.x > 0 ? fit.width / size.x : inf, size.y > 0 ? fit.height / size.y : inf);
     if (!(scale < inf))
         throw Error(ErrorCode::bad_input,
-                    fmt::format("scene '{}': no width and no height; expected something to see", scene.name));
+                    fmt::format("scene '{}': no width and no height; expected a visible size", scene.name));
     const Vec3 anchor{0.5 * low.x + 0.5 * high.x, 0.5 * low.y + 0.5 * high.y, high.z - fit.front * size.z};
     for (Mesh& mesh : scene.meshes)
         for (Vec3& position : mesh.positions) position = scale * (position - anchor);

@@ -10,7 +10,7 @@
 
 namespace hogel::scene {
 
-/// Grows a mesh of coloured vertices. Normals are left to add_missing_normals, which joins what shares positions.
+/// Builds a mesh of coloured vertices. Normals are left to add_missing_normals(), which joins equal positions.
 class MeshBuilder {
   public:
     using Index = std::uint32_t;
@@ -26,9 +26,8 @@ class MeshBuilder {
         triangle(a, c, d);
     }
 
-    /// A patch of columns × rows quads with vertices at(i, k), 0 <= i <= columns, 0 <= k <= rows: counter-clockwise
-    /// from the side where k runs to the right-hand left of i (as x and y do on paper). `wraps`: column `columns` is
-    /// column 0 again.
+    /// A patch of columns × rows quads with vertices at(i, k), 0 <= i <= columns, 0 <= k <= rows. Its front is the side
+    /// from which i runs to the right and k up. `wraps`: column `columns` is column 0 again.
     void patch(std::size_t columns, std::size_t rows, bool wraps,
                const std::function<Vec3(std::size_t, std::size_t)>& at, const std::function<Rgb(Vec3)>& color) {
         const std::size_t across = wraps ? columns : columns + 1;
@@ -47,7 +46,7 @@ class MeshBuilder {
     }
 
     /// A surface of revolution about the vertical through `foot`: profile(k) gives radius and height, from bottom to
-    /// top for a surface seen from outside.
+    /// top for a surface that is seen from outside.
     void revolve(Vec3 foot, std::size_t columns, std::size_t rows,
                  const std::function<std::pair<double, double>(std::size_t)>& profile,
                  const std::function<Rgb(Vec3)>& color) {
@@ -64,7 +63,7 @@ class MeshBuilder {
     Mesh mesh;
 };
 
-/// A number in 0..1 that looks random but depends on the three integers alone.
+/// A pseudo-random number in 0..1 that depends on the three integers alone.
 inline double hashed(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     std::uint32_t h = a * 0x9E3779B1u ^ b * 0x85EBCA77u ^ c * 0xC2B2AE3Du;
     h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
@@ -79,20 +78,21 @@ inline Rgb mix(Rgb a, Rgb b, double weight) {
     return (1 - w) * a + w * b;
 }
 
-/// Turns a whole scene about the x axis (positive: its top towards the viewer) after turning it about the vertical.
-inline void turn(Scene& scene, double about_y, double about_x) {
+/// Rotates a scene with its lights by `about_y` (radians) about the vertical, then by `about_x` about the x axis (its
+/// top towards the viewer where positive).
+inline void rotate(Scene& scene, double about_y, double about_x) {
     const double cy = std::cos(about_y), sy = std::sin(about_y), cx = std::cos(about_x), sx = std::sin(about_x);
-    const auto turned = [&](Vec3 p) {
+    const auto rotated = [&](Vec3 p) {
         const Vec3 q{cy * p.x + sy * p.z, p.y, cy * p.z - sy * p.x};
         return Vec3{q.x, cx * q.y - sx * q.z, cx * q.z + sx * q.y};
     };
     for (Mesh& mesh : scene.meshes) {
-        for (Vec3& p : mesh.positions) p = turned(p);
-        for (Vec3& n : mesh.normals) n = turned(n);
+        for (Vec3& p : mesh.positions) p = rotated(p);
+        for (Vec3& n : mesh.normals) n = rotated(n);
     }
     for (Light& light : scene.lights) {
-        light.position = turned(light.position);
-        light.direction = turned(light.direction);
+        light.position = rotated(light.position);
+        light.direction = rotated(light.direction);
     }
 }
 

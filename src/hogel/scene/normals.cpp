@@ -24,7 +24,7 @@ std::vector<Index> weld(const std::vector<Vec3>& positions) {
     return welded;
 }
 
-/// Sets of corners (3 a triangle) that share a normal: a union-find forest.
+/// Sets of triangle corners that share a normal, as a union-find forest.
 class Groups {
   public:
     explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
@@ -41,7 +41,7 @@ class Groups {
     std::vector<Index> parent_;
 };
 
-/// A triangle's edge, by the positions that it joins: `at_low` is the triangle's corner at the lower-numbered one.
+/// An edge of a triangle, by the welded vertices that it joins: `at_low` is the triangle's corner at the lower one.
 struct Edge {
     Index low, high, at_low, at_high;
 };
@@ -77,10 +77,9 @@ void append_copy(std::vector<T>& values, Index i) {
     if (!values.empty()) values.push_back(T(values[i]));
 }
 
-void add_normals(Mesh& mesh, double crease) {
-    const std::vector<Index> welded = weld(mesh.positions);
-    const std::vector<Vec3> faces = area_normals(mesh);
-    const std::vector<Edge> edges = sorted_edges(mesh, welded);
+/// Joins the corners of neighbouring triangles that meet at no more than `crease` radians.
+Groups smoothing_groups(const Mesh& mesh, const std::vector<Vec3>& faces, double crease) {
+    const std::vector<Edge> edges = sorted_edges(mesh, weld(mesh.positions));
     Groups groups(3 * mesh.triangles.size());
     const double cosine = std::cos(crease);
     for (std::size_t i = 1; i < edges.size(); ++i) {
@@ -93,14 +92,19 @@ void add_normals(Mesh& mesh, double crease) {
         groups.join(a.at_low, b.at_low);
         groups.join(a.at_high, b.at_high);
     }
+    return groups;
+}
 
+void add_normals(Mesh& mesh, double crease) {
+    const std::vector<Vec3> faces = area_normals(mesh);
+    Groups groups = smoothing_groups(mesh, faces, crease);
     std::vector<Vec3> sums(3 * mesh.triangles.size());
     for (Index corner = 0; corner < sums.size(); ++corner) sums[groups.find(corner)] += faces[corner / 3];
 
-    // A vertex keeps its index for the first group that uses it and gets a twin for every further one.
+    // A vertex keeps its index for the first group that uses it, and is copied for every further one.
     constexpr Index none = ~Index{0};
     struct Use {
-        Index group = none, next_twin = none;
+        Index group = none, next_copy = none;
     };
     std::vector<Use> uses(mesh.positions.size());
     mesh.normals.assign(mesh.positions.size(), Vec3{0, 0, 1});
@@ -110,20 +114,20 @@ void add_normals(Mesh& mesh, double crease) {
         const Vec3 normal = size > 0 ? sums[group] / size : Vec3{0, 0, 1};
         Index& vertex = mesh.triangles[corner / 3][corner % 3];
         Index i = vertex;
-        while (uses[i].group != group && uses[i].group != none && uses[i].next_twin != none) i = uses[i].next_twin;
+        while (uses[i].group != group && uses[i].group != none && uses[i].next_copy != none) i = uses[i].next_copy;
         if (uses[i].group == none) {
             uses[i].group = group;
             mesh.normals[i] = normal;
         } else if (uses[i].group != group) {
-            const auto twin = static_cast<Index>(mesh.positions.size());
+            const auto copy = static_cast<Index>(mesh.positions.size());
             append_copy(mesh.positions, vertex);
             append_copy(mesh.colors, vertex);
             append_copy(mesh.radiance, vertex);
             append_copy(mesh.texture_coordinates, vertex);
             mesh.normals.push_back(normal);
-            uses[i].next_twin = twin;
+            uses[i].next_copy = copy;
             uses.push_back({group, none});
-            i = twin;
+            i = copy;
         }
         vertex = i;
     }

@@ -9,10 +9,10 @@
 namespace hogel {
 namespace {
 
-// Of arrays, one after the other, and of how long they are.
+// A checksum of the checksums and lengths of several arrays.
 class Checksums {
   public:
-    // No T here has bytes between its numbers.
+    // T has no padding.
     template <class T>
     void add(std::span<const T> values) {
         sums_.push_back(core::checksum({reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()}));
@@ -24,7 +24,7 @@ class Checksums {
             sums_.push_back(0);
             return;
         }
-        // Many meshes may share one.
+        // Many meshes may share a picture.
         const auto [known, is_new] = pictures_.try_emplace(picture.get());
         if (is_new) {
             const std::span<const float> pixels = picture->pixels.elements();

@@ -15,7 +15,7 @@
 namespace hogel::scene {
 namespace {
 
-/// The box -1..1, two triangles a side, eight shared vertices.
+/// The box from −1 to 1, with two triangles a side and eight shared vertices.
 Scene cube() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
@@ -27,7 +27,7 @@ Scene cube() {
     return scene;
 }
 
-TEST(Normals, a_cube_splits_at_its_edges) {
+TEST(Normals, of_a_cube_are_split_at_its_edges) {
     Scene scene = cube();
     scene.meshes[0].colors.assign(8, {0.5f, 0, 0});
     add_missing_normals(scene, 0.5);
@@ -41,7 +41,7 @@ TEST(Normals, a_cube_splits_at_its_edges) {
     }
 }
 
-TEST(Normals, a_wide_crease_angle_smooths_the_cube_without_new_vertices) {
+TEST(Normals, of_a_cube_are_smooth_below_a_wide_crease_angle) {
     Scene scene = cube();
     add_missing_normals(scene, 1.7);
     const Mesh& mesh = scene.meshes[0];
@@ -49,7 +49,7 @@ TEST(Normals, a_wide_crease_angle_smooths_the_cube_without_new_vertices) {
     for (std::size_t i = 0; i < 8; ++i) EXPECT_GT(dot(mesh.normals[i], normalize(mesh.positions[i])), 0.9);
 }
 
-TEST(Normals, triangles_that_share_only_positions_are_smooth_too) {
+TEST(Normals, are_smooth_between_triangles_that_share_only_positions) {
     Scene soup;
     soup.meshes.emplace_back();
     const Scene box = cube();
@@ -67,7 +67,7 @@ TEST(Normals, triangles_that_share_only_positions_are_smooth_too) {
                       shared.meshes[0].normals[shared.meshes[0].triangles[t][k]]);
 }
 
-TEST(Normals, a_sphere_gets_those_of_the_sphere_and_existing_ones_stay) {
+TEST(Normals, of_a_fine_sphere_are_radial_and_existing_ones_stay) {
     Scene scene;
     Mesh ball;
     constexpr std::uint32_t rows = 60, columns = 120;
@@ -91,7 +91,7 @@ TEST(Normals, a_sphere_gets_those_of_the_sphere_and_existing_ones_stay) {
     EXPECT_EQ(scene.meshes[1].normals, std::vector<Vec3>(8, Vec3{0, 1, 0}));
 }
 
-TEST(Scene, what_is_wrong_is_named) {
+TEST(Scene, validation_names_the_faulty_element) {
     const auto complaint = [](const Scene& scene) -> std::string {
         try {
             validate(scene);
@@ -120,7 +120,7 @@ TEST(Scene, what_is_wrong_is_named) {
     EXPECT_NE(complaint(scene).find("colors of vertex 0"), std::string::npos);
 }
 
-TEST(Scene, bounds_are_those_of_used_vertices) {
+TEST(Scene, bounds_hold_the_vertices_of_triangles_only) {
     Scene scene = cube();
     scene.meshes[0].positions.push_back({100, 0, 0});
     EXPECT_EQ(bounds(scene).low, (Vec3{-1, -1, -1}));
@@ -129,8 +129,8 @@ TEST(Scene, bounds_are_those_of_used_vertices) {
     EXPECT_THROW(bounds(Scene{}), Error);
 }
 
-// Each change makes another scene, all different; names make none.
-TEST(Scene, has_a_checksum_of_all_that_is_to_be_seen) {
+// Each change gives another checksum; names do not matter.
+TEST(Scene, checksum_covers_everything_visible) {
     const auto picture = [](float value) {
         auto image = std::make_shared<Image>(2, 3, 3);
         image->pixels(1, 1, 2) = value;
@@ -174,7 +174,7 @@ TEST(Scene, has_a_checksum_of_all_that_is_to_be_seen) {
     EXPECT_EQ(sums.size(), changes.size());
 }
 
-TEST(Fit, fills_the_hologram_and_stands_where_it_is_told) {
+TEST(Fit, fills_the_hologram_at_the_given_depth) {
     for (double front : {0.0, 0.25, 1.0}) {
         Scene scene = cube();
         for (Vec3& p : scene.meshes[0].positions) p = Vec3{3 * p.x + 7, p.y - 2, 2 * p.z + 1};
@@ -188,7 +188,7 @@ TEST(Fit, fills_the_hologram_and_stands_where_it_is_told) {
     }
 }
 
-TEST(Fit, point_lights_keep_the_irradiance_that_they_make) {
+TEST(Fit, keeps_the_irradiance_of_point_lights) {
     Scene scene = cube();
     Light light;
     light.kind = Light::Kind::point;
@@ -196,15 +196,15 @@ TEST(Fit, point_lights_keep_the_irradiance_that_they_make) {
     light.intensity = {2, 2, 2};
     scene.lights = {light};
     const auto irradiance = [&] {
-        const Vec3 way = scene.lights[0].position - scene.meshes[0].positions[7];
-        return scene.lights[0].intensity.r / dot(way, way);
+        const Vec3 to_light = scene.lights[0].position - scene.meshes[0].positions[7];
+        return scene.lights[0].intensity.r / dot(to_light, to_light);
     };
     const double before = irradiance();
     fit_scene(scene, {0.02, 0.02, 0.85, 0.5});
     EXPECT_NEAR(irradiance(), before, 1e-6 * before);
 }
 
-TEST(Fit, refuses_what_has_no_size) {
+TEST(Fit, refuses_scenes_and_holograms_without_size) {
     Scene flat = cube();
     for (Vec3& p : flat.meshes[0].positions) p = {1, 1, p.z};
     EXPECT_THROW(fit_scene(flat, {0.02, 0.02, 0.85, 0}), Error);

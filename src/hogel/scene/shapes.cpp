@@ -19,8 +19,8 @@ double angle_of(std::size_t i, std::size_t columns) {
 }  // namespace
 
 Across across(Vec3 along) {
-    const Vec3 least = std::abs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
-    const Vec3 first = normalize(cross(least, along));
+    const Vec3 other = std::abs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};  // far from parallel
+    const Vec3 first = normalize(cross(other, along));
     return {first, cross(along, first)};
 }
 
@@ -51,7 +51,7 @@ void add_ball(MeshBuilder& builder, Vec3 center, double radius, std::size_t colu
 
 void add_tube(MeshBuilder& builder, std::size_t columns, std::size_t steps, const std::function<Vec3(std::size_t)>& at,
               const std::function<double(std::size_t)>& radius, const std::function<Rgb(Vec3)>& color) {
-    // The frame is carried along the path, turned no more than the path turns.
+    // The frame is transported along the path and rotates only with it.
     std::vector<Across> frames;
     for (std::size_t k = 0; k <= steps; ++k) {
         const Vec3 along = normalize(at(std::min(k + 1, steps)) - at(k > 0 ? k - 1 : 0));

@@ -9,24 +9,25 @@
 
 namespace hogel::scene {
 
-/// A ball whose poles lie along `axis`, in rings at the given latitudes (from -π/2 to π/2, both included); each ring
-/// has one colour. Two rings close to each other make a sharp line between two colours.
+/// A ring of vertices of a ball.
 struct Ring {
     double latitude;
     Rgb color;
 };
+/// A ball whose poles lie along `axis`, in rings at the given latitudes (from -π/2 to π/2, both included). Two rings
+/// close to each other make a sharp line between two colours.
 void add_ball(MeshBuilder& builder, Vec3 center, double radius, Vec3 axis, std::size_t columns,
               std::span<const Ring> rings);
 
 /// A ball of one colour in evenly spaced rings, its poles above and below.
 void add_ball(MeshBuilder& builder, Vec3 center, double radius, std::size_t columns, std::size_t rows, Rgb color);
 
-/// A round tube along a path at(0), …, at(steps), of radius(0), …, radius(steps), closed by flat ends. The path must
-/// not turn by 180 degrees in one step.
+/// A round tube along a path at(0), …, at(steps), with radius(0), …, radius(steps), closed by flat ends. The path must
+/// not bend by 180 degrees in one step.
 void add_tube(MeshBuilder& builder, std::size_t columns, std::size_t steps, const std::function<Vec3(std::size_t)>& at,
               const std::function<double(std::size_t)>& radius, const std::function<Rgb(Vec3)>& color);
 
-/// A straight one.
+/// A straight tube of constant radius.
 void add_rod(MeshBuilder& builder, Vec3 from, Vec3 to, double radius, std::size_t columns, Rgb color);
 
 /// A ring: a tube of radius `thickness` around the circle of the given radius in the plane through `center` that is
@@ -34,16 +35,16 @@ void add_rod(MeshBuilder& builder, Vec3 from, Vec3 to, double radius, std::size_
 void add_torus(MeshBuilder& builder, Vec3 center, Vec3 axis, double radius, double thickness, std::size_t around,
                std::size_t columns, Rgb color);
 
-/// A box whose faces are grids of patches no longer than `patch`, each face with vertices of its own.
+/// A box whose faces are grids of patches no longer than `patch`. Each face has its own vertices.
 void add_box(MeshBuilder& builder, Vec3 low, Vec3 high, double patch, const std::function<Rgb(Vec3)>& color);
 
-/// Gives the meshes of a name a glossy lobe (see Material).
+/// Gives the meshes of that name a glossy lobe (see Material).
 void polish(Scene& scene, std::string_view mesh, float reflectance, float metallic, float roughness);
 
-/// Drops the triangles of (almost) no area, such as surfaces of revolution have at their poles.
+/// Removes triangles with (almost) no area, as surfaces of revolution have at their poles.
 void drop_slivers(Mesh& mesh);
 
-/// Two unit vectors that make a right-handed frame with a third, `along`: first × second = along.
+/// Two unit vectors that form a right-handed frame with a third, `along`: first × second = along.
 struct Across {
     Vec3 first, second;
 };

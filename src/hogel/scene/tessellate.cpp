@@ -13,12 +13,13 @@ namespace {
 
 using Index = std::uint32_t;
 
-TextureCoordinate mix(TextureCoordinate a, TextureCoordinate b, TextureCoordinate c, float wa, float wb, float wc) {
+TextureCoordinate weighted_sum(TextureCoordinate a, TextureCoordinate b, TextureCoordinate c, float wa, float wb,
+                               float wc) {
     return {wa * a.u + wb * b.u + wc * c.u, wa * a.v + wb * b.v + wc * c.v};
 }
-Rgb mix(Rgb a, Rgb b, Rgb c, float wa, float wb, float wc) { return wa * a + wb * b + wc * c; }
+Rgb weighted_sum(Rgb a, Rgb b, Rgb c, float wa, float wb, float wc) { return wa * a + wb * b + wc * c; }
 
-/// Cuts the triangles of one mesh. Vertices keep their numbers; those on edges come next, and those inside last.
+/// Cuts the triangles of one mesh. Vertices keep their indices; new ones on edges and inside follow as they are met.
 class Cutter {
   public:
     Cutter(const Mesh& mesh, std::size_t n) : from_(mesh), n_(n) {
@@ -42,7 +43,7 @@ class Cutter {
     }
 
   private:
-    /// The vertex i steps towards the second corner and j towards the third.
+    /// The vertex i steps towards the second corner and j steps towards the third.
     Index vertex(const std::array<Index, 3>& corners, std::size_t i, std::size_t j) {
         const std::size_t k = n_ - i - j;
         const auto& [a, b, c] = corners;
@@ -55,7 +56,7 @@ class Cutter {
         return add(a, b, c, k, i, j);
     }
 
-    /// The vertex `step` steps from a to b, made once for both triangles at the edge, from its smaller end.
+    /// The vertex `step` steps from a to b. Made once for both triangles at the edge, from its lower-numbered end.
     Index on_edge(Index a, Index b, std::size_t step) {
         if (a > b) return on_edge(b, a, n_ - step);
         const auto [known, is_new] = edges_.try_emplace(std::uint64_t{a} << 32 | b, Index{0});
@@ -71,7 +72,7 @@ class Cutter {
         const auto wa = static_cast<float>(part(na)), wb = static_cast<float>(part(nb)),
                    wc = static_cast<float>(part(nc));
         const auto append = [&](auto& values, const auto& old) {
-            if (!values.empty()) values.push_back(mix(old[a], old[b], old[c], wa, wb, wc));
+            if (!values.empty()) values.push_back(weighted_sum(old[a], old[b], old[c], wa, wb, wc));
         };
         const auto sum = [&](const std::vector<Vec3>& p) {
             return part(na) * p[a] + part(nb) * p[b] + part(nc) * p[c];
@@ -87,14 +88,15 @@ class Cutter {
         append(to_.texture_coordinates, from_.texture_coordinates);
         if (to_.positions.size() > std::numeric_limits<Index>::max())
             throw Error(ErrorCode::usage,
-                        fmt::format("mesh '{}' cut {} times: more than 2^32 vertices", from_.name, n_));
+                        fmt::format("mesh '{}' with triangles cut {} times along an edge: more than 2^32 vertices",
+                                    from_.name, n_));
         return static_cast<Index>(to_.positions.size() - 1);
     }
 
     const Mesh& from_;
     std::size_t n_;
     Mesh to_;
-    std::unordered_map<std::uint64_t, Index> edges_;  // by their ends: the first of n − 1 vertices
+    std::unordered_map<std::uint64_t, Index> edges_;  // key: both ends; value: the first of its n − 1 vertices
 };
 
 }  // namespace

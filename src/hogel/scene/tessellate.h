@@ -5,7 +5,7 @@
 
 namespace hogel::scene {
 
-/// Cuts every triangle into n² equal ones; what vertices carry is interpolated, normals are made unit length again.
+/// Cuts every triangle into n² congruent ones. Vertex attributes are interpolated, and normals made unit length again.
 /// Triangles that share two vertices share the new ones between them. Throws Error(usage) for n = 0 and where a mesh
 /// would get more than 2^32 vertices.
 Scene tessellate(const Scene& scene, std::size_t n);

@@ -30,7 +30,7 @@ double area(const Mesh& mesh) {
     return sum;
 }
 
-TEST(Tessellate, keeps_the_surface_and_cuts_it_into_equal_parts) {
+TEST(Tessellate, cuts_triangles_and_keeps_the_surface) {
     const Scene coarse = ball();
     for (const std::size_t n : {1, 2, 3, 6}) {
         const Scene fine = tessellate(coarse, n);
@@ -39,14 +39,14 @@ TEST(Tessellate, keeps_the_surface_and_cuts_it_into_equal_parts) {
         EXPECT_NEAR(area(fine.meshes[0]), area(coarse.meshes[0]), 1e-12);
         for (const auto& [a, b, c] : fine.meshes[0].triangles) {
             const auto& p = fine.meshes[0].positions;
-            EXPECT_GT(dot(cross(p[b] - p[a], p[c] - p[a]), p[a] + p[b] + p[c]), 0);  // still seen from outside
+            EXPECT_GT(dot(cross(p[b] - p[a], p[c] - p[a]), p[a] + p[b] + p[c]), 0);  // still faces outwards
         }
         for (const Vec3& normal : fine.meshes[0].normals) EXPECT_NEAR(length(normal), 1, 1e-12);
         for (const Rgb& color : fine.meshes[0].colors) EXPECT_NEAR(color.g, 0.25f, 1e-6);
     }
 }
 
-// Neighbours share the new vertices of their edge: a closed surface has as many vertices as Euler's formula says.
+// A closed surface then has as many vertices as Euler's formula requires.
 TEST(Tessellate, shares_vertices_along_edges) {
     Scene scene;
     Mesh mesh;
@@ -64,7 +64,7 @@ TEST(Tessellate, shares_vertices_along_edges) {
     }
 }
 
-TEST(Tessellate, refuses_no_parts) { EXPECT_THROW(tessellate(ball(), 0), Error); }
+TEST(Tessellate, refuses_zero_parts) { EXPECT_THROW(tessellate(ball(), 0), Error); }
 
 }  // namespace
 }  // namespace hogel::scene

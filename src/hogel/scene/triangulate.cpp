@@ -11,10 +11,10 @@ struct Point {
     double x, y;
 };
 
-/// Twice the signed area.
-double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+/// Twice the signed area: positive if the corners run counterclockwise.
+double orientation(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// Seen along the axis that its normal is closest to, so that it turns counter-clockwise.
+/// Projects a polygon along the axis closest to its normal, so that it runs counterclockwise.
 std::vector<Point> flatten(std::span<const Vec3> polygon) {
     Vec3 normal;
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -37,12 +37,13 @@ bool is_ear(const std::vector<Point>& points, const std::vector<std::uint32_t>& 
     const std::size_t n = ring.size();
     const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
     const Point a = points[ring[before]], b = points[ring[i]], c = points[ring[after]];
-    if (!(turn(a, b, c) > 0)) return false;
+    if (!(orientation(a, b, c) > 0)) return false;
     for (std::size_t k = 0; k < n; ++k) {
         if (k == before || k == i || k == after) continue;
         const Point p = points[ring[k]];
         const bool corner = (p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y);
-        if (!corner && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+        if (!corner && orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0)
+            return false;
     }
     return true;
 }
@@ -59,7 +60,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3> poly
     while (ring.size() > 3) {
         std::size_t tries = 0;
         while (tries < ring.size() && !is_ear(points, ring, i % ring.size())) ++i, ++tries;
-        i %= ring.size();  // without any ear the polygon is degenerate, and any corner does
+        i %= ring.size();  // without an ear the polygon is degenerate, and any corner will do
         const std::size_t n = ring.size();
         triangles.push_back({ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]});
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));

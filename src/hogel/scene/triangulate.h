@@ -10,9 +10,9 @@
 
 namespace hogel::scene {
 
-/// Cuts a simple polygon in space into n − 2 triangles of its n corners (indices into `polygon`, turning the way the
-/// polygon turns) by clipping ears in the plane that it lies in on average. Concave polygons may have any shape; of one
-/// that crosses itself the result covers something, without guarantee. Cost: n² at worst.
+/// Divides a simple polygon in space into n − 2 triangles of its n corners (indices into `polygon`, in the polygon's
+/// orientation) by clipping ears in its mean plane. Concave polygons may have any shape; for a polygon that crosses
+/// itself the result is some triangles without any guarantee. Cost: n² at worst.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3> polygon);
 
 }  // namespace hogel::scene

@@ -8,7 +8,7 @@
 namespace hogel::scene {
 namespace {
 
-/// Every triangle turns like the polygon and their areas add up to its area: together, a tiling.
+/// Expects triangles in the polygon's orientation whose areas add up to its area: a tiling.
 void expect_tiling(const std::vector<Vec3>& polygon) {
     Vec3 whole;
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -29,7 +29,7 @@ std::vector<Vec3> placed(std::vector<Vec3> polygon, Vec3 right, Vec3 up) {
     return polygon;
 }
 
-TEST(Triangulate, tiles_polygons_of_any_shape_facing_anywhere) {
+TEST(Triangulate, tiles_polygons_of_any_shape_and_orientation) {
     std::vector<Vec3> star, comb{{0, -1, 0}, {20, -1, 0}};
     for (int i = 0; i < 40; ++i) {
         const double r = i % 2 == 0 ? 1 : 0.2, angle = 6.283185307 * i / 40;
@@ -51,7 +51,7 @@ TEST(Triangulate, tiles_polygons_of_any_shape_facing_anywhere) {
         for (const auto& [right, up] : frames) expect_tiling(placed(shape, right, up));
 }
 
-TEST(Triangulate, degenerate_polygons_end) {
+TEST(Triangulate, ends_for_degenerate_polygons) {
     EXPECT_TRUE(triangulate({}).empty());
     EXPECT_EQ(triangulate(std::vector<Vec3>(10)).size(), 8u);
     const std::vector<Vec3> bow{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};

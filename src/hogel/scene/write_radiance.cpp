@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr int floats = 5126, unsigned_ints = 5125, vertex_data = 34962, index_data = 34963;
 constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
-/// The file's parts while they grow: bytes, and what they mean.
+/// A glTF file while it is written: its JSON part, and the data that it describes.
 class Gltf {
   public:
     Gltf() {
@@ -31,7 +31,7 @@ class Gltf {
         json["scene"] = 0;
     }
 
-    /// @param count  of elements of `components` numbers each
+    /// Adds an array of elements of `components` numbers each. Returns the index of its accessor.
     template <class T>
     std::size_t accessor(const std::vector<T>& numbers, std::size_t components, int target) {
         const std::size_t view = buffer_view(numbers.data(), numbers.size() * sizeof(T), target);
@@ -43,21 +43,24 @@ class Gltf {
         return json["accessors"].size() - 1;
     }
 
-    std::size_t picture(const Image& image) {
+    /// Adds a texture. Returns its index.
+    std::size_t texture(const Image& image) {
         const std::vector<unsigned char> png = encode_png(image);
         json["images"].push_back({{"bufferView", buffer_view(png.data(), png.size(), 0)}, {"mimeType", "image/png"}});
         json["textures"].push_back({{"source", json["images"].size() - 1}});
         return json["textures"].size() - 1;
     }
 
+    /// The finished file.
     std::vector<unsigned char> bytes() {
         json["buffers"] = {{{"byteLength", data_.size()}}};
         std::string text = json.dump();
         text.resize((text.size() + 3) / 4 * 4, ' ');
         const std::size_t total = 12 + 8 + text.size() + 8 + data_.size();
         if (total > std::numeric_limits<std::uint32_t>::max())
-            throw Error(ErrorCode::cannot_write, fmt::format("a .glb file of {:.3g} GB; its format ends at 4.29 GB",
-                                                             static_cast<double>(total) / 1e9));
+            throw Error(ErrorCode::cannot_write,
+                        fmt::format("a .glb file of {:.3g} GB; expected at most 4.29 GB, the limit of the format",
+                                    static_cast<double>(total) / 1e9));
         std::vector<unsigned char> file;
         file.reserve(total);
         const auto append = [&file](const void* from, std::size_t size) {
@@ -97,17 +100,9 @@ std::vector<float> packed(const std::vector<Vec3>& values) {
     return list;
 }
 
-void add_mesh(Gltf& gltf, const Mesh& mesh, std::map<const Image*, std::size_t>& pictures) {
-    if (mesh.radiance.size() != mesh.positions.size())
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("mesh '{}': brings no radiance; expected one a vertex", mesh.name));
-    const std::vector<float> positions = packed(mesh.positions);
-    std::vector<float> colors, coordinates;
-    for (const Rgb& c : mesh.radiance) colors.insert(colors.end(), {c.r, c.g, c.b});
-    std::vector<std::uint32_t> indices;
-    for (const auto& [a, b, c] : mesh.triangles) indices.insert(indices.end(), {a, b, c});
-
-    Json attributes{{"POSITION", gltf.accessor(positions, 3, vertex_data)}};
+/// Adds positions, with the box around them that glTF requires. Returns their accessor.
+std::size_t add_positions(Gltf& gltf, const std::vector<float>& positions) {
+    const std::size_t accessor = gltf.accessor(positions, 3, vertex_data);
     Json& box = gltf.json["accessors"].back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         float low = std::numeric_limits<float>::infinity(), high = -low;
@@ -115,6 +110,19 @@ void add_mesh(Gltf& gltf, const Mesh& mesh, std::map<const Image*, std::size_t>&
             low = std::min(low, positions[i]), high = std::max(high, positions[i]);
         box["min"].push_back(low), box["max"].push_back(high);
     }
+    return accessor;
+}
+
+void add_mesh(Gltf& gltf, const Mesh& mesh, std::map<const Image*, std::size_t>& textures) {
+    if (mesh.radiance.size() != mesh.positions.size())
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("mesh '{}': brings no radiance; expected one a vertex", mesh.name));
+    std::vector<float> colors, coordinates;
+    for (const Rgb& c : mesh.radiance) colors.insert(colors.end(), {c.r, c.g, c.b});
+    std::vector<std::uint32_t> indices;
+    for (const auto& [a, b, c] : mesh.triangles) indices.insert(indices.end(), {a, b, c});
+
+    Json attributes{{"POSITION", add_positions(gltf, packed(mesh.positions))}};
     if (!mesh.normals.empty()) attributes["NORMAL"] = gltf.accessor(packed(mesh.normals), 3, vertex_data);
     attributes["COLOR_0"] = gltf.accessor(colors, 3, vertex_data);
 
@@ -125,8 +133,8 @@ void add_mesh(Gltf& gltf, const Mesh& mesh, std::map<const Image*, std::size_t>&
         for (const TextureCoordinate& t : mesh.texture_coordinates)
             coordinates.insert(coordinates.end(), {t.u, 1 - t.v});  // glTF's v runs down
         attributes["TEXCOORD_0"] = gltf.accessor(coordinates, 2, vertex_data);
-        const auto [known, is_new] = pictures.try_emplace(image.get(), 0);
-        if (is_new) known->second = gltf.picture(*image);
+        const auto [known, is_new] = textures.try_emplace(image.get(), 0);
+        if (is_new) known->second = gltf.texture(*image);
         material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", known->second}};
     }
     gltf.json["materials"].push_back(std::move(material));
@@ -150,9 +158,9 @@ void write_baked_scene(const std::filesystem::path& path, const Scene& scene) {
     require_baked_scene_name(path);
     validate(scene);
     Gltf gltf;
-    std::map<const Image*, std::size_t> pictures;
+    std::map<const Image*, std::size_t> textures;
     for (const Mesh& mesh : scene.meshes)
-        if (!mesh.triangles.empty()) add_mesh(gltf, mesh, pictures);
+        if (!mesh.triangles.empty()) add_mesh(gltf, mesh, textures);
     core::write_file(path, gltf.bytes());
 }
 

@@ -43,7 +43,7 @@ Scene two_balls() {
     return scene;
 }
 
-TEST(WriteRadiance, comes_back_as_it_was) {
+TEST(WriteBakedScene, is_read_back_unchanged) {
     const Folder folder;
     const Scene scene = two_balls();
     write_baked_scene(folder.path / "x.glb", scene);
@@ -69,7 +69,7 @@ TEST(WriteRadiance, comes_back_as_it_was) {
     EXPECT_NEAR(back.meshes[1].material.base_color_texture->pixels(1, 1, 2), 14.0 / 17, 0.01);
 }
 
-TEST(WriteRadiance, is_the_same_every_time) {
+TEST(WriteBakedScene, gives_the_same_bytes_every_time) {
     const Folder folder;
     const auto bytes = [&](const char* name) {
         write_baked_scene(folder.path / name, two_balls());
@@ -79,8 +79,8 @@ TEST(WriteRadiance, is_the_same_every_time) {
     EXPECT_EQ(bytes("a.glb"), bytes("b.glb"));
 }
 
-// Truncated and damaged: refused in one line, or read as some other scene, never a crash.
-TEST(WriteRadiance, damaged_files_are_refused_or_read) {
+// Truncated files and files with a flipped bit: refused in one line, or read as another scene, but never a crash.
+TEST(WriteBakedScene, damaged_files_are_refused_or_read) {
     const Folder folder;
     const std::filesystem::path path = folder.path / "x.glb";
     write_baked_scene(path, two_balls());
@@ -106,7 +106,7 @@ TEST(WriteRadiance, damaged_files_are_refused_or_read) {
     EXPECT_GT(refused, 100);
 }
 
-TEST(WriteRadiance, refuses_scenes_without_radiance_and_other_names) {
+TEST(WriteBakedScene, refuses_scenes_without_radiance_and_other_names) {
     const Folder folder;
     Scene scene = two_balls();
     EXPECT_THROW(write_baked_scene(folder.path / "x.ply", scene), Error);

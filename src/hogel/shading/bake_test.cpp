@@ -17,7 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The inside of a ball of radius 1.
+/// A sphere of radius 1, seen from the inside.
 Scene hollow_ball(float albedo, std::size_t columns = 40, std::size_t rows = 20) {
     scene::MeshBuilder builder;
     scene::add_ball(builder, {0, 0, 0}, 1, columns, rows, {1, 1, 1});
@@ -42,8 +42,8 @@ Scene box(float albedo, float emission) {
     return scene;
 }
 
-// A closed room whose walls glow evenly and reflect half: e (1 + ½ + ¼ + …), whatever its form.
-TEST(Bake, a_furnace_is_as_bright_as_its_series) {
+// In a closed room of any shape whose walls emit radiance e and reflect half: e (1 + ½ + ¼ + …).
+TEST(Bake, a_furnace_has_the_radiance_of_its_series) {
     for (const std::size_t bounces : {0, 1, 2, 6}) {
         const Scene baked = bake_scene(box(0.5f, 1), {.rays = 16, .bounces = bounces});
         for (const Rgb& seen : baked.meshes[0].radiance)
@@ -51,10 +51,9 @@ TEST(Bake, a_furnace_is_as_bright_as_its_series) {
     }
 }
 
-// The integrating sphere: light that the walls reflect arrives everywhere alike, wherever the lamp stands. With power Φ
-// and albedo ρ, the reflected radiance is ρ²Φ/(4π²r²(1−ρ)) and nothing is lost: what walls absorb is what the lamp
-// sends out.
-TEST(Bake, an_integrating_sphere_is_evenly_lit) {
+// In an integrating sphere, reflected light is the same everywhere, wherever the lamp is. With power Φ and albedo ρ its
+// radiance is ρ²Φ/(4π²r²(1−ρ)), and the walls absorb the power of the lamp.
+TEST(Bake, an_integrating_sphere_is_lit_uniformly) {
     constexpr double albedo = 0.6, intensity = 2, power = 4 * pi * intensity;
     Scene scene = hollow_ball(float(albedo));
     scene.lights = {lamp({0.4, 0.2, -0.1}, float(intensity))};
@@ -66,11 +65,11 @@ TEST(Bake, an_integrating_sphere_is_evenly_lit) {
         const auto& p = scene.meshes[0].positions;
         const double a = 0.5 * length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
         for (const std::uint32_t i : t) {
-            const double shown = baked.meshes[0].radiance[i].r;
-            const double reflected = shown - direct.meshes[0].radiance[i].r;
+            const double total = baked.meshes[0].radiance[i].r;
+            const double reflected = total - direct.meshes[0].radiance[i].r;
             EXPECT_NEAR(reflected, expected, 0.12 * expected);
             mean += a / 3 * reflected;
-            absorbed += a / 3 * pi * shown * (1 - albedo) / albedo;
+            absorbed += a / 3 * pi * total * (1 - albedo) / albedo;
             area += a / 3;
         }
     }
@@ -78,7 +77,7 @@ TEST(Bake, an_integrating_sphere_is_evenly_lit) {
     EXPECT_NEAR(absorbed, power, 0.02 * power);
 }
 
-TEST(Bake, without_bounces_it_is_the_light_at_the_vertices) {
+TEST(Bake, without_bounces_is_the_direct_light_at_the_vertices) {
     const Scene scene = hollow_ball(0.7f);
     Scene lit = scene;
     lit.lights = {lamp({0.3, 0, 0}, 1)};
@@ -88,7 +87,7 @@ TEST(Bake, without_bounces_it_is_the_light_at_the_vertices) {
         ASSERT_NEAR(baked.meshes[0].radiance[i].g, vertices.radiance[i].g, 0.03 * vertices.radiance[i].g);
 }
 
-// Red light from a red wall, and none behind a wall that is in the way.
+// A white floor is reddest beside a red wall.
 TEST(Bake, colours_bleed) {
     scene::MeshBuilder red, white;
     red.patch(
@@ -121,7 +120,7 @@ TEST(Bake, colours_bleed) {
     EXPECT_LT(excess(4 * 9 + 8), excess(4 * 9 + 1));  // and farther away
 }
 
-TEST(Bake, finer_triangles_follow_shadows_that_coarse_ones_miss) {
+TEST(Bake, tessellation_keeps_the_radiance_of_the_vertices) {
     const Scene scene = box(0.5f, 0.2f);
     const Scene coarse = bake_scene(scene, {.rays = 16, .bounces = 2}),
                 fine = bake_scene(scene, {.rays = 16, .bounces = 2, .tessellation = 3});
@@ -131,7 +130,7 @@ TEST(Bake, finer_triangles_follow_shadows_that_coarse_ones_miss) {
         EXPECT_NEAR(coarse.meshes[0].radiance[i].r, fine.meshes[0].radiance[i].r, 1e-6);
 }
 
-TEST(Bake, is_the_same_for_any_number_of_threads_and_depends_on_the_seed) {
+TEST(Bake, does_not_depend_on_the_number_of_threads_but_on_the_seed) {
     Scene scene = hollow_ball(0.6f, 20, 10);
     scene.lights = {lamp({0.4, 0.2, -0.1}, 2)};
     BakeOptions options{.rays = 16, .bounces = 2};
@@ -144,18 +143,18 @@ TEST(Bake, is_the_same_for_any_number_of_threads_and_depends_on_the_seed) {
     EXPECT_NE(many.meshes[0].radiance, bake_scene(scene, options).meshes[0].radiance);
 }
 
-TEST(Bake, what_is_given_stays_and_lights_the_rest) {
+TEST(Bake, given_radiance_stays_and_lights_the_rest) {
     Scene scene = box(0.5f, 0);
     scene.meshes.push_back(hollow_ball(0).meshes[0]);
     for (Vec3& p : scene.meshes[1].positions) p = 0.6 * p;
-    for (Vec3& n : scene.meshes[1].normals) n = -n;  // a ball in the room
+    for (Vec3& n : scene.meshes[1].normals) n = -n;  // a sphere in the room
     scene.meshes[1].radiance.assign(scene.meshes[1].positions.size(), {3, 3, 3});
     const Scene baked = bake_scene(scene, {.rays = 64, .bounces = 2});
     EXPECT_EQ(baked.meshes[1].radiance, scene.meshes[1].radiance);
     for (const Rgb& seen : baked.meshes[0].radiance) EXPECT_GT(seen.r, 0.0f);
 }
 
-TEST(Bake, refuses_what_makes_no_sense) {
+TEST(Bake, refuses_zero_rays_zero_parts_and_empty_scenes) {
     EXPECT_THROW(bake_scene(box(0.5f, 1), {.rays = 0}), Error);
     EXPECT_THROW(bake_scene(box(0.5f, 1), {.rays = 1, .tessellation = 0}), Error);
     EXPECT_THROW(bake_scene({}, {}), Error);

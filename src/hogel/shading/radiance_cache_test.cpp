@@ -15,7 +15,7 @@ namespace {
 
 using Weights = std::array<float, 3>;
 
-// Light of a known form, and how often it was asked for.
+// Light of a known form, with a count of evaluations.
 class KnownLight final : public SampleLighting {
   public:
     explicit KnownLight(double wave) : wave_(wave) {}
@@ -23,7 +23,7 @@ class KnownLight final : public SampleLighting {
     bool light_is_radiance(std::size_t) const override { return false; }
     void light_on(const ShadedScene& scene, std::size_t index, const Weights& weights,
                   std::span<float> light) const override {
-        ++asked;
+        ++evaluations;
         const auto& [a, b, c] = scene.triangles[index].vertices;
         const Vec3 p = double{weights[0]} * scene.positions[a] + double{weights[1]} * scene.positions[b] +
                        double{weights[2]} * scene.positions[c];
@@ -36,13 +36,13 @@ class KnownLight final : public SampleLighting {
         return {light[0], light[1], light[6]};
     }
 
-    mutable std::atomic<std::size_t> asked = 0;
+    mutable std::atomic<std::size_t> evaluations = 0;
 
   private:
     double wave_;
 };
 
-// A broad triangle, slivers whose shortest side is each of the three, and two without area.
+// A broad triangle, slivers whose shortest side is each of the three, and two triangles without area.
 ShadedScene triangles() {
     ShadedScene scene;
     scene.positions = {{-1, -1, 0}, {1, -0.9, 0.2}, {0.1, 1, -0.3}, {-0.99, -1, 0}, {0.1, 1.01, -0.3}};
@@ -61,7 +61,7 @@ Weights random_weights(std::mt19937& engine) {
     return {1 - b - c, b, c};
 }
 
-TEST(RadianceCache, keeps_linear_light_as_it_is_and_a_wave_to_second_order) {
+TEST(RadianceCache, is_exact_for_linear_light_and_of_second_order_for_a_wave) {
     constexpr double wave = 9;
     for (const float spacing : {0.1f, 0.05f}) {
         ShadedScene scene = triangles();
@@ -75,20 +75,20 @@ TEST(RadianceCache, keeps_linear_light_as_it_is_and_a_wave_to_second_order) {
             const Rgb seen = radiance_at(scene, index, w[0], w[1], w[2]);
             std::array<float, 7> exact;
             light->light_on(scene, index, w, exact);
-            // A sliver has one column of points, at most half of its width from what it is to show.
-            const double aside = index == 0 ? 0 : 0.5 * 0.015;
-            ASSERT_NEAR(seen.r, exact[0], 2.3 * aside + 2e-6) << index;
-            ASSERT_NEAR(seen.b, exact[6], 0.4 * aside + 1.25 * 1.25 * 0.5 / 255 + 1e-6) << index;  // a share is a byte
-            // At most h²/8 f″ along each of the two directions of the grid, and a little more at its rim, a quarter of
-            // a cell beyond the last points.
-            ASSERT_NEAR(seen.g, exact[1], 0.9 * (aside * wave + 2 * 1.25 * spacing * spacing / 8 * wave * wave) + 1e-6)
+            // A sliver has a single column of points, at most half of its width away.
+            const double offset = index == 0 ? 0 : 0.5 * 0.015;
+            ASSERT_NEAR(seen.r, exact[0], 2.3 * offset + 2e-6) << index;
+            ASSERT_NEAR(seen.b, exact[6], 0.4 * offset + 1.25 * 1.25 * 0.5 / 255 + 1e-6) << index;  // a share is a byte
+            // At most h²/8 f″ along each of the two axes of the grid, and a little more a quarter of a cell beyond the
+            // outermost points.
+            ASSERT_NEAR(seen.g, exact[1], 0.9 * (offset * wave + 2 * 1.25 * spacing * spacing / 8 * wave * wave) + 1e-6)
                 << index;
         }
         EXPECT_LT(scene.radiance_cache->points_filled(), spacing == 0.1f ? 600u : 2000u);
     }
 }
 
-TEST(RadianceCache, gives_the_same_bits_whoever_asked_before) {
+TEST(RadianceCache, gives_the_same_bits_in_any_order_and_number_of_threads) {
     ShadedScene once = triangles(), again = triangles();
     const std::vector<float> spacing(once.triangles.size(), 0.06f);
     for (ShadedScene* scene : {&once, &again}) {
@@ -97,18 +97,18 @@ TEST(RadianceCache, gives_the_same_bits_whoever_asked_before) {
     }
     constexpr std::size_t count = 20000;
     std::vector<Rgb> alone(count), together(count);
-    const auto look = [&](const ShadedScene& scene, std::size_t i) {
+    const auto evaluate = [&](const ShadedScene& scene, std::size_t i) {
         std::mt19937 engine(static_cast<unsigned>(i));
         const std::size_t index = engine() % scene.triangles.size();
         const Weights w = random_weights(engine);
         return radiance_at(scene, index, w[0], w[1], w[2]);
     };
-    for (std::size_t i = 0; i < count; ++i) alone[i] = look(once, i);
-    core::parallel_for(count, [&](std::size_t i) { together[count - 1 - i] = look(again, count - 1 - i); });
+    for (std::size_t i = 0; i < count; ++i) alone[i] = evaluate(once, i);
+    core::parallel_for(count, [&](std::size_t i) { together[count - 1 - i] = evaluate(again, count - 1 - i); });
     EXPECT_EQ(alone, together);
 }
 
-TEST(RadianceCache, leaves_out_triangles_for_which_there_is_no_room_or_no_grid) {
+TEST(RadianceCache, evaluates_light_for_each_ray_where_a_triangle_has_no_grid) {
     ShadedScene scene = triangles(), plain = triangles();
     const auto light = std::make_shared<KnownLight>(5);
     scene.lighting = plain.lighting = light;
@@ -116,7 +116,7 @@ TEST(RadianceCache, leaves_out_triangles_for_which_there_is_no_room_or_no_grid) 
     add_radiance_cache(scene, spacing);
     const double all = scene.radiance_cache->bytes();
     EXPECT_EQ(scene.radiance_cache->triangles_without_room(), 0u);
-    spacing[1] = 0;  // no grid wanted
+    spacing[1] = 0;  // no grid requested
     spacing[2] = 1e-30f;
     add_radiance_cache(scene, spacing, 0.75 * all);
     EXPECT_LE(scene.radiance_cache->bytes(), 0.75 * all);
@@ -126,14 +126,14 @@ TEST(RadianceCache, leaves_out_triangles_for_which_there_is_no_room_or_no_grid) 
         EXPECT_EQ(seen, radiance_at(plain, index, 0.2f, 0.7f, 0.1f));
     }
     EXPECT_EQ(scene.radiance_cache->points_filled(), 0u);
-    // A scene without light for each sample has nothing to keep.
+    // A scene without lighting gets no cache.
     ShadedScene given = triangles();
     add_radiance_cache(given, spacing);
     EXPECT_EQ(given.radiance_cache, nullptr);
 }
 
-// A triangle no wider than the distance of points is lit in its middle.
-TEST(RadianceCache, lights_a_small_triangle_in_one_point) {
+// A triangle with sides no longer than the spacing has one point, in its middle.
+TEST(RadianceCache, lights_a_small_triangle_at_one_point) {
     ShadedScene scene = triangles();
     const auto light = std::make_shared<KnownLight>(5);
     scene.lighting = light;
@@ -146,9 +146,8 @@ TEST(RadianceCache, lights_a_small_triangle_in_one_point) {
     }
 }
 
-// A floor, matt or glossy and half metal, a roof over part of it, and two lamps: away from the edges of the shadow the
-// light is that of each point, whoever looks.
-TEST(RadianceCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_shadows) {
+// A floor, matt or glossy and half metallic, a roof over part of it, and two lamps.
+TEST(RadianceCache, is_accurate_away_from_the_edges_of_shadows) {
     for (const char* model : {"direct", "shadowed"})
         for (const float metallic : {0.0f, 0.5f}) {
             Scene scene;
@@ -167,8 +166,8 @@ TEST(RadianceCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_sha
             options.model = model;
             options.shadow_map = 256;
             const ShadedScene plain = shade_scene(scene, options);
-            ShadedScene kept = plain;
-            add_radiance_cache(kept, std::vector<float>(plain.triangles.size(), 0.01f));
+            ShadedScene cached = plain;
+            add_radiance_cache(cached, std::vector<float>(plain.triangles.size(), 0.01f));
             std::mt19937 engine(3);
             std::size_t dark = 0;
             for (int i = 0; i < 4000; ++i) {
@@ -183,12 +182,12 @@ TEST(RadianceCache, shows_light_and_gloss_as_they_are_away_from_the_edges_of_sha
                 dark += edge < 0 ? 1 : 0;
                 const ViewSample view{normalize(Vec3{0.3, -0.5, 1}), 0.01};
                 const Rgb truth = radiance_at(plain, index, w[0], w[1], w[2], view);
-                const Rgb seen = radiance_at(kept, index, w[0], w[1], w[2], view);
+                const Rgb seen = radiance_at(cached, index, w[0], w[1], w[2], view);
                 ASSERT_NEAR(seen.r, truth.r, 1e-3 * truth.r) << p.x << " " << p.y;
                 ASSERT_NEAR(seen.b, truth.b, 1e-3 * truth.b) << p.x << " " << p.y;
             }
             EXPECT_GT(dark, 100u);
-            EXPECT_GT(kept.radiance_cache->points_filled(), 1000u);
+            EXPECT_GT(cached.radiance_cache->points_filled(), 1000u);
         }
 }
 

@@ -25,7 +25,7 @@ Vec3 at_angle(double cosine, double around) {
     return {sine * std::cos(around), sine * std::sin(around), cosine};
 }
 
-/// The radiance that uniform light of radiance 1 makes, summed over the directions that it comes from.
+/// The radiance towards the viewer in uniform light of radiance 1, as a sum over the directions of the light.
 double in_uniform_light(const Material& m, double cos_view, Rgb color = {1, 1, 1}) {
     const Vec3 normal{0, 0, 1}, to_viewer = at_angle(cos_view, 0);
     const Reflection reflection(m, color, cos_view);
@@ -33,7 +33,7 @@ double in_uniform_light(const Material& m, double cos_view, Rgb color = {1, 1, 1
     double sum = 0;
     for (int i = 0; i < rows; ++i)
         for (int k = 0; k < columns; ++k) {
-            // Uniform in the polar angle, and dense around the mirror's direction, where lobes seen at a slant are
+            // Uniform in the polar angle, and dense around the mirror direction, where lobes at grazing angles are
             // narrow: the azimuth is π (1 + x³).
             const double polar = 0.5 * pi * (i + 0.5) / rows, x = 2 * (k + 0.5) / columns - 1;
             const Vec3 to_light = at_angle(std::cos(polar), pi * (1 + x * x * x));
@@ -42,7 +42,7 @@ double in_uniform_light(const Material& m, double cos_view, Rgb color = {1, 1, 1
     return sum * (0.5 * pi / rows) * (2.0 / columns);
 }
 
-TEST(Reflection, a_white_surface_in_uniform_light_shows_that_light) {
+TEST(Reflection, a_white_surface_in_uniform_light_has_the_radiance_of_that_light) {
     for (const float roughness : {0.3f, 0.6f, 1.0f})
         for (const double cosine : {0.1, 0.5, 0.95})
             EXPECT_NEAR(in_uniform_light(material(0.04f, 0, roughness), cosine), 1, 0.01) << roughness << " " << cosine;
@@ -56,7 +56,7 @@ TEST(Reflection, never_reflects_more_than_it_receives) {
                     EXPECT_LT(in_uniform_light(material(reflectance, metallic, roughness), cosine), 1.01);
 }
 
-TEST(Reflection, in_uniform_light_is_what_the_sum_over_directions_gives) {
+TEST(Reflection, in_uniform_light_equals_the_sum_over_directions) {
     for (const float metallic : {0.0f, 1.0f})
         for (const double cosine : {0.2, 0.9}) {
             const Material m = material(0.06f, metallic, 0.4f);
@@ -65,7 +65,7 @@ TEST(Reflection, in_uniform_light_is_what_the_sum_over_directions_gives) {
         }
 }
 
-TEST(Reflection, is_the_same_both_ways) {
+TEST(Reflection, is_reciprocal) {
     std::mt19937 engine(3);
     std::uniform_real_distribution<double> cosine(0.02, 1), around(0, 2 * pi), part(0, 1);
     const Vec3 normal{0, 0, 1};
@@ -80,7 +80,7 @@ TEST(Reflection, is_the_same_both_ways) {
     }
 }
 
-TEST(Reflection, without_a_lobe_is_that_of_a_matt_surface) {
+TEST(Reflection, without_a_lobe_is_lambertian) {
     const Reflection matt(material(0, 0, 0.2f), {0.5f, 0.25f, 1}, 0.3);
     const Rgb seen = matt.towards({0, 0, 1}, at_angle(0.3, 1), at_angle(0.8, 2), 0.8);
     EXPECT_NEAR(seen.r, 0.5 * 0.8 / pi, 1e-6);
@@ -88,8 +88,8 @@ TEST(Reflection, without_a_lobe_is_that_of_a_matt_surface) {
     EXPECT_EQ(matt.in_uniform_light(), (Rgb{0.5f, 0.25f, 1}));
 }
 
-// Schlick's reflectance, met head-on: D = 1/(π α²), no masking, so the radiance is F/(4π α²) for n = l = v.
-TEST(Reflection, the_lobe_has_the_height_of_its_formula_at_its_peak) {
+// At normal incidence, n = l = v: D = 1/(π α²) and no masking, so the radiance is F/(4π α²).
+TEST(Reflection, the_peak_of_the_lobe_has_its_closed_form) {
     const double alpha = 0.5 * 0.5;
     Material m = material(0, 1, 0.5f);
     const Rgb seen = Reflection(m, {0.9f, 0.6f, 0.3f}, 1).towards({0, 0, 1}, {0, 0, 1}, {0, 0, 1}, 1);
@@ -97,7 +97,7 @@ TEST(Reflection, the_lobe_has_the_height_of_its_formula_at_its_peak) {
     EXPECT_NEAR(seen.b, 0.3 / (4 * pi * alpha * alpha), 1e-4);
 }
 
-TEST(Reflection, from_behind_the_lobe_is_not_seen) {
+TEST(Reflection, the_lobe_is_not_seen_from_behind) {
     const Reflection metal(material(0, 1, 0.3f), {1, 1, 1}, -0.5);
     EXPECT_EQ(metal.towards({0, 0, 1}, {0, 0, -1}, {0, 0, 1}, 1), (Rgb{0, 0, 0}));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lighting at samples against closed forms, against lighting at vertices, and against rays.
+// Lighting at samples against closed forms and against lighting at vertices.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ Scene roofed() {
     return scene;
 }
 
-// In the middle of a large triangle, where interpolated light would be far off.
+// In the middle of a large triangle, where light interpolated between vertices would be far off.
 TEST(SampleLighting, direct_is_the_closed_form_at_every_point) {
     Scene scene = roofed();
     const ShadedScene shaded = shade_scene(scene, by("direct"));
@@ -47,14 +47,14 @@ TEST(SampleLighting, direct_is_the_closed_form_at_every_point) {
     for (int i = 0; i < 500; ++i) {
         const float b1 = part(engine), b2 = part(engine) * (1 - b1);
         const Vec3 p = double(1 - b1 - b2) * Vec3{-1, -1, 0} + double(b1) * Vec3{1, -1, 0} + double(b2) * Vec3{1, 1, 0};
-        const Vec3 through = p + 0.25 * (scene.lights[0].position - p);  // the roof's height
+        const Vec3 through = p + 0.25 * (scene.lights[0].position - p);  // at the height of the roof
         const double edge = std::max(std::abs(through.x - 0.2) - 0.3, std::abs(through.y - 0.1) - 0.2);
         if (std::abs(edge) < 0.04) continue;
         double e = 0;
         for (std::size_t k = 0; k < 2; ++k) {
-            const Vec3 way = scene.lights[k].position - p;
-            const double r = length(way);
-            if (k == 1 || edge > 0) e += scene.lights[k].intensity.r * way.z / (r * r * r);
+            const Vec3 to_light = scene.lights[k].position - p;
+            const double r = length(to_light);
+            if (k == 1 || edge > 0) e += scene.lights[k].intensity.r * to_light.z / (r * r * r);
         }
         (edge > 0 ? lit : dark)++;
         const Rgb seen = radiance_at(shaded, 0, 1 - b1 - b2, b1, b2);
@@ -65,8 +65,7 @@ TEST(SampleLighting, direct_is_the_closed_form_at_every_point) {
     EXPECT_GT(dark, 20);
 }
 
-// The same light, and where no shadow falls the very light of shading 'vertex'.
-TEST(SampleLighting, shadowed_is_the_interpolated_light_of_the_vertices_where_nothing_is_in_the_way) {
+TEST(SampleLighting, shadowed_is_the_light_of_vertex_shading_where_no_shadow_falls) {
     Scene scene = roofed();
     const ShadedScene at_vertices = shade_scene_vertices(scene), shadowed = shade_scene(scene, by("shadowed"));
     for (const auto& [b1, b2] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {0.1f, 0.05f}, {0.02f, 0.9f}}) {
@@ -75,7 +74,7 @@ TEST(SampleLighting, shadowed_is_the_interpolated_light_of_the_vertices_where_no
         EXPECT_NEAR(a.r, b.r, 1e-6);
         EXPECT_NEAR(a.b, b.b, 1e-6);
     }
-    // In the middle of the shadow the light without shadows is left.
+    // In the middle of the shadow only the lamp without shadows remains.
     scene.lights[0].intensity = {0, 0, 0};
     const ShadedScene without = shade_scene_vertices(scene);
     const Rgb in_shadow = radiance_at(shadowed, 0, 0.35f, 0.1f, 0.55f);
@@ -83,7 +82,7 @@ TEST(SampleLighting, shadowed_is_the_interpolated_light_of_the_vertices_where_no
     EXPECT_LT(in_shadow.g, 0.8f * radiance_at(at_vertices, 0, 0.35f, 0.1f, 0.55f).g);
 }
 
-TEST(SampleLighting, a_glossy_surface_shines_where_it_mirrors_the_lamp) {
+TEST(SampleLighting, a_glossy_surface_is_brightest_in_the_mirror_direction_of_the_lamp) {
     Scene scene;
     scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, violet)};
     scene.meshes[0].material.reflectance = 0.04f;
@@ -100,7 +99,7 @@ TEST(SampleLighting, a_glossy_surface_shines_where_it_mirrors_the_lamp) {
     EXPECT_EQ(middle(matt, {1, 0, 1}), middle(matt, {-1, 0, 0.4}));
 }
 
-TEST(SampleLighting, given_radiance_is_shown_whatever_the_lights_in_every_model) {
+TEST(SampleLighting, given_radiance_is_kept_by_every_model) {
     Scene scene = roofed();
     scene.meshes[0].radiance = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0, 0, 0}};
     for (const ShadingInfo& info : shading_models().rows()) {
@@ -116,7 +115,7 @@ TEST(SampleLighting, given_radiance_is_shown_whatever_the_lights_in_every_model)
     EXPECT_EQ(radiance_at(shade_scene(scene, by("given")), 3, 0.5f, 0.25f, 0.25f).r, 0.5f);
 }
 
-TEST(SampleLighting, shadow_maps_that_are_too_large_are_refused_and_their_memory_is_told) {
+TEST(SampleLighting, shadow_maps_that_are_too_large_are_refused_with_their_size) {
     const Scene scene = roofed();
     ShadingOptions options = by("direct", 1000);
     EXPECT_EQ(shadow_map_bytes(scene, options), 6 * 4 * 1e6);
@@ -136,7 +135,7 @@ TEST(SampleLighting, shadow_maps_that_are_too_large_are_refused_and_their_memory
     EXPECT_NO_THROW(shade_scene(scene, options));
 }
 
-TEST(SampleLighting, triangles_without_area_are_finite) {
+TEST(SampleLighting, radiance_on_triangles_without_area_is_finite) {
     Scene scene = roofed();
     scene.meshes[0].triangles.push_back({0, 1, 1});
     scene.meshes[0].positions[3] = scene.meshes[0].positions[0];
@@ -149,7 +148,7 @@ TEST(SampleLighting, triangles_without_area_are_finite) {
     }
 }
 
-TEST(SampleLighting, is_the_same_for_any_number_of_threads) {
+TEST(SampleLighting, does_not_depend_on_the_number_of_threads) {
     const Scene scene = roofed();
     const ShadedScene many = shade_scene(scene, by("direct"));
     const ThreadLimit one(1);
@@ -157,16 +156,6 @@ TEST(SampleLighting, is_the_same_for_any_number_of_threads) {
     for (int i = 0; i < 200; ++i) {
         const float b1 = float(i) / 200, b2 = (1 - b1) * float((7 * i) % 10) / 10;
         EXPECT_EQ(radiance_at(many, 0, 1 - b1 - b2, b1, b2), radiance_at(single, 0, 1 - b1 - b2, b1, b2));
-    }
-}
-
-TEST(SampleLighting, unknown_models_are_usage_errors_that_list_the_known_ones) {
-    try {
-        shade_scene(roofed(), by("phong"));
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::usage);
-        EXPECT_NE(std::string(error.what()).find("vertex, direct, shadowed, given"), std::string::npos);
     }
 }
 

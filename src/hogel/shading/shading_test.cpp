@@ -23,7 +23,7 @@ Light directional(Vec3 direction, float irradiance) {
     return light;
 }
 
-TEST(Shading, in_a_furnace_a_surface_shows_its_colour_times_the_furnace) {
+TEST(Shading, in_ambient_light_a_surface_has_its_colour_times_that_light) {
     Scene scene;
     scene.meshes.push_back(square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     scene.meshes[0].material.base_color = {0.5f, 0.25f, 1};
@@ -36,7 +36,7 @@ TEST(Shading, in_a_furnace_a_surface_shows_its_colour_times_the_furnace) {
     EXPECT_EQ(radiance_at(shaded, 0, 0.5f, 0.5f, 0), (Rgb{0.75f, 1, 8}));
 }
 
-TEST(Shading, emission_needs_no_light) {
+TEST(Shading, emission_is_visible_without_lights) {
     Scene scene;
     scene.meshes.push_back(square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     scene.meshes[0].material.emission = {0.5f, 1, 2};
@@ -46,7 +46,7 @@ TEST(Shading, emission_needs_no_light) {
     EXPECT_EQ(shaded.background, scene.background);
 }
 
-TEST(Shading, a_directional_light_falls_off_with_the_cosine_and_lights_one_side) {
+TEST(Shading, directional_light_is_proportional_to_the_cosine_on_the_front) {
     for (double degrees : {0.0, 30.0, 60.0, 85.0, 95.0, 150.0}) {
         const double angle = degrees * pi / 180;
         Scene scene;
@@ -57,7 +57,7 @@ TEST(Shading, a_directional_light_falls_off_with_the_cosine_and_lights_one_side)
     }
 }
 
-TEST(Shading, a_point_light_falls_off_with_the_square_of_the_distance) {
+TEST(Shading, point_light_falls_off_with_the_square_of_the_distance) {
     for (double distance : {0.01, 0.02, 1.0, 5.0}) {
         Scene scene;
         scene.meshes.push_back(square({0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}));
@@ -68,7 +68,7 @@ TEST(Shading, a_point_light_falls_off_with_the_square_of_the_distance) {
     }
 }
 
-TEST(Shading, a_blocker_throws_its_shadow_and_nothing_behind_the_lamp_does) {
+TEST(Shading, only_surfaces_between_point_and_lamp_cast_shadows) {
     Scene scene;
     Mesh floor = square({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     floor.positions.push_back({0, 0, 0});
@@ -108,7 +108,7 @@ TEST(Shading, a_convex_surface_does_not_shadow_itself) {
         EXPECT_NEAR(shaded.radiance[i].r, std::max(0.0, -dot(ball.normals[i], scene.lights[0].direction)) / pi, 1e-6);
 }
 
-TEST(Shading, is_the_same_for_any_number_of_threads) {
+TEST(Shading, does_not_depend_on_the_number_of_threads) {
     Scene scene;
     for (int i = 0; i < 50; ++i) {
         scene.meshes.push_back(square({0.1 * i, 0.03 * i, 0.2 * i}, {1, 0, 0.1}, {0, 1, 0.2}));
@@ -124,7 +124,7 @@ TEST(Shading, is_the_same_for_any_number_of_threads) {
     EXPECT_EQ(all.radiance, shade_scene_vertices(scene).radiance);
 }
 
-TEST(Shading, textures_interpolate_between_texel_centres_repeat_and_have_v_upwards) {
+TEST(Shading, textures_interpolate_between_texel_centres_and_repeat) {
     auto image = std::make_shared<Image>(2, 2, 1);
     image->pixels(0, 0, 0) = 1, image->pixels(0, 1, 0) = 2;  // top row
     image->pixels(1, 0, 0) = 4, image->pixels(1, 1, 0) = 8;
@@ -148,7 +148,7 @@ TEST(Shading, textures_interpolate_between_texel_centres_repeat_and_have_v_upwar
     EXPECT_FLOAT_EQ(at(-3.75f, 5.75f), 1);
 }
 
-TEST(Shading, meshes_share_a_texture_and_keep_their_number) {
+TEST(Shading, meshes_share_a_texture_and_keep_their_index) {
     auto image = std::make_shared<Image>(1, 1, 3);
     Scene scene;
     scene.meshes.assign(3, square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
@@ -162,7 +162,7 @@ TEST(Shading, meshes_share_a_texture_and_keep_their_number) {
     EXPECT_EQ(shaded.texture_coordinates.size(), shaded.positions.size());
 }
 
-TEST(Shading, refuses_lights_without_normals_and_scenes_without_triangles) {
+TEST(Shading, refuses_lit_meshes_without_normals_and_empty_scenes) {
     Scene scene;
     EXPECT_THROW(shade_scene_vertices(scene), Error);
     scene.meshes.push_back(square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));

@@ -44,8 +44,8 @@ ShadowMap map_of(const Scene& scene, const Light& light, std::size_t n) {
     return map;
 }
 
-// A floor under a square; the edges of the shadow follow from similar triangles.
-TEST(ShadowMap, the_edge_of_a_shadow_is_where_geometry_puts_it) {
+// A square above a floor: the edges of the shadow follow from similar triangles.
+TEST(ShadowMap, edges_of_shadows_are_where_geometry_puts_them) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {2, 0, 0}, {0, 2, 0});
     add_square(scene, {0, 0, 1}, {0.3, 0, 0}, {0, 0.3, 0});
@@ -67,10 +67,10 @@ TEST(ShadowMap, the_edge_of_a_shadow_is_where_geometry_puts_it) {
     }
 }
 
-// However slanted, and however coarse the map.
+// At any slope and resolution of the map.
 TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
     std::mt19937 engine(9);
-    std::uniform_real_distribution<double> place(-1, 1);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
     for (double slant : {0.0, 30.0, 60.0, 80.0, 86.0})
         for (std::size_t n : {16, 128}) {
             const double angle = slant * 3.14159265 / 180;
@@ -80,7 +80,7 @@ TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
             for (const Light& light : {lamp({0.2, 0.3, 2.5}, 1), sun({0.05, 0.1, -1})}) {
                 const ShadowMap map = map_of(scene, light, n);
                 for (int i = 0; i < 2000; ++i) {
-                    const Vec3 p = place(engine) * right + place(engine) * up;
+                    const Vec3 p = coordinate(engine) * right + coordinate(engine) * up;
                     ASSERT_EQ(map.visibility(p, cross(right, up)), 1.0f) << slant << " " << n;
                     ASSERT_EQ(map.visibility(p, cross(up, right)), 1.0f) << slant << " " << n;
                 }
@@ -88,9 +88,9 @@ TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
         }
 }
 
-// Against shadow rays, on scenes with everything that shadow maps are bad at. Left out is what lies within two texels
-// of a shadow's edge or of a crease.
-TEST(ShadowMap, neither_leaks_nor_speckles_on_the_built_in_scenes) {
+// Against shadow rays, on scenes that are difficult for shadow maps. Points within two texels of a shadow's edge or of
+// a crease are skipped.
+TEST(ShadowMap, neither_leaks_nor_speckles_on_built_in_scenes) {
     for (const char* name : {"pumpkin", "billiards", "tower"}) {
         const Scene scene = make_scene(name, 1);
         const Blockers blockers(scene);
@@ -110,7 +110,7 @@ TEST(ShadowMap, neither_leaks_nor_speckles_on_the_built_in_scenes) {
                 const Vec3 p = blockers.positions[a] + w1 * ab + w2 * ac, normal = normalize(cross(ab, ac));
                 const Illumination from = illuminate(light, p);
                 if (dot(normal, from.to_light) < 0.15) continue;
-                // The light from around the lamp, as wide as two texels there seen from the point.
+                // Shadow rays from around the point, as far from it as two texels there.
                 const double texel = light.kind == Light::Kind::point ? 2 * from.distance / n : 1.5 / (2 * n);
                 const Vec3 side = normalize(cross(normal, from.to_light + Vec3{1e-3, 2e-3, 0})),
                            other = cross(normal, side);
@@ -136,7 +136,7 @@ TEST(ShadowMap, neither_leaks_nor_speckles_on_the_built_in_scenes) {
     }
 }
 
-TEST(ShadowMap, of_a_light_without_shadows_is_empty_and_lets_all_through) {
+TEST(ShadowMap, of_a_light_without_shadows_is_empty_and_everything_is_lit) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     Light light = lamp({0, 0, -1}, 1);
@@ -147,13 +147,13 @@ TEST(ShadowMap, of_a_light_without_shadows_is_empty_and_lets_all_through) {
     EXPECT_EQ(map.visibility({0, 0, 0}, {0, 0, 1}), 1.0f);
 }
 
-TEST(ShadowMap, a_light_on_a_surface_or_inside_a_body_is_no_trouble) {
+TEST(ShadowMap, handles_a_light_on_a_surface_or_inside_a_body) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     const ShadowMap on = map_of(scene, lamp({0.2, 0.1, 0}, 1), 32);
     EXPECT_TRUE(std::isfinite(on.visibility({0.2, 0.1, 0}, {0, 0, 1})));
     EXPECT_TRUE(std::isfinite(on.visibility({0.5, 0.1, 0}, {0, 0, 1})));
-    // Interpolation two plates, seen from outside of both.
+    // Between two plates, seen from outside both.
     add_square(scene, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
     add_square(scene, {0, 0, 3}, {1, 0, 0}, {0, 1, 0});
     const ShadowMap between = map_of(scene, lamp({0, 0, 0.5}, 1), 64);

@@ -12,11 +12,11 @@ namespace {
 
 HOGEL_TEST_ON_EVERY_TARGET(ShadowMapKernels);
 
-// Squares at all angles between lamps on all sides, near and distant, some without shadows.
-TEST_P(ShadowMapKernels, vectors_of_lamps_give_the_same_bits_as_one_after_the_other) {
+// Random squares between point and directional lights on all sides, some without shadows.
+TEST_P(ShadowMapKernels, vector_and_plain_twin_give_the_same_bits) {
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> place(-1, 1);
-    const auto somewhere = [&] { return Vec3{place(random), place(random), place(random)}; };
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    const auto somewhere = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
     Scene scene;
     for (int i = 0; i < 12; ++i)
         scene.meshes.push_back(square(somewhere(), 0.3 * normalize(somewhere()), 0.3 * normalize(somewhere())));
@@ -43,8 +43,8 @@ TEST_P(ShadowMapKernels, vectors_of_lamps_give_the_same_bits_as_one_after_the_ot
         const Vec3 normal = somewhere();
         const Vec3 lamp = scene.lights[random() % scene.lights.size()].position;
         if (round % 11 == 0) point = lamp;
-        if (round % 13 == 0) point = lamp + Vec3{0.25, -0.25, 0.25};  // in a corner of its cube
-        if (round % 17 == 0) point = 5 * point;                       // farther than any texel saw
+        if (round % 13 == 0) point = lamp + Vec3{0.25, -0.25, 0.25};  // on an edge of its cube map
+        if (round % 17 == 0) point = 5 * point;                       // beyond all stored depths
         std::vector<std::uint32_t> lamps(random() % 24);
         for (std::uint32_t& number : lamps) number = static_cast<std::uint32_t>(random() % scene.lights.size());
         std::vector<float> shares(lamps.size(), -1), plain(lamps.size(), -2);

@@ -16,7 +16,7 @@ std::shared_ptr<Image> picture(std::size_t width, std::size_t height, auto&& val
     return image;
 }
 
-TEST(Texture, seen_from_afar_is_its_mean) {
+TEST(Texture, averaged_over_a_large_width_is_its_mean) {
     const auto image =
         picture(13, 7, [](std::size_t row, std::size_t column) { return float(row * row + 3 * column); });
     double mean = 0;
@@ -26,7 +26,7 @@ TEST(Texture, seen_from_afar_is_its_mean) {
     EXPECT_GT(std::abs(Texture(image).sample({0.3f, 0.8f}, 1e6).r - mean), 1);  // point sampled
 }
 
-TEST(Texture, fine_detail_fades_and_coarse_detail_stays) {
+TEST(Texture, averaging_removes_fine_detail_and_keeps_coarse_detail) {
     constexpr std::size_t n = 256;
     const auto image = picture(n, n, [](std::size_t row, std::size_t column) {
         const double coarse = std::sin(2 * std::numbers::pi * (double(row) + 0.5) / n);
@@ -40,7 +40,7 @@ TEST(Texture, fine_detail_fades_and_coarse_detail_stays) {
         }
 }
 
-TEST(Texture, up_close_is_the_same_filtered_or_not) {
+TEST(Texture, filtering_changes_nothing_up_to_the_width_of_a_texel) {
     const auto image = picture(5, 4, [](std::size_t row, std::size_t column) { return float(row * 5 + column); });
     for (const float u : {0.0f, 0.33f, 0.9f})
         EXPECT_EQ(Texture(image, true).sample({u, 0.4f}, 1), Texture(image).sample({u, 0.4f}, 0));

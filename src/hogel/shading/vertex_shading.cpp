@@ -9,7 +9,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr std::size_t vertices_per_task = 1024;
+constexpr std::size_t vertices_per_task = 16;
 
 bool has_shadows(const Scene& scene) {
     return std::ranges::any_of(scene.lights, [](const Light& light) { return light.casts_shadows; });

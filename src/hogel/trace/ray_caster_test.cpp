@@ -48,10 +48,10 @@ struct Exact {
     double distance = infinity;
     std::uint32_t triangle = RayHit::miss;
     double b1 = 0, b2 = 0;
-    double margin = infinity;  ///< how near any triangle's edge (in weights) or the runner-up's distance comes
+    double margin = infinity;  ///< smallest distance from an edge (in weights) or from the next hit (relative)
 };
 
-// Cramer's rule on a + b1 (b - a) + b2 (c - a) = o + distance d, for every triangle.
+// Solves a + b1 (b − a) + b2 (c − a) = o + distance d for every triangle by Cramer's rule.
 Exact brute_force(const Soup& soup, Vec3 o, Vec3 d, Sides sides = Sides::both) {
     Exact best;
     double margin = infinity;
@@ -86,7 +86,7 @@ void compare_with_brute_force(const Soup& soup, Vec3 center, double size) {
     int hit = 0, compared = 0;
     for (std::size_t i = 0; i < origins.size(); ++i) {
         const Exact exact = brute_force(soup, origins[i], directions[i]);
-        if (exact.margin < 1e-5) continue;  // too close to an edge for single precision to decide
+        if (exact.margin < 1e-5) continue;  // single precision cannot decide so close to an edge
         ++compared;
         for (const RayHit& found : {hits[i], caster.closest(origins[i], directions[i], infinity)}) {
             ASSERT_EQ(found.triangle, exact.triangle);
@@ -104,7 +104,7 @@ void compare_with_brute_force(const Soup& soup, Vec3 center, double size) {
 
 TEST(RayCaster, finds_what_brute_force_finds) { compare_with_brute_force(random_soup(200, {}, 1), {}, 1); }
 
-TEST(RayCaster, goes_through_backs_where_fronts_alone_are_wanted) {
+TEST(RayCaster, passes_through_backs_where_only_fronts_are_hit) {
     const Soup soup = random_soup(200, {}, 1);
     const RayCaster caster(soup.positions, soup.triangles, Sides::fronts), both(soup.positions, soup.triangles);
     Numbers number(12);
@@ -135,26 +135,26 @@ TEST(RayCaster, keeps_its_accuracy_for_centimetre_scenes_far_from_the_origin) {
     compare_with_brute_force(random_soup(200, center, 5e-3), center, 5e-3);
 }
 
-TEST(RayCaster, answers_for_many_rays_from_one_place_as_for_each) {
+TEST(RayCaster, gives_the_same_answers_for_many_rays_from_one_origin_and_for_each) {
     const Soup soup = random_soup(200, {}, 1);
     const RayCaster caster(soup.positions, soup.triangles);
     Numbers numbers(5);
-    std::vector<Vec3> ways(101);
-    for (Vec3& way : ways) way = normalize(Vec3{numbers(-1, 1), numbers(-1, 1), numbers(-1, 1)});
-    const auto hidden = std::make_unique<bool[]>(ways.size());
+    std::vector<Vec3> directions(101);
+    for (Vec3& direction : directions) direction = normalize(Vec3{numbers(-1, 1), numbers(-1, 1), numbers(-1, 1)});
+    const auto hidden = std::make_unique<bool[]>(directions.size());
     std::size_t hits = 0;
     for (const Vec3 origin : {Vec3{0, 0, 0}, Vec3{0.5, 2, 3}}) {
-        caster.occluded(origin, ways, 0.1, 2, {hidden.get(), ways.size()});
-        for (std::size_t i = 0; i < ways.size(); ++i) {
-            EXPECT_EQ(hidden[i], caster.occluded(origin, ways[i], 0.1, 2)) << i;
+        caster.occluded(origin, directions, 0.1, 2, {hidden.get(), directions.size()});
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            EXPECT_EQ(hidden[i], caster.occluded(origin, directions[i], 0.1, 2)) << i;
             hits += hidden[i];
         }
     }
     EXPECT_GT(hits, 20u);
-    EXPECT_LT(hits, 2 * ways.size() - 20);
+    EXPECT_LT(hits, 2 * directions.size() - 20);
 }
 
-TEST(RayCaster, both_sides_are_hit_and_the_range_is_kept) {
+TEST(RayCaster, hits_both_sides_within_the_range) {
     const std::vector<Vec3> positions{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}};
     const std::vector<Triangle> triangles{{0, 1, 2}};
     const RayCaster caster(positions, triangles);
@@ -167,7 +167,7 @@ TEST(RayCaster, both_sides_are_hit_and_the_range_is_kept) {
     EXPECT_FALSE(caster.occluded({0, 0, 5}, {0, 0, -1}, 0, 2.9));
 }
 
-TEST(RayCaster, of_coincident_triangles_it_names_one_at_the_right_distance) {
+TEST(RayCaster, hits_one_of_coincident_triangles_at_the_right_distance) {
     const std::vector<Vec3> positions{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
     const std::vector<Triangle> triangles{{0, 1, 2}, {2, 1, 0}, {1, 2, 0}};
     const RayCaster caster(positions, triangles);
@@ -176,8 +176,8 @@ TEST(RayCaster, of_coincident_triangles_it_names_one_at_the_right_distance) {
     EXPECT_DOUBLE_EQ(hit.distance, 3);
 }
 
-// A ray through a shared edge or vertex may go to either side but never through.
-TEST(RayCaster, a_closed_fan_has_no_cracks) {
+// A ray through a shared edge or vertex may hit either triangle but never neither.
+TEST(RayCaster, a_closed_fan_has_no_gaps) {
     std::vector<Vec3> positions{{0.01, 0.02, 0}};
     std::vector<Triangle> triangles;
     constexpr std::uint32_t n = 37;
@@ -197,7 +197,7 @@ TEST(RayCaster, a_closed_fan_has_no_cracks) {
         }
 }
 
-TEST(RayCaster, nothing_is_never_hit) {
+TEST(RayCaster, without_triangles_hits_nothing) {
     const RayCaster caster({}, {});
     EXPECT_EQ(caster.closest({0, 0, 0}, {0, 0, 1}, infinity).triangle, RayHit::miss);
     EXPECT_FALSE(caster.occluded({0, 0, 0}, {0, 0, 1}, 0, infinity));
@@ -205,6 +205,36 @@ TEST(RayCaster, nothing_is_never_hit) {
     std::vector<RayHit> hits(20, RayHit{1, 1, 0, 0});
     caster.closest(rays, rays, infinity, hits);
     for (const RayHit& hit : hits) EXPECT_EQ(hit.triangle, RayHit::miss);
+}
+
+TEST(RayCaster, takes_other_triangles_in_place) {
+    const Soup first = random_soup(200, {}, 1), second = random_soup(60, {1, 2, 3}, 5);
+    RayCaster caster(first.positions, first.triangles);
+    const auto expect_as_new = [&](const Soup& soup, Sides sides) {
+        const RayCaster fresh(soup.positions, soup.triangles, sides);
+        Numbers number(3);
+        for (int i = 0; i < 500; ++i) {
+            const Vec3 origin = number.point(12), direction = number.point(1) - origin;
+            const RayHit a = caster.closest(origin, direction, infinity),
+                         b = fresh.closest(origin, direction, infinity);
+            ASSERT_EQ(a.triangle, b.triangle);
+            ASSERT_EQ(a.distance, b.distance);
+            ASSERT_EQ(a.b1, b.b1);
+        }
+    };
+    TriangleMesh mesh = caster.release();
+    EXPECT_EQ(mesh.triangles, first.triangles);
+    EXPECT_EQ(caster.closest({0, 0, 9}, {0, 0, -1}, infinity).triangle, RayHit::miss);
+    mesh.positions = second.positions;
+    mesh.triangles = second.triangles;
+    caster.set(mesh, Sides::fronts);
+    expect_as_new(second, Sides::fronts);
+    EXPECT_THROW(caster.set({second.positions, {{0, 1, 999}}}), Error);
+    EXPECT_FALSE(caster.occluded({0, 0, 9}, {0, 0, -1}, 0, infinity));
+    caster.set({});
+    EXPECT_FALSE(caster.occluded({0, 0, 9}, {0, 0, -1}, 0, infinity));
+    caster.set({first.positions, first.triangles});
+    expect_as_new(first, Sides::both);
 }
 
 TEST(RayCaster, refuses_an_index_without_a_vertex) {

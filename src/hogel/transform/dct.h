@@ -11,7 +11,7 @@ constexpr std::size_t dct_block = 8;
 
 /// The windowed DCT on lines of one length, `lane_count` lines at a time, in the layout of WaveletLine: blocks of eight
 /// samples from the start of the line, the last one shorter if need be, each replaced by its orthonormal DCT-II.
-/// Frequency k of a block stands where its sample k stood.
+/// Frequency k of a block takes the place of its sample k.
 class DctLine {
   public:
     explicit DctLine(std::size_t length) : length_(length) {}

@@ -25,7 +25,7 @@ WaveletLine::WaveletLine(const Wavelet& wavelet, std::size_t length)
         const std::ptrdiff_t known = std::min<std::ptrdiff_t>(step.extension, sources);
         for (std::ptrdiff_t i = 0; i < targets; ++i) {
             if (i >= begin && i < end) continue;
-            // Fold the taps that fall outside onto the samples that continue the source there.
+            // Taps that fall outside are folded onto the samples that the source is continued from.
             std::vector<double> folded(static_cast<std::size_t>(sources));
             for (std::ptrdiff_t k = 0; k < reach; ++k) {
                 const std::ptrdiff_t at = i + step.first + k;

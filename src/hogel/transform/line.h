@@ -19,11 +19,11 @@ class WaveletLine {
   public:
     WaveletLine(const Wavelet& wavelet, std::size_t length);
 
-    /// Before the steps forward() divides, and after those inverse() multiplies, sample k by before[k]; after the steps
-    /// row k is multiplied, or before those of inverse() divided, by after[k].
+    /// forward() divides sample k by before[k] before its steps and multiplies row k by after[k] after them; inverse()
+    /// undoes both.
     void set_scales(const std::vector<double>& before, const std::vector<double>& after);
 
-    /// The sample of the line that stands in a row of the tile before forward() and after inverse().
+    /// The sample of the line that is in a row of the tile before forward() and after inverse().
     std::size_t sample_of_row(std::size_t row) const {
         return row < coarse_count_ ? 2 * row : 2 * (row - coarse_count_) + 1;
     }
@@ -51,14 +51,14 @@ class WaveletLine {
     std::vector<Scale> before_, after_;  // by row
 };
 
-/// All levels of a wavelet on lines of one length, scaled so that every synthesis basis function has norm 1, those at
-/// the ends of the line too: an error of a coefficient is then an error of the same energy in the signal, nearly
-/// (exactly, where the basis is orthogonal). In several dimensions basis functions are products of these. Lines of one
-/// sample have no levels, so there are at most as many as it takes to get there.
+/// All levels of a wavelet on lines of one length, scaled so that every synthesis basis function has norm 1, also at
+/// the ends of the line: an error of a coefficient is then an error of nearly the same energy in the signal (exactly
+/// the same for orthogonal bases). In several dimensions basis functions are products of these. There are at most as
+/// many levels as lead to a single sample.
 std::vector<WaveletLine> wavelet_levels(const Wavelet& wavelet, std::size_t length, int levels);
 
-/// One level of one line without scales, straight from the definition and in double precision: the truth for
-/// WaveletLine. forward: samples in, coarse samples and then details out; inverse: the other way round.
+/// The plain twins of WaveletLine: one level of one line without scales, directly from the definition and in double
+/// precision. forward: samples in, coarse samples and then details out; inverse: the reverse.
 void forward_line_plain(const Wavelet& wavelet, std::span<double> line);
 void inverse_line_plain(const Wavelet& wavelet, std::span<double> line);
 

@@ -34,7 +34,7 @@ void lift(const LiftingStep& step, double sign, Halves& halves) {
 }  // namespace
 
 std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t at) {
-    std::vector<double> weights(count, 1.0);  // Lagrange's
+    std::vector<double> weights(count, 1.0);  // Lagrange polynomials at `at`
     for (std::size_t p = 0; p < count; ++p)
         for (std::size_t q = 0; q < count; ++q)
             if (q != p)

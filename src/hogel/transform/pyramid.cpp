@@ -15,7 +15,7 @@ int chosen_levels(const std::vector<std::size_t>& shape, const std::vector<std::
     std::size_t longest = 1;
     for (std::size_t axis : axes)
         if (axis < shape.size()) longest = std::max(longest, shape[axis]);
-    // Half of 4 is 2, which the longest axis is then left with at least.
+    // The longest axis keeps at least two coarse samples if it has four.
     return longest < 4 ? static_cast<int>(longest > 1) : std::bit_width(longest) - 2;
 }
 
@@ -29,8 +29,7 @@ Pyramid::Pyramid(std::vector<std::size_t> shape, std::vector<AxisGroup> groups)
         if (extent == 0) throw Error(ErrorCode::usage, "pyramid: an array without elements cannot be transformed");
         constexpr std::size_t most = std::size_t{1} << 40;
         if (extent > most / elements)
-            throw Error(ErrorCode::usage,
-                        "pyramid: the array has more than 2^40 elements, expected to be cut into tiles");
+            throw Error(ErrorCode::usage, "pyramid: the array has more than 2^40 elements; expected smaller tiles");
         elements *= extent;
     }
     std::vector<bool> taken(shape_.size());
@@ -39,9 +38,8 @@ Pyramid::Pyramid(std::vector<std::size_t> shape, std::vector<AxisGroup> groups)
             throw Error(ErrorCode::usage, fmt::format("pyramid: {} levels, expected 0 to 62", group.levels));
         for (std::size_t axis : group.axes) {
             if (axis >= shape_.size() || taken[axis])
-                throw Error(ErrorCode::usage,
-                            fmt::format("pyramid: axis {} stands in two groups or is none of the {} axes", axis,
-                                        shape_.size()));
+                throw Error(ErrorCode::usage, fmt::format("pyramid: axis {} is in two groups or is none of the {} axes",
+                                                          axis, shape_.size()));
             taken[axis] = true;
         }
     }

@@ -6,27 +6,26 @@
 
 namespace hogel::transform {
 
-/// Axes of an array that are halved together, level after level.
+/// Axes of an array that are split together, level after level.
 struct AxisGroup {
     std::vector<std::size_t> axes;
     int levels;
 };
 
-/// How a transform is laid over the dimensions of an array. Each level of a group transforms its axes one after the
-/// other in what is still coarse; an axis of one coarse sample is left alone. One group of all axes interleaves the
-/// transforms; several groups are transformed independently, which the directions need when a hologram is made from
-/// basis fringes
-/// ([K] 4.2.3). Axes in no group are not transformed. Along each axis the coarse samples come first, then the details
-/// from the coarsest to the finest.
+/// How a transform is applied to the dimensions of an array. Each level of a group transforms its axes one after the
+/// other in the coarse samples of the level before; an axis with a single coarse sample is not split. One group of all
+/// axes interleaves the transforms; several groups are transformed independently, as the directions must be for
+/// holograms made of basis fringes ([K] 4.2.3). Axes in no group are not transformed. Along each axis the coarse
+/// samples come first, then the details from the coarsest to the finest.
 class Pyramid {
   public:
-    /// Throws Error(usage) for an axis that does not exist or stands in two groups, for levels outside 0..62, and for
-    /// an array without elements or dimensions, or with more than 2⁴⁰ elements.
+    /// Throws Error(usage) for an axis that does not exist or is in two groups, for levels outside 0..62, and for an
+    /// array without elements or dimensions, or with more than 2⁴⁰ elements.
     Pyramid(std::vector<std::size_t> shape, std::vector<AxisGroup> groups);
 
     /// All axes in one group, down to two to four coarse samples of the longest axis.
     static Pyramid interleaved(const std::vector<std::size_t>& shape);
-    /// Each list of axes in a group of its own, with levels chosen in the same way.
+    /// Each list of axes in a group of its own, with levels chosen likewise.
     static Pyramid separate(const std::vector<std::size_t>& shape, const std::vector<std::vector<std::size_t>>& axes);
 
     const std::vector<std::size_t>& shape() const { return shape_; }
@@ -34,7 +33,7 @@ class Pyramid {
     std::size_t size() const;
     /// In elements, of the row-major array.
     std::vector<std::size_t> strides() const;
-    /// How many samples of an axis are coarse after a number of levels: ⌈n / 2^level⌉.
+    /// Coarse samples of an axis after a number of levels: ⌈n / 2^level⌉.
     std::size_t coarse_extent(std::size_t axis, int level) const;
 
   private:

@@ -16,7 +16,7 @@ namespace {
 
 enum class Direction { forward, inverse };
 
-// A box at the origin of the array, and the lines along one axis in it, numbered with the last other axis fastest.
+// The lines along one axis in a box at the origin of the array, numbered with the last other axis fastest.
 class Lines {
   public:
     Lines(std::vector<std::size_t> box, std::vector<std::size_t> strides, std::size_t axis)
@@ -26,7 +26,7 @@ class Lines {
     }
     std::size_t count() const { return count_; }
     std::size_t step() const { return strides_[axis_]; }
-    // Where a line begins in the array.
+    // Index of the first element of a line.
     std::size_t start(std::size_t line) const {
         std::size_t offset = 0;
         for (std::size_t axis = box_.size(); axis-- > 0;) {
@@ -41,7 +41,7 @@ class Lines {
     std::size_t axis_, count_ = 1;
 };
 
-// Transforms up to lane_count lines whose starts are given.
+// Transforms up to lane_count lines, given by their first elements.
 template <class Plan>
 void transform_tile(const Plan& plan, Direction direction, std::span<const std::size_t> starts, std::size_t step,
                     float* tile, float* elements) {
@@ -77,7 +77,7 @@ void transform_tile(const Plan& plan, Direction direction, std::span<const std::
 
 template <class Plan>
 void transform_lines(const Plan& plan, Direction direction, const Lines& lines, std::span<float> elements) {
-    // Enough work for a thread to pick up at a time.
+    // Enough work for one task of a thread.
     const std::size_t tiles = (lines.count() + lane_count - 1) / lane_count;
     const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 16) / (plan.length() * lane_count));
     core::parallel_for((tiles + batch - 1) / batch, [&](std::size_t task) {
@@ -91,7 +91,8 @@ void transform_lines(const Plan& plan, Direction direction, const Lines& lines, 
     });
 }
 
-// The axes of a group, level by level, each in what is coarse after the level before. The axes of a level commute.
+// Transforms the axes of a group level by level, each in the coarse samples of the level before. Axes of a level
+// commute.
 void transform_group(const Wavelet& wavelet, const Pyramid& pyramid, const AxisGroup& group, Direction direction,
                      std::span<float> elements) {
     std::vector<std::vector<WaveletLine>> lines;

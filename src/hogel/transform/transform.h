@@ -15,12 +15,12 @@ class Transform {
   public:
     std::string_view name() const { return wavelet_ ? wavelet_->name : "dct8"; }
     bool is_wavelet() const { return wavelet_ != nullptr; }
-    /// Only of a wavelet.
+    /// Only if it is a wavelet.
     const Wavelet& wavelet() const { return *wavelet_; }
 
     /// Transforms an array in place, a row-major one of the pyramid's shape. The DCT transforms the axes of all groups
     /// once, whatever their levels. All threads; the same result for any number of them. Cost: O(size · axes).
-    /// Throws Error(usage) when the number of elements is not the pyramid's.
+    /// Throws Error(usage) if the number of elements is not the pyramid's.
     void forward(const Pyramid& pyramid, std::span<float> elements) const;
     /// The inverse of forward(), to rounding.
     void inverse(const Pyramid& pyramid, std::span<float> elements) const;
@@ -35,7 +35,7 @@ class Transform {
 /// Throws Error(usage) with that list for any other name.
 Transform transform(std::string_view name);
 
-/// All names that transform() knows, in that order.
+/// All names, in that order.
 std::vector<std::string_view> transform_names();
 
 }  // namespace hogel::transform

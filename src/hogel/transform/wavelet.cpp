@@ -6,9 +6,9 @@
 namespace hogel::transform {
 namespace {
 
-// Each line: what changes, offset of the first tap, taps, and how many samples continue the source beyond an end.
-// A step that reads details which already vanish for polynomials may continue them as it likes; one that reads anything
-// else has to continue as many samples as the order that is to be kept at the ends. Continuing 3 or 4 samples of
+// Each step: the half that it changes, offset of the first tap, taps, and number of samples that continue the source
+// beyond an end. A step that reads details which already vanish for polynomials may continue them arbitrarily; any
+// other step must continue as many samples as the order that is to be kept at the ends. Continuing 3 or 4 samples with
 // filters as long as these makes the ends so ill-conditioned that it costs more than it gains: with a 4D array of
 // 16x16x64x64 with edges, at 0.05 bits each, i42 gave 19.4 dB with 4, 26.6 with 2 and 26.7 with 1, cdf97 21.0, 26.8
 // and 27.0, d6 22.8, 24.9 and 25.1; at 0.25 bits 2 was best for nearly all. For ai33 3 and 2 were within 0.2 dB.
@@ -25,7 +25,7 @@ std::vector<Wavelet> table() {
                          {detail, 0, {-0.35238765767485564, -0.46675694679423857}, 2},
                          {coarse, -2, {-0.09542943900975184, 0.4921518448877388}, 2},
                          {detail, 2, {0.11619309193636229}, 2}}},
-        // LobeAverage-interpolating (N,Ñ): N samples are averages over cells of the interpolating polynomial, which predicts
+        // Average-interpolating (N,Ñ): N samples are averages over cells of the interpolating polynomial, which predicts
         // the averages over their halves; from Haar, that prediction, then an update. Donoho 1993; Sweldens, "The
         // lifting scheme", 1996.
         {"ai13", 1, 3, 1, {{detail, 0, {-1}, 1}, {coarse, 0, {0.5}, 0}, {coarse, -1, {1. / 16, 0, -1. / 16}, 0}}},

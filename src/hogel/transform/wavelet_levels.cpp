@@ -7,15 +7,15 @@
 namespace hogel::transform {
 namespace {
 
-// Farther than this from both ends basis functions do not reach them, or too little to change their norms.
+// Basis functions that are farther than this from both ends hardly reach them, and have equal norms.
 constexpr std::size_t reach = 16;
 
-// The norms of the synthesis functions of all rows of the last of these levels (coarse samples, then details),
-// measured: the responses of the unscaled levels to impulses, a tile of them at a time.
+// The norms of the synthesis functions of all rows of the last of these levels (coarse samples, then details), measured
+// as responses of the unscaled levels to impulses, a tile of them at a time.
 std::vector<double> synthesis_norms(std::span<const WaveletLine> levels) {
     const WaveletLine& last = levels.back();
     const std::size_t length = last.length(), coarse_count = (length + 1) / 2;
-    // Rows of each half near its ends one by one; one in the middle speaks for the others.
+    // Rows near the ends of each half are measured individually, one in the middle stands for all others.
     std::vector<std::size_t> measured;
     std::vector<std::size_t> stands_for(length);
     for (std::size_t half = 0; half < 2; ++half) {

@@ -16,7 +16,7 @@ using namespace codec::format;
 
 namespace {
 
-// Reads the depth of a tile from such a light field: what is decoded as `beyond` or more is at infinity.
+// Reads the depth of a tile from the depth stream: values of `beyond` or more mean infinity.
 void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile) {
     LightFieldTile values(coded.grid(), tile.range, false);
     coded.read(values);
@@ -25,7 +25,7 @@ void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& ti
     });
 }
 
-// A stream, and the tiles of it that were decoded last.
+// A stream, and its tiles that were decoded last.
 class DecodedStream {
   public:
     DecodedStream(const std::filesystem::path& path, const StreamOptions& options, bool coefficients,
@@ -38,12 +38,11 @@ class DecodedStream {
         if (!coefficients) return;
         if (!coders_.front()->directional())
             throw Error(ErrorCode::bad_input,
-                        fmt::format("{}: is coded by {}; coefficients of directions are kept by coder fringes",
+                        fmt::format("{}: has the coder {}; expected fringes, which keeps coefficients of directions",
                                     path.string(), info().method.coder));
         if (info().companding.changes())
             throw Error(ErrorCode::bad_input,
-                        fmt::format("{}: is coded along a tone curve, or with coarser chrominance; expected radiances "
-                                    "as they are",
+                        fmt::format("{}: has a tone curve or coarser chrominance; expected radiances as they are",
                                     path.string()));
         if (!info().sides.empty())
             throw Error(ErrorCode::bad_input,
@@ -52,12 +51,12 @@ class DecodedStream {
 
     const StreamHeader& info() const { return reader_.info(); }
 
-    // Reads a face: as many directions as the tile has of a part, from a place on.
+    // Reads a face: the directions of a part from a place on, as many as the tile has.
     void read(std::size_t part, Unfolding::Place place, LightFieldTile& tile) const {
         const Tiling& tiling = reader_.tiling();
         const HogelRange &r = tile.range, &size = tiling.size();
         const LightFieldGrid& grid = reader_.parts()[part];
-        // A tile asked for alone is decoded into its place.
+        // A whole tile of the stream is decoded in place.
         const std::size_t first = r.t0 / size.nt * tiling.across() + r.s0 / size.ns;
         const bool whole = tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
         if (tiling[first] == r && whole && recent_.kept() < tiling.count()) return decode({part, first}, tile);
@@ -74,7 +73,7 @@ class DecodedStream {
 
     using Decoder = std::unique_ptr<TileDecoder>;
 
-    // Coefficients of a tile, whole.
+    // The coefficients of a whole tile.
     class Coefficients final : public TileDecoder {
       public:
         explicit Coefficients(LightFieldTile tile) : tile_(std::move(tile)) {}
@@ -114,7 +113,7 @@ class DecodedStream {
 
     std::size_t number(Index index) const { return index.part * reader_.tiling().count() + index.tile; }
 
-    // Does something with bytes of a tile, whose errors are the file's.
+    // Calls use(), whose Error(bad_input) gets the name of the file and the number of the tile.
     template <class Use>
     auto with_tile_named(Index index, Use&& use) const {
         try {
@@ -144,7 +143,7 @@ class DecodedStream {
         with_tile_named(index, [&] { decoder->read(tile); });
     }
 
-    // What a tile of the stream has of the one that is wanted.
+    // Copies the hogels that a tile of the stream has in common with the wanted tile.
     void read_common(Index index, Unfolding::Place place, LightFieldTile& tile) const {
         const auto decoder = recent_.get(index, [&] { return std::make_shared<const Decoder>(open(index)); });
         const LightFieldGrid& grid = reader_.parts()[index.part];
@@ -169,7 +168,7 @@ class DecodedStream {
 // One face of a stream.
 class DecodedFace final : public LightFieldSource {
   public:
-    // @param depth   the same face of the stream of depths, or null
+    // @param depth   the same face of the depth stream, or null
     DecodedFace(std::shared_ptr<const DecodedStream> stream, std::size_t face,
                 std::unique_ptr<LightFieldSource> depth = {})
         : stream_(std::move(stream)), depth_(std::move(depth)), grid_(stream_->info().faces()[face]), part_(face) {
@@ -207,7 +206,7 @@ LightField open_stream(const std::filesystem::path& path, const StreamOptions& o
                                                       StreamReader::Content::its_depth);
     std::vector<LightField::Source> faces;
     for (std::size_t face = 0; face <= info.sides.size(); ++face)
-        faces.push_back(std::make_shared<const DecodedFace>(
+        faces.push_back(std::make_shared<DecodedFace>(
             stream, face, depth ? std::make_unique<DecodedFace>(depth, face) : std::unique_ptr<DecodedFace>()));
     return LightField(std::move(faces));
 }

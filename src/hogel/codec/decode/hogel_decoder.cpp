@@ -22,45 +22,45 @@ TileSetup setup_from(std::span<const std::uint8_t> bytes, const LightFieldGrid& 
     ByteReader header(bytes, "tile");
     if (!hogel_tile_fits(grid, range)) header.damaged("it is too large");
     const float step = header.take_float(), growth = header.take_float();
-    if (!(step > 0 && std::isfinite(step) && growth >= 1 && growth <= 4)) header.damaged("its steps are no steps");
+    if (!(step > 0 && std::isfinite(step) && growth >= 1 && growth <= 4)) header.damaged("its steps are impossible");
     const auto references = header.take<std::uint8_t>();
     if (references == 0) header.damaged("its hogels have no references");
-    return TileSetup(HogelOrder(range.ns, range.nt, references, tellers_a_side), grid.directions_u, grid.directions_v,
-                     grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()));
+    return TileSetup(HogelOrder(range.ns, range.nt, references, context_references_per_side), grid.directions_u,
+                     grid.directions_v, grid.channels, step, growth, static_cast<float>(grid.step_u() / grid.step_v()));
 }
 
 }  // namespace
 
 HogelDecoder::HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
-                           std::size_t levels)
+                           std::size_t layers)
     : bytes_(std::move(bytes)),
       range_(range),
       setup_(setup_from(bytes_, grid, range)),
       place_(range.hogels()),
       coded_(range.hogels()),
-      told_(range.hogels()),
+      syntax_read_(range.hogels()),
       wanted_(range.hogels()),
       blocks_(range.hogels() * setup_.grid.count()),
       pictures_(range.hogels()),
       complete_(range.hogels()) {
     const auto& order = setup_.order.hogels();
     for (std::size_t k = 0; k < order.size(); ++k) place_[order[k].t * range.ns + order[k].s] = k;
-    take_levels(levels);
+    take_layers(layers);
 }
 
-void HogelDecoder::take_levels(std::size_t levels) {
+void HogelDecoder::take_layers(std::size_t layers) {
     ByteReader reader(bytes_, "tile");
     reader.take(header_bytes);
-    const auto& waves = setup_.order.waves();
-    const auto& waves_of_levels = setup_.order.waves_of_levels();
+    const auto& wavefronts = setup_.order.wavefronts();
+    const auto& of_layers = setup_.order.wavefronts_of_layers();
     ModelStates before;
-    for (std::size_t level = 0; level < levels; ++level) {
+    for (std::size_t layer = 0; layer < layers; ++layer) {
         BlockReader side(reader.take(reader.take<std::uint32_t>()));
         ModelStates states;
         states.code(side, before);
         models_.push_back(states.models());
         before = states;
-        const std::size_t begin = waves[waves_of_levels[level]], end = waves[waves_of_levels[level + 1]];
+        const std::size_t begin = wavefronts[of_layers[layer]], end = wavefronts[of_layers[layer + 1]];
         CodeLengths lengths;
         std::vector<std::uint32_t> sizes;
         for (std::size_t k = begin; k < end; ++k) sizes.push_back(lengths.code(side, 0));
@@ -76,7 +76,7 @@ void HogelDecoder::read(LightFieldTile& part) {
     for (std::size_t t = part.range.t0; t < part.range.t0 + part.range.nt; ++t)
         for (std::size_t s = part.range.s0; s < part.range.s0 + part.range.ns; ++s)
             wanted.push_back(place_[(t - range_.t0) * range_.ns + s - range_.s0]);
-    // A thread that waits inside must not begin something else that waits for this tile.
+    // A thread that waits inside must not start other work that waits for this tile.
     core::isolate([&] {
         if (!std::ranges::all_of(wanted, [&](std::size_t k) { return complete_[k].load(); })) {
             const std::lock_guard lock(mutex_);
@@ -95,44 +95,44 @@ std::span<BlockState> HogelDecoder::blocks_of(std::size_t hogel) {
     return std::span(blocks_).subspan(hogel * setup_.grid.count(), setup_.grid.count());
 }
 
-const std::vector<Block>* HogelDecoder::beside(std::size_t hogel) const {
-    const auto& tellers = setup_.order.hogels()[hogel].tellers;
-    return tellers.empty() ? nullptr : &coded_[tellers.front().hogel].blocks;
+const std::vector<Block>* HogelDecoder::context_blocks(std::size_t hogel) const {
+    const auto& references = setup_.order.hogels()[hogel].context_references;
+    return references.empty() ? nullptr : &coded_[references.front().hogel].blocks;
 }
 
-// What a hogel is told; its tellers' must be known.
-void HogelDecoder::tell(std::size_t k) {
+// The syntax elements of the hogel's context references must be known.
+void HogelDecoder::read_syntax(std::size_t k) {
     const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
-    const auto moved = moved_blocks(hogel, coded_, setup_.grid, setup_.aspect);
+    const auto warped = warped_blocks(hogel, coded_, setup_.grid, setup_.aspect);
     if (k < codes_.size()) {
         BlockReader reader(codes_[k]);
-        constexpr std::size_t bytes_of_levels = 4;  // of a block, about
+        constexpr std::size_t bytes_of_levels = 4;  // estimate, for each channel of a block
         coded_[k].levels.reserve(std::min(codes_[k].size() / bytes_of_levels, setup_.grid.count()));
-        BlockModels models = models_[static_cast<std::size_t>(hogel.level)];
-        code_hogel(reader, models, setup_.grid, hogel, moved, beside(k), coded_[k]);
+        BlockModels models = models_[static_cast<std::size_t>(hogel.layer)];
+        code_hogel(reader, models, setup_.grid, hogel, warped, context_blocks(k), coded_[k]);
         const ByteReader whole({}, "tile");
         if (reader.ended()) whole.damaged("it ends too early");
         if (!reader.all_read()) whole.damaged("bytes are left over");
     } else {
-        guess_hogel(setup_.grid, moved, beside(k), coded_[k]);
+        predict_syntax(setup_.grid, warped, context_blocks(k), coded_[k]);
     }
-    told_[k] = true;
+    syntax_read_[k] = true;
 }
 
-// These, and before them all that tell them something, on all threads.
-void HogelDecoder::tell_in_waves(const std::vector<std::size_t>& wanted) {
+// Reads the syntax elements of hogels, and of their context references before, on all threads.
+void HogelDecoder::read_syntax_in_wavefronts(const std::vector<std::size_t>& wanted) {
     const auto& order = setup_.order.hogels();
     std::vector<bool> needed(order.size());
     for (const std::size_t k : wanted) needed[k] = true;
     for (std::size_t k = order.size(); k-- > 0;)
         if (needed[k])
-            for (const HogelOrder::Reference& teller : order[k].tellers) needed[teller.hogel] = true;
-    const auto& waves = setup_.order.waves();
-    for (std::size_t wave = 0; wave + 1 < waves.size(); ++wave) {
+            for (const HogelOrder::Reference& reference : order[k].context_references) needed[reference.hogel] = true;
+    const auto& wavefronts = setup_.order.wavefronts();
+    for (std::size_t wavefront = 0; wavefront + 1 < wavefronts.size(); ++wavefront) {
         std::vector<std::size_t> now;
-        for (std::size_t k = waves[wave]; k < waves[wave + 1]; ++k)
-            if (needed[k] && !told_[k]) now.push_back(k);
-        core::parallel_for(now.size(), [&](std::size_t n) { tell(now[n]); });
+        for (std::size_t k = wavefronts[wavefront]; k < wavefronts[wavefront + 1]; ++k)
+            if (needed[k] && !syntax_read_[k]) now.push_back(k);
+        core::parallel_for(now.size(), [&](std::size_t n) { read_syntax(now[n]); });
     }
 }
 
@@ -143,8 +143,8 @@ void HogelDecoder::want_block(std::size_t k, std::size_t column, std::size_t row
     wanted_[k] = true;
 }
 
-// The blocks of other hogels, and of this one, that the wanted ones are predicted from.
-void HogelDecoder::want_what_is_shown(std::size_t k) {
+// Marks the blocks of this hogel and of others that its wanted blocks are predicted from.
+void HogelDecoder::want_references(std::size_t k) {
     const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
     ReferenceWeights weights(hogel, setup_.noise, setup_.aspect);
     const BlockGrid& grid = setup_.grid;
@@ -153,68 +153,68 @@ void HogelDecoder::want_what_is_shown(std::size_t k) {
         if (states[n] != BlockState::wanted) continue;
         const Block& block = coded_[k].blocks[n];
         const std::size_t column = n % grid.columns, row = n / grid.columns;
-        if (block.mode == 0) {
+        if (block.mode == mode_intra) {
             if (column > 0) want_block(k, column - 1, row);
             if (row > 0) want_block(k, column, row - 1);
-            if (row == 0 || block.within < first_direction) continue;
+            if (row == 0 || block.intra_predictor < first_directional) continue;
             if (column > 0) want_block(k, column - 1, row - 1);
             if (column + 1 < grid.columns) want_block(k, column + 1, row - 1);
             continue;
         }
         const BlockChoices choices = choices_of(block, weights);
-        for (std::size_t part = 0; part < choices.parts; ++part) {
-            const ReferenceWeights::Choice& choice = choices.of[part];
+        for (std::size_t partition = 0; partition < choices.partitions; ++partition) {
+            const ReferenceWeights::Choice& choice = choices.of[partition];
             for (std::size_t i = 0; i < choice.count; ++i) {
-                const BlockRange seen = blocks_seen(grid.columns, grid.rows, column, row, choice.shift[i]);
-                for (std::size_t r = seen.first_row; r <= seen.last_row; ++r)
-                    for (std::size_t c = seen.first_column; c <= seen.last_column; ++c)
+                const BlockRange fetched = fetched_blocks(grid.columns, grid.rows, column, row, choice.shift[i]);
+                for (std::size_t r = fetched.first_row; r <= fetched.last_row; ++r)
+                    for (std::size_t c = fetched.first_column; c <= fetched.last_column; ++c)
                         want_block(hogel.references[choice.reference[i]].hogel, c, r);
             }
         }
     }
 }
 
-void HogelDecoder::make(std::size_t k) {
+void HogelDecoder::reconstruct_wanted(std::size_t k) {
     const auto states = blocks_of(k);
     reconstruct(setup_, k, coded_[k], states, pictures_);
     wanted_[k] = false;
-    if (std::ranges::count(states, BlockState::made) < std::ptrdiff_t(states.size())) return;
+    if (std::ranges::count(states, BlockState::reconstructed) < std::ptrdiff_t(states.size())) return;
     coded_[k].levels = {};
     complete_[k] = true;
 }
 
 void HogelDecoder::decode(const std::vector<std::size_t>& wanted) {
-    tell_in_waves(wanted);
+    read_syntax_in_wavefronts(wanted);
     for (const std::size_t k : wanted) {
         for (BlockState& state : blocks_of(k)) state = std::max(state, BlockState::wanted);
         wanted_[k] = !complete_[k];
     }
-    const std::size_t waves = setup_.order.waves().size() - 1;
+    const std::size_t wavefronts = setup_.order.wavefronts().size() - 1;
     if (wanted.size() < range_.hogels())
-        for (std::size_t wave = waves; wave-- > 0;) {
-            const std::vector<std::size_t> now = wanted_of_wave(wave);
-            tell_in_waves(now);
-            for (const std::size_t k : now) want_what_is_shown(k);
+        for (std::size_t wavefront = wavefronts; wavefront-- > 0;) {
+            const std::vector<std::size_t> now = wanted_of_wavefront(wavefront);
+            read_syntax_in_wavefronts(now);
+            for (const std::size_t k : now) want_references(k);
         }
-    for (std::size_t wave = 0; wave < waves; ++wave) {
-        const std::vector<std::size_t> now = wanted_of_wave(wave);
-        core::parallel_for(now.size(), [&](std::size_t n) { make(now[n]); });
+    for (std::size_t wavefront = 0; wavefront < wavefronts; ++wavefront) {
+        const std::vector<std::size_t> now = wanted_of_wavefront(wavefront);
+        core::parallel_for(now.size(), [&](std::size_t n) { reconstruct_wanted(now[n]); });
     }
 }
 
-std::vector<std::size_t> HogelDecoder::wanted_of_wave(std::size_t wave) const {
+std::vector<std::size_t> HogelDecoder::wanted_of_wavefront(std::size_t wavefront) const {
     std::vector<std::size_t> found;
-    for (std::size_t k = setup_.order.waves()[wave]; k < setup_.order.waves()[wave + 1]; ++k)
+    for (std::size_t k = setup_.order.wavefronts()[wavefront]; k < setup_.order.wavefronts()[wavefront + 1]; ++k)
         if (wanted_[k]) found.push_back(k);
     return found;
 }
 
-std::size_t HogelDecoder::hogels_told() const {
-    return static_cast<std::size_t>(std::ranges::count(told_, std::uint8_t{1}));
+std::size_t HogelDecoder::hogels_read() const {
+    return static_cast<std::size_t>(std::ranges::count(syntax_read_, std::uint8_t{1}));
 }
 
-std::size_t HogelDecoder::blocks_made() const {
-    return static_cast<std::size_t>(std::ranges::count(blocks_, BlockState::made));
+std::size_t HogelDecoder::blocks_reconstructed() const {
+    return static_cast<std::size_t>(std::ranges::count(blocks_, BlockState::reconstructed));
 }
 
 std::size_t samples_in_blocks(const LightFieldGrid& grid) {

@@ -9,55 +9,52 @@
 
 namespace hogel::codec::decode {
 
-// A tile of the coder "hogel", decoded as far as it is asked for: a hogel takes those that it is predicted from, and of
-// these the blocks that it shows. What has been decoded stays.
+// A tile of the coder "hogel", decoded as far as it is read: a hogel needs the syntax elements of those that it is
+// predicted from, and of their samples only the blocks that it shows. What has been decoded is kept.
 class HogelDecoder final : public TileDecoder {
   public:
-    // @param levels   of the order, that `bytes` have; hogels of the others are guessed
+    // @param layers   that `bytes` have; the syntax elements of hogels of further layers are predicted
     // Throws Error(bad_input).
     HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
-                 std::size_t levels);
+                 std::size_t layers);
     void read(LightFieldTile& part) override;
 
-    // What has been decoded so far: hogels of which all is told, and blocks made.
-    std::size_t hogels_told() const;
-    std::size_t blocks_made() const;
+    // What has been decoded so far: hogels whose syntax elements are known, and blocks that are reconstructed.
+    std::size_t hogels_read() const;
+    std::size_t blocks_reconstructed() const;
 
   private:
     std::span<format::BlockState> blocks_of(std::size_t hogel);
-    const std::vector<format::Block>* beside(std::size_t hogel) const;
-    void take_levels(std::size_t levels);
+    const std::vector<format::Block>* context_blocks(std::size_t hogel) const;
+    void take_layers(std::size_t layers);
     void decode(const std::vector<std::size_t>& wanted);
-    void tell_in_waves(const std::vector<std::size_t>& wanted);
-    void tell(std::size_t hogel);
-    std::vector<std::size_t> wanted_of_wave(std::size_t wave) const;
+    void read_syntax_in_wavefronts(const std::vector<std::size_t>& wanted);
+    void read_syntax(std::size_t hogel);
+    std::vector<std::size_t> wanted_of_wavefront(std::size_t wavefront) const;
     void want_block(std::size_t hogel, std::size_t column, std::size_t row);
-    void want_what_is_shown(std::size_t hogel);
-    void make(std::size_t hogel);
+    void want_references(std::size_t hogel);
+    void reconstruct_wanted(std::size_t hogel);
 
     std::vector<std::uint8_t> bytes_;
     HogelRange range_;
     format::TileSetup setup_;
-    std::vector<std::size_t> place_;                    // in the order, of hogels row by row
-    std::vector<format::BlockModels> models_;           // of each level, as they begin
-    std::vector<std::span<const std::uint8_t>> codes_;  // of the hogels of these levels
+    std::vector<std::size_t> place_;                    // of hogels, row by row, in the order
+    std::vector<format::BlockModels> models_;           // of each layer, in their initial states
+    std::vector<std::span<const std::uint8_t>> codes_;  // of the hogels of these layers
 
-    std::mutex mutex_;  // of all that follows but pictures that are complete
+    std::mutex mutex_;  // guards all that follows, but for pictures that are complete
     std::vector<format::CodedHogel> coded_;
-    std::vector<std::uint8_t> told_, wanted_;  // bools
-    std::vector<format::BlockState> blocks_;   // of all hogels
+    std::vector<std::uint8_t> syntax_read_, wanted_;  // bools, of hogels
+    std::vector<format::BlockState> blocks_;          // of all hogels
     std::vector<format::Picture> pictures_;
     std::vector<std::atomic<bool>> complete_;
 };
 
-// Samples of a hogel, in whole blocks.
+// Samples of a hogel padded to whole blocks.
 std::size_t samples_in_blocks(const LightFieldGrid& grid);
-// True where the coder's tiles may be so large.
+// Whether a tile is within the limits of the format.
 bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range);
 constexpr std::size_t max_hogel_tile_side = 64;
 constexpr std::size_t max_hogel_tile_samples = std::size_t{1} << 28;
-
-// How many references of a side tell their disparities: more make them worse.
-constexpr std::size_t tellers_a_side = 1;
 
 }  // namespace hogel::codec::decode

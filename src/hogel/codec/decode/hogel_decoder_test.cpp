@@ -41,7 +41,7 @@ struct Example {
         const auto end = encoded.bytes.begin() + std::ptrdiff_t(encoded.layers[layers - 1]);
         return {{encoded.bytes.begin(), end}, field.grid(), whole, layers};
     }
-    // Whether a part is what the whole has there.
+    // Whether a part has the samples of the whole.
     bool has(const LightFieldTile& part) const {
         LightFieldTile expected(field.grid(), part.range, false);
         copy_common(decoded, expected);
@@ -49,14 +49,14 @@ struct Example {
     }
 };
 
-TEST(HogelDecoder, any_part_is_what_the_whole_has_there) {
+TEST(HogelDecoder, any_part_has_the_samples_of_the_whole) {
     for (const Example& example :
          {Example(9, 7, 40, 33, 1), Example(5, 6, 27, 30, 3), Example(1, 9, 16, 8, 1), Example(12, 1, 64, 3, 1)}) {
         const HogelRange& whole = example.whole;
         for (std::size_t k = 0; k < whole.hogels(); ++k) {
             HogelRange range{k % whole.ns, k / whole.ns, 1, 1};
             HogelDecoder decoder = example.open();
-            for (int more = 0; more < 2; ++more) {  // and then more of the same tile
+            for (int more = 0; more < 2; ++more) {  // then more of the same tile
                 LightFieldTile part(example.field.grid(), range, false);
                 decoder.read(part);
                 ASSERT_TRUE(example.has(part)) << range.s0 << " " << range.t0;
@@ -67,9 +67,9 @@ TEST(HogelDecoder, any_part_is_what_the_whole_has_there) {
     }
 }
 
-// A picture of lines that come from above on the right, which the first hogel goes on along; the others see it moved by
-// more than a block, so that they show only one end of it.
-TEST(HogelDecoder, parts_have_what_lies_above_on_the_right) {
+// Lines that come from above on the right, which the first hogel continues by intra prediction. The other hogels see it
+// shifted by more than a block, so that they need only one end of it.
+TEST(HogelDecoder, a_part_of_intra_blocks_gets_the_samples_above_on_the_right) {
     LightFieldBuffer field({5, 1, 1e-3, 64, 40, Perspective{0.3, 0.3}, 1});
     for (std::size_t s = 0; s < 5; ++s)
         for (std::size_t v = 0; v < 40; ++v)
@@ -86,25 +86,25 @@ TEST(HogelDecoder, parts_have_what_lies_above_on_the_right) {
     }
 }
 
-// A hogel needs those that it is predicted from and theirs: a handful on each level, not the tile.
+// A few of each layer, not the whole tile.
 TEST(HogelDecoder, a_hogel_needs_few_others) {
     const Example example(32, 32, 16, 16, 1);
-    std::size_t max_told = 0, all_made = 0;
+    std::size_t max_read = 0, all_blocks = 0;
     for (std::size_t k = 7; k < 1024; k += 61) {
         HogelDecoder decoder = example.open();
-        EXPECT_EQ(decoder.hogels_told(), 0u);
+        EXPECT_EQ(decoder.hogels_read(), 0u);
         LightFieldTile part(example.field.grid(), {k % 32, k / 32, 1, 1}, false);
         decoder.read(part);
         ASSERT_TRUE(example.has(part));
-        max_told = std::max(max_told, decoder.hogels_told());
-        all_made += decoder.blocks_made();
-        const std::size_t made = decoder.blocks_made();
+        max_read = std::max(max_read, decoder.hogels_read());
+        all_blocks += decoder.blocks_reconstructed();
+        const std::size_t blocks = decoder.blocks_reconstructed();
         decoder.read(part);
-        EXPECT_EQ(decoder.blocks_made(), made);  // nothing is done twice
+        EXPECT_EQ(decoder.blocks_reconstructed(), blocks);  // nothing is done twice
     }
-    EXPECT_GE(max_told, 10u);
-    EXPECT_LE(max_told, 160u);
-    EXPECT_LE(all_made, 17 * 4 * 80u);  // of 4 · 1024 each
+    EXPECT_GE(max_read, 10u);
+    EXPECT_LE(max_read, 160u);
+    EXPECT_LE(all_blocks, 17 * 4 * 80u);  // of 4 · 1024 each
 }
 
 TEST(HogelDecoder, several_threads_read_the_same_tile) {
@@ -122,8 +122,7 @@ TEST(HogelDecoder, several_threads_read_the_same_tile) {
     }
 }
 
-// Each layer more comes nearer to the truth, and those of all hogels.
-TEST(HogelDecoder, layers_are_finer_and_finer) {
+TEST(HogelDecoder, each_layer_reduces_the_error) {
     const Example example(9, 9, 48, 40, 3);
     ASSERT_EQ(example.encoded.layers.size(), 4u);
     double before = 0;
@@ -136,7 +135,6 @@ TEST(HogelDecoder, layers_are_finer_and_finer) {
         const double sqnr = sqnr_of(example.field, other);
         EXPECT_GT(sqnr, before + 0.2) << layers;
         before = sqnr;
-        // A part has the same.
         LightFieldTile part(example.field.grid(), {4, 3, 1, 1}, false), expected = part;
         HogelDecoder partial = example.open(layers);
         partial.read(part);
@@ -146,8 +144,8 @@ TEST(HogelDecoder, layers_are_finer_and_finer) {
     EXPECT_GT(before, 25);
 }
 
-// Damage shows where it is read, or gives other samples, but never more.
-TEST(HogelDecoder, damage_does_no_harm_to_a_part) {
+// Reading ends with other samples or in an Error(bad_input).
+TEST(HogelDecoder, damaged_bytes_do_no_harm) {
     const Example example(5, 5, 16, 16, 1);
     std::size_t refused = 0;
     const auto attempt = [&](std::vector<std::uint8_t> bytes, std::size_t layers) {
@@ -173,19 +171,18 @@ TEST(HogelDecoder, damage_does_no_harm_to_a_part) {
     EXPECT_EQ(refused, good.size());
 }
 
-// What models begin with is near to what was counted, and comes back.
-TEST(ModelStates, are_what_was_counted) {
+TEST(ModelStates, are_near_the_counted_ratios_and_come_back) {
     const BlockModelNumbers numbers;
     std::vector<BitCount> counts(ModelStates().count(), {300, 100});
     counts[numbers.main.sign] = {0, 5000};
-    counts[numbers.within[0]] = {0, 0};
-    counts[numbers.within[1]] = {3, 2};  // too few to be worth telling
+    counts[numbers.intra[0]] = {0, 0};
+    counts[numbers.intra[1]] = {3, 2};  // too few to pay
     const ModelStates states(counts, ModelStates());
     BlockModels models = states.models();
     EXPECT_NEAR(models.mode[0][1][2].zero(), 0.75 * 65536, 0.02 * 65536);
     EXPECT_LT(models.main.sign.zero(), 0.002 * 65536);
-    EXPECT_EQ(models.within[0].zero(), 32768u);
-    EXPECT_EQ(models.within[1].zero(), 32768u);
+    EXPECT_EQ(models.intra[0].zero(), 32768u);
+    EXPECT_EQ(models.intra[1].zero(), 32768u);
     BlockWriter writer;
     ModelStates(states).code(writer, ModelStates());
     const std::vector<std::uint8_t> bytes = writer.finish();

@@ -5,50 +5,52 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "hogel/codec/encode/rate_weight.h"
+
 namespace hogel::codec::encode {
 
 using namespace format;
 
 namespace {
 
-// Bits that things cost, as they are taken into account: about what they come to.
-constexpr float likeliest_disparity = 0.3f, other_candidate = 2, each_candidate = 0.7f, new_disparity = 14;
+// Estimated bits (docs/decisions/0036-codec-encoder-search.md).
+constexpr float first_candidate = 0.3f, other_candidate = 2, each_candidate = 0.7f, new_disparity = 14;
 constexpr float best_of_all_sides = 0.3f, one_side = 7;
-// In squared steps a block, of most levels of the order and of the last one, from which no other hogel inherits:
-// a prediction that costs no more is taken without looking further,
-constexpr float good_enough_first = 1.5f, good_enough_last = 2;
-// one that costs less is not worth looking farther,
-constexpr float worth_looking_first = 12, worth_looking_last = 16;
-// and no other one is likely to have a smaller error.
+// Thresholds of the same page, in squared steps a block, for most layers and for the last one, from which no other
+// hogel inherits: a prediction that costs less ends the search, and one that costs more is worth looking farther.
+constexpr float good_enough = 1.5f, good_enough_last = 2;
+constexpr float worth_looking_most = 12, worth_looking_last = 16;
+// No prediction is likely to have a smaller error.
 constexpr float min_error = 1;
-constexpr int times_along_slopes = 2;
+constexpr int max_slope_steps = 2;
 constexpr std::size_t max_nearby = 3;
-constexpr int farthest_look = 4;  // in units of disparity
+constexpr int farthest_look = 4;  // units of disparity
 
 }  // namespace
 
-BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source, SeenBlocks& seen,
-                         ReferenceWeights& weights, const Known& known)
+BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel, const Plane& source,
+                         WarpedBlocks& warped, ReferenceWeights& weights, const KnownDisparities& known)
     : setup_(setup),
       hogel_(hogel),
       source_(source),
-      seen_(seen),
+      warped_(warped),
       weights_(weights),
       known_(known),
       unit_(disparity_unit(hogel)) {
-    const float step = setup.step[static_cast<std::size_t>(hogel.level)];
-    const bool last = hogel.level + 1 == setup.order.levels();
-    worth_ = bit_worth * step * step;
-    good_enough_ = (last ? good_enough_last : good_enough_first) * step * step;
-    worth_looking_ = (last ? worth_looking_last : worth_looking_first) * step * step;
+    const float step = setup.step[static_cast<std::size_t>(hogel.layer)];
+    const bool last = hogel.layer + 1 == setup.order.layers();
+    rate_weight_ = lambda * step * step;
+    good_enough_ = (last ? good_enough_last : good_enough) * step * step;
+    worth_looking_ = (last ? worth_looking_last : worth_looking_most) * step * step;
     min_error_ = min_error * step * step;
 }
 
-// Whether a prediction, whose error this is, is the best so far; then it is noted.
+// Enters a prediction if it is the best so far, and returns whether it is.
 bool BlockSearch::take_if_better(const BlockSamples& prediction, float error, float bits, int side, int disparity) {
-    const float cost = error + worth_ * bits;
+    const float cost = error + rate_weight_ * bits;
     if (!(cost < best_.cost)) return false;
-    best_ = {cost, error, static_cast<std::uint8_t>(1 + side), static_cast<std::int16_t>(disparity), &prediction};
+    best_ = {cost, error, static_cast<std::uint8_t>(mode_any + side), static_cast<std::int16_t>(disparity),
+             &prediction};
     return true;
 }
 
@@ -57,13 +59,13 @@ void BlockSearch::try_any_side(int disparity, float bits) {
     const auto& choice = weights_.choose(disparity, ReferenceWeights::Side::any);
     if (choice.count == 0) return;
     BlockSamples& spare = kept_[best_.prediction == &kept_[0] ? 1 : 0];
-    const BlockSamples& first = seen_.by(disparity, choice.reference[0], choice.shift[0]);
+    const BlockSamples& first = warped_.get(disparity, choice.reference[0], choice.shift[0]);
     if (choice.count == 2) {
-        const BlockSamples& second = seen_.by(disparity, choice.reference[1], choice.shift[1]);
-        const float error = mix_and_compare(first, second, choice.weight[0], choice.weight[1], *wanted_, spare);
+        const BlockSamples& second = warped_.get(disparity, choice.reference[1], choice.shift[1]);
+        const float error = mix_and_compare(first, second, choice.weight[0], choice.weight[1], *target_, spare);
         take_if_better(spare, error, bits + best_of_all_sides, 0, disparity);
     } else {
-        const float error = squared_difference(first, *wanted_);
+        const float error = squared_difference(first, *target_);
         if (take_if_better(spare, error, bits + best_of_all_sides, 0, disparity)) spare = first;
     }
 }
@@ -74,21 +76,21 @@ void BlockSearch::try_single_sides(int disparity, float bits) {
         if (good() || !may_win(bits + one_side)) return;
         const auto& choice = weights_.choose(disparity, static_cast<ReferenceWeights::Side>(side));
         if (choice.count == 0) continue;
-        const BlockSamples& view = seen_.by(disparity, choice.reference[0], choice.shift[0]);
-        const float error = squared_difference(view, *wanted_);
+        const BlockSamples& view = warped_.get(disparity, choice.reference[0], choice.shift[0]);
+        const float error = squared_difference(view, *target_);
         if (!take_if_better(kept_[0], error, bits + one_side, side, disparity)) continue;
         kept_[0] = view;
     }
 }
 
-int BlockSearch::told_as(float disparity) const {
-    const float away = disparity - static_cast<float>(likeliest_);
+int BlockSearch::codable(float disparity) const {
+    const float away = disparity - static_cast<float>(first_candidate_);
     const float units = std::clamp<float>(std::abs(away) / static_cast<float>(unit_) + 0.5f, 0, 2 * max_disparity);
-    return likeliest_ + static_cast<int>(units) * (away < 0 ? -unit_ : unit_);
+    return first_candidate_ + static_cast<int>(units) * (away < 0 ? -unit_ : unit_);
 }
 
-// A reference shows, where its disparity is wrong, what is wanted moved by a little: Gauss and Newton's step leads from
-// the best disparity so far to that with the least squared difference from all sides together.
+// With a wrong disparity a reference shows the block a little shifted. A Gauss–Newton step leads from the best
+// disparity so far to the one with the least squared difference over all sides together.
 void BlockSearch::follow_slopes() {
     if (!slopes_known_) {
         const auto reach = static_cast<std::ptrdiff_t>(slope_reach);
@@ -104,17 +106,17 @@ void BlockSearch::follow_slopes() {
         if (choice.count == 0) continue;
         const HogelOrder::Reference& reference = hogel_.references[choice.reference[0]];
         const float distance = static_cast<float>(reference.ds) + static_cast<float>(reference.dt) * setup_.aspect;
-        const AlongSlope one = along_slope(seen_.by(from, choice.reference[0], choice.shift[0]), *wanted_,
+        const AlongSlope one = along_slope(warped_.get(from, choice.reference[0], choice.shift[0]), *target_,
                                            reference.ds != 0 ? slopes_.u : slopes_.v);
         sum.difference += distance * one.difference;
         sum.square += distance * distance * one.square;
     }
     if (!(sum.square > 0)) return;
-    const int disparity = told_as(static_cast<float>(from) + shift_unit * sum.difference / sum.square);
+    const int disparity = codable(static_cast<float>(from) + shift_unit * sum.difference / sum.square);
     if (disparity != from) try_any_side(disparity, new_disparity);
 }
 
-// The disparities of surfaces around the block, as far as they are known: where one ends, another begins.
+// Tries the known disparities of surfaces around the block: where one ends, another begins.
 void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
     std::array<int, Candidates{}.disparity.size() + max_nearby> tried;
     std::copy_n(candidates.disparity.begin(), candidates.count, tried.begin());
@@ -125,18 +127,18 @@ void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
             if (std::abs(tried[n] - disparity) <= unit_) return;
         if (enough()) return;
         tried[count++] = disparity;
-        const int told = told_as(static_cast<float>(disparity));
-        try_any_side(told, new_disparity);
-        try_single_sides(told, new_disparity);
+        const int coded = codable(static_cast<float>(disparity));
+        try_any_side(coded, new_disparity);
+        try_single_sides(coded, new_disparity);
     };
-    const auto try_moved = [&](std::size_t n) {
-        if (!known_.moved.empty() && known_.moved[n]) try_one(known_.moved[n]->disparity);
+    const auto try_warped = [&](std::size_t n) {
+        if (!known_.warped.empty() && known_.warped[n]) try_one(known_.warped[n]->disparity);
     };
-    const auto try_beside = [&](std::size_t n) {
-        if (!known_.beside) return;
-        const Block& block = (*known_.beside)[n];
+    const auto try_context = [&](std::size_t n) {
+        if (!known_.context_blocks) return;
+        const Block& block = (*known_.context_blocks)[n];
         try_one(block.disparity);
-        if (block.mode == parted) try_one(block.disparity_beyond);
+        if (block.mode == mode_partitioned) try_one(block.second_disparity);
     };
     const std::size_t column = k % setup_.grid.columns, row = k / setup_.grid.columns;
     const auto each = [&](std::span<const std::array<int, 2>> places, auto&& use) {
@@ -147,41 +149,41 @@ void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
         }
     };
     constexpr std::array<std::array<int, 2>, 5> straight{{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-    constexpr std::array<std::array<int, 2>, 4> across{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
-    each(straight, try_moved);
-    each(straight, try_beside);
-    each(across, try_moved);
-    each(across, try_beside);
+    constexpr std::array<std::array<int, 2>, 4> diagonal{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+    each(straight, try_warped);
+    each(straight, try_context);
+    each(diagonal, try_warped);
+    each(diagonal, try_context);
 }
 
 bool BlockSearch::look_around() {
     const float before = best_.cost;
     for (int part = farthest_look * unit_; part >= unit_ && !good(); part /= 2)
-        for (const int middle = (best_.disparity - likeliest_) / unit_ * unit_; const int sign : {-1, 1}) {
-            const int disparity = likeliest_ + middle + sign * part;
+        for (const int middle = (best_.disparity - first_candidate_) / unit_ * unit_; const int sign : {-1, 1}) {
+            const int disparity = first_candidate_ + middle + sign * part;
             if (!good()) try_any_side(disparity, new_disparity);
             try_single_sides(disparity, new_disparity);
         }
     return best_.cost < before;
 }
 
-const BlockSearch::Found& BlockSearch::run(std::size_t k, const BlockSamples& wanted, const Candidates& candidates) {
+const BlockSearch::Found& BlockSearch::run(std::size_t k, const BlockSamples& target, const Candidates& candidates) {
     x_ = k % setup_.grid.columns * block_side;
     y_ = k / setup_.grid.columns * block_side;
-    seen_.go_to(x_, y_);
-    wanted_ = &wanted;
-    likeliest_ = candidates.disparity[0];
+    warped_.go_to(x_, y_);
+    target_ = &target;
+    first_candidate_ = candidates.disparity[0];
     best_ = {};
     slopes_known_ = false;
     if (hogel_.references.empty()) return best_;
     const auto bits_of = [](std::size_t n) {
-        return n == 0 ? likeliest_disparity : other_candidate + each_candidate * static_cast<float>(n);
+        return n == 0 ? first_candidate : other_candidate + each_candidate * static_cast<float>(n);
     };
     for (std::size_t n = 0; n < candidates.count && !good(); ++n) try_any_side(candidates.disparity[n], bits_of(n));
     if (!known_.estimated.empty() && !good())
-        try_any_side(told_as(static_cast<float>(known_.estimated[k])), new_disparity);
+        try_any_side(codable(static_cast<float>(known_.estimated[k])), new_disparity);
     for (std::size_t n = 0; n < candidates.count && !good(); ++n) try_single_sides(candidates.disparity[n], bits_of(n));
-    for (int time = 0; time < times_along_slopes && !good() && may_win(new_disparity + best_of_all_sides); ++time) {
+    for (int n = 0; n < max_slope_steps && !good() && may_win(new_disparity + best_of_all_sides); ++n) {
         const int before = best_.disparity;
         follow_slopes();
         if (best_.disparity == before) break;

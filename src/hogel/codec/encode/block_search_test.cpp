@@ -12,8 +12,7 @@ using namespace format;
 
 namespace {
 
-// Five by five hogels that see a texture `disparity` 64ths of a direction away from each other; all but the last have
-// been coded, and that one is searched for.
+// Five by five hogels that see a texture with a disparity; the last hogel is searched, the others are coded.
 struct Views {
     TileSetup setup{HogelOrder(5, 5, 1, 1), 32, 32, 1, 0.003f, 1.35f, 1};
     std::vector<Picture> pictures;
@@ -31,25 +30,25 @@ struct Views {
                 }
         }
     }
-    // Of the block in the middle, from one candidate.
-    BlockSearch::Found search(int candidate, bool look = false, const BlockSearch::Known& known = {}) {
+    // Searches the block in the middle from one candidate.
+    BlockSearch::Found search(int candidate, bool look = false, const KnownDisparities& known = {}) {
         const Plane& source = pictures.back()[0];
-        SeenBlocks seen(hogel, pictures);
+        WarpedBlocks warped(hogel, pictures);
         ReferenceWeights weights(hogel, setup.noise, setup.aspect);
-        BlockSearch blocks(setup, hogel, source, seen, weights, known);
-        BlockSamples wanted;
+        BlockSearch blocks(setup, hogel, source, warped, weights, known);
+        BlockSamples target;
         for (std::size_t k = 0; k < block_samples; ++k)
-            wanted[k] = source.samples[(8 + k / block_side) * source.width + 8 + k % block_side];
+            target[k] = source.samples[(8 + k / block_side) * source.width + 8 + k % block_side];
         Candidates candidates;
         candidates.add(candidate);
-        const BlockSearch::Found& found = blocks.run(5, wanted, candidates);
+        const BlockSearch::Found& found = blocks.run(5, target, candidates);
         if (look) blocks.look_around();
         return found;
     }
 };
 
-// The slopes alone lead to the right disparity from nearly a direction away.
-TEST(BlockSearch, follows_slopes_to_the_disparity) {
+// From nearly a direction away.
+TEST(BlockSearch, slopes_lead_to_the_disparity) {
     for (const int disparity : {-70, 0, 33})
         for (const int away : {-56, -20, 9, 48}) {
             Views views(disparity);
@@ -60,9 +59,9 @@ TEST(BlockSearch, follows_slopes_to_the_disparity) {
         }
 }
 
-// Where most references show something else, so that slopes mislead, looking around helps, or the disparity of a block
-// near by; a candidate that is right is taken as it is.
-TEST(BlockSearch, looks_farther_only_where_it_must) {
+// Where most references show something else, slopes mislead, but looking around or the disparity of a neighbouring
+// block helps. A candidate that is right is taken.
+TEST(BlockSearch, looks_farther_only_if_necessary) {
     constexpr int disparity = 20, away = 26;
     Views views(disparity);
     for (std::size_t k = 0; k < views.pictures.size(); ++k) {
@@ -76,13 +75,13 @@ TEST(BlockSearch, looks_farther_only_where_it_must) {
     const BlockSearch::Found found = views.search(disparity - away, true);
     EXPECT_NEAR(found.disparity, disparity, 5);
     EXPECT_EQ(found.mode, 1 + static_cast<int>(ReferenceWeights::Side::left));
-    std::vector<Block> beside(views.setup.grid.count());
-    EXPECT_GT(std::abs(views.search(disparity - away, false, {{}, {}, &beside}).disparity - disparity), 12);
-    beside[6].mode = parted;
-    beside[6].disparity_beyond = disparity;
-    EXPECT_NEAR(views.search(disparity - away, false, {{}, {}, &beside}).disparity, disparity, 5);
-    beside[6].disparity_beyond = disparity + 12;
-    EXPECT_EQ(views.search(disparity, false, {{}, {}, &beside}).disparity, disparity);
+    std::vector<Block> context(views.setup.grid.count());
+    EXPECT_GT(std::abs(views.search(disparity - away, false, {{}, {}, &context}).disparity - disparity), 12);
+    context[6].mode = mode_partitioned;
+    context[6].second_disparity = disparity;
+    EXPECT_NEAR(views.search(disparity - away, false, {{}, {}, &context}).disparity, disparity, 5);
+    context[6].second_disparity = disparity + 12;
+    EXPECT_EQ(views.search(disparity, false, {{}, {}, &context}).disparity, disparity);
 }
 
 }  // namespace

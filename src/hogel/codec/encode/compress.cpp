@@ -92,8 +92,7 @@ std::unique_ptr<TileCoder> coder_for(const StreamInfo& info, const LightFieldGri
     });
 }
 
-Companding companding_for(std::span<const LightFieldSource* const> faces, const CompressionOptions& options,
-                          const Progress& progress) {
+Companding companding_for(const LightField& light_field, const CompressionOptions& options, const Progress& progress) {
     Companding companding;
     if (!options.tone_decades && options.chrominance == 1) return companding;
     if (is_exact(options.target))
@@ -103,28 +102,16 @@ Companding companding_for(std::span<const LightFieldSource* const> faces, const 
     if (!(options.chrominance >= 1 && options.chrominance <= Companding::max_chrominance))
         throw Error(ErrorCode::usage, fmt::format("chrominance {} times as coarse was asked for, expected 1 to {}",
                                                   options.chrominance, Companding::max_chrominance));
-    if (options.chrominance != 1 && faces.front()->grid().channels != 3)
+    if (options.chrominance != 1 && light_field.grid().channels != 3)
         throw Error(ErrorCode::usage, "coarser chrominance was asked for of a light field of one channel, expected 3");
     companding.chrominance = static_cast<float>(options.chrominance);
     if (!options.tone_decades) return companding;
     if (!(*options.tone_decades >= 0.1 && *options.tone_decades <= 20))
         throw Error(ErrorCode::usage,
                     fmt::format("tone mapping to {} decades was asked for, expected 0.1 to 20", *options.tone_decades));
-    companding.tone = tone_curve_of(luminance_histogram(faces, progress), *options.tone_decades);
+    companding.tone = tone_curve_of(luminance_histogram(light_field, progress), *options.tone_decades);
     return companding;
 }
-
-// The faces as they are coded.
-struct CompandedFaces {
-    std::vector<std::unique_ptr<LightFieldSource>> owned;
-    std::vector<const LightFieldSource*> faces;
-
-    CompandedFaces(std::span<const LightFieldSource* const> sources, const Companding& companding)
-        : faces(sources.begin(), sources.end()) {
-        if (!companding.changes()) return;
-        for (const LightFieldSource*& face : faces) face = owned.emplace_back(companded(*face, companding)).get();
-    }
-};
 
 // A coding of all tiles that meets a target.
 struct Found {
@@ -194,38 +181,32 @@ Found code_to_target(const CompressionTarget& target, double rays, const std::st
 CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
-    std::vector<const LightFieldSource*> sources;
-    for (const LightField::Source& face : light_field.faces()) sources.push_back(face.get());
     check(options.target);
-    const LightFieldGrid& grid = sources.front()->grid();
+    const LightFieldGrid& grid = light_field.grid();
     StreamHeader header;
     header.grid = grid;
     header.method = method_for(options);
     header.metadata = options.metadata;
     require_perspective(grid, ErrorCode::usage, "a compressed light field");
-    header.companding = companding_for(sources, options, progress);
-    const CompandedFaces as_coded(sources, header.companding);
-    const std::span<const LightFieldSource* const> faces = as_coded.faces;
-    double rays = 0;
-    for (const LightFieldSource* face : faces) {
-        if (face != faces.front()) header.sides.push_back(face->grid());
-        rays += static_cast<double>(face->grid().directions()) * static_cast<double>(grid.hogels());
-    }
+    header.companding = companding_for(light_field, options, progress);
+    const LightField coded = header.companding.changes() ? companded(light_field, header.companding) : light_field;
+    for (const LightField::Source& side : coded.faces().subspan(1)) header.sides.push_back(side->grid());
+    const double rays = coded.samples() / static_cast<double>(grid.channels);
     const CoderOfFace coder_of = [&](const StreamInfo& stream, const LightFieldGrid& part) {
         return coder_for(stream, part, options.target);
     };
-    header.layout = choose_layout(faces, header, options, coder_of);
+    header.layout = choose_layout(coded, header, options, coder_of);
     const std::vector<LightFieldGrid> grids = coded_parts(header);
-    const auto unfolded = header.layout == StreamLayout::unfolded ? unfold(faces) : std::unique_ptr<LightFieldSource>{};
+    const bool unfolded = header.layout == StreamLayout::unfolded;
     std::vector<CodedPart> parts;
     for (std::size_t i = 0; i < grids.size(); ++i)
-        parts.push_back({unfolded ? unfolded.get() : faces[i], coder_of(header, grids[i])});
+        parts.push_back({unfolded ? unfold(coded) : coded.faces()[i], coder_of(header, grids[i])});
     header.tile = options.tile.value_or(parts.front().coder->preferred_tile(grids.front()));
     header.tile.ns = std::min(header.tile.ns, grid.hogels_s);
     header.tile.nt = std::min(header.tile.nt, grid.hogels_t);
     header.layer_ends.resize(parts.front().coder->layers(header.tile));
     std::optional<core::OutputFile> depth;
-    if (options.with_depth) header.depth = compress_depth(sources, depth.emplace(path).temporary(), options);
+    if (options.with_depth) header.depth = compress_depth(light_field, depth.emplace(path).temporary(), options);
     StreamWriter writer(path, header, depth ? depth->temporary() : std::filesystem::path());
     TileCompression compression(parts, header, writer, progress);
     const Found found = code_to_target(options.target, rays, options.method.coder, compression, writer);

@@ -31,8 +31,8 @@ CompressionOptions with_sqnr(const CodingMethod& method, double sqnr) {
     return options;
 }
 
-// Undoing the transform of the directions is all that is left to do.
-TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
+// Undoing the transform of the directions gives the amplitudes.
+TEST(Coefficients, are_those_of_amplitudes_along_directions) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(9, 7, 24, 20, 3);
     compress(field, folder / "a.hgl", with_sqnr({"fringes", "ai33"}, 30));
@@ -48,9 +48,8 @@ TEST(Coefficients, are_those_of_the_amplitudes_along_the_directions) {
     EXPECT_EQ(code_of([&] { open_coefficients(folder / "b.hgl"); }), ErrorCode::bad_input);
 }
 
-// The signal-to-noise ratio that was asked for is what whoever decodes the file measures, with every transform: in the
-// signal, not in the coefficients.
-TEST(Compress, gives_the_sqnr_that_was_asked_for) {
+// Measured in the decoded signal, not in coefficients, with every transform.
+TEST(Compress, meets_the_sqnr_asked_for) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(8, 6, 24, 20, 1);
     for (const CodingMethod& method : all_methods()) {
@@ -63,8 +62,7 @@ TEST(Compress, gives_the_sqnr_that_was_asked_for) {
     }
 }
 
-// To the byte, whatever the coder and however the light field is cut.
-TEST(Compress, gives_the_rate_that_was_asked_for) {
+TEST(Compress, meets_the_rate_asked_for_to_the_byte) {
     const TestFolder folder;
     struct Case {
         LightFieldGrid grid;
@@ -75,7 +73,7 @@ TEST(Compress, gives_the_rate_that_was_asked_for) {
                           {{31, 1, 1e-3, 33, 1, Perspective{0.3, 0.3}, 1}, 0.2}}) {
         LightFieldBuffer field = textured_planes(c.grid.hogels_s, c.grid.hogels_t, c.grid.directions_u,
                                                  c.grid.directions_v, c.grid.channels);
-        // Of a dark tile nothing can be cut off.
+        // The code of a dark tile cannot be cut.
         LightFieldTile dark(c.grid, {0, 0, 5, std::min<std::size_t>(c.grid.hogels_t, 4)}, false);
         field.write(dark);
         const auto pixels = static_cast<double>(c.grid.hogels() * c.grid.directions());
@@ -95,8 +93,8 @@ TEST(Compress, gives_the_rate_that_was_asked_for) {
     }
 }
 
-// Little of it is filler, which whoever reads the metadata does not see.
-TEST(Compress, rate_is_not_met_by_filler_alone) {
+// Filler is no part of the metadata that readers get.
+TEST(Compress, rate_is_met_with_little_filler) {
     const TestFolder folder;
     CompressionOptions options;
     options.metadata = {{"what", "a test"}};
@@ -108,7 +106,7 @@ TEST(Compress, rate_is_not_met_by_filler_alone) {
     EXPECT_EQ(info.metadata, options.metadata);
 }
 
-TEST(Compress, rates_that_cannot_be_had_are_refused) {
+TEST(Compress, impossible_rates_are_refused) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(8, 6, 24, 20, 1), dark(field.grid());
     for (const CodingMethod& method : {CodingMethod{"hogel", ""}, {"threepass", "haar"}, {"ezw", "haar"}})
@@ -123,8 +121,8 @@ TEST(Compress, rates_that_cannot_be_had_are_refused) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
 }
 
-// Floats and levels have an end: finer than that is refused rather than written badly.
-TEST(Compress, quality_that_cannot_be_had_is_refused) {
+// Finer than floats and levels can be.
+TEST(Compress, impossible_quality_is_refused) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(4, 3, 12, 10, 1);
     for (const char* coder : {"hogel", "threepass"}) {
@@ -137,7 +135,7 @@ TEST(Compress, quality_that_cannot_be_had_is_refused) {
     EXPECT_FALSE(std::filesystem::exists(folder / "b.hgl"));
 }
 
-TEST(Compress, sizes_of_all_kinds_come_back) {
+TEST(Compress, light_fields_of_any_size_come_back) {
     const TestFolder folder;
     struct Case {
         std::size_t s, t, u, v, channels;
@@ -155,7 +153,7 @@ TEST(Compress, sizes_of_all_kinds_come_back) {
         }
 }
 
-TEST(Compress, nothing_to_see_takes_nearly_no_bytes) {
+TEST(Compress, darkness_takes_nearly_no_bytes) {
     const TestFolder folder;
     const LightFieldBuffer dark(LightFieldGrid{4, 4, 1e-3, 8, 8, Perspective{0.3, 0.3}, 3});
     for (const CodingMethod& method : all_methods()) {
@@ -184,7 +182,7 @@ TEST(Compress, bytes_do_not_depend_on_threads) {
     }
 }
 
-TEST(Compress, asks_that_make_no_sense_are_refused) {
+TEST(Compress, impossible_requests_are_refused) {
     const TestFolder folder;
     LightFieldBuffer field = textured_planes(2, 2, 4, 4, 1);
     const auto refused = [&](const CompressionOptions& options) {
@@ -208,7 +206,7 @@ TEST(Compress, asks_that_make_no_sense_are_refused) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
 }
 
-// A coder that keeps the floats as they are.
+// A coder that stores the floats.
 class FloatCoder final : public TileCoder {
   public:
     HogelRange preferred_tile(const LightFieldGrid&) const override { return {0, 0, 3, 2}; }
@@ -255,16 +253,16 @@ TEST(Coders, every_row_codes_with_its_own_transform) {
 TEST(Search, finds_the_band_of_a_falling_function) {
     for (const double start : {-12.0, 0.0, 3.0, 11.0}) {
         Search search(29.5, 30, start, -5.5);
-        int asked = 0;
-        // Steeper here and flatter there, with a little disorder.
+        int values = 0;
+        // With a varying slope and some disorder.
         const auto value = [](double x) { return 40 - 3 * x - 0.2 * x * std::abs(x) + 0.05 * std::sin(40 * x); };
-        while (!search.tell(value(search.next()))) ASSERT_LT(++asked, 12) << start;
+        while (!search.add(value(search.next()))) ASSERT_LT(++values, 12) << start;
         EXPECT_GE(value(search.next()), 29.5);
         EXPECT_LE(value(search.next()), 30);
     }
-    // A function that jumps over the band leaves the places on either side.
+    // A function that jumps over the band is bracketed from both sides.
     Search search(29.5, 30, 0, -5.5);
-    for (int i = 0; i < 40; ++i) search.tell(search.next() < 1.25 ? 40 : 20);
+    for (int i = 0; i < 40; ++i) search.add(search.next() < 1.25 ? 40 : 20);
     EXPECT_NEAR(search.above().value(), 1.25, 1e-3);
     EXPECT_NEAR(search.below().value(), 1.25, 1e-3);
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Of the depths that are finite; nearest > farthest where there are none.
+// Of finite depths; nearest > farthest where there are none.
 struct Range {
     float nearest = infinity, farthest = -infinity;
 
@@ -46,69 +46,65 @@ Range depths_of(const LightFieldSource& source, const HogelRange& range) {
 
 class DepthAsRadiance final : public LightFieldSource {
   public:
-    DepthAsRadiance(const LightFieldSource& source, const DepthCoding& coding)
-        : source_(source), grid_(source.grid()), nothing_(static_cast<float>(coding.nothing)) {
+    DepthAsRadiance(LightField::Source source, const DepthCoding& coding)
+        : source_(std::move(source)), grid_(source_->grid()), nothing_(static_cast<float>(coding.nothing)) {
         grid_.channels = 1;
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
-    HogelRange preferred_tile() const override { return source_.preferred_tile(); }
+    HogelRange preferred_tile() const override { return source_->preferred_tile(); }
     void read(LightFieldTile& tile) const override {
-        LightFieldTile seen(source_.grid(), tile.range, true);
-        source_.read(seen);
+        LightFieldTile seen(source_->grid(), tile.range, true);
+        source_->read(seen);
         std::ranges::transform(seen.depth.elements(), tile.radiance.elements().begin(),
                                [&](float depth) { return depth == infinity ? nothing_ : depth; });
     }
 
   private:
-    const LightFieldSource& source_;
+    LightField::Source source_;
     LightFieldGrid grid_;
     float nothing_;
 };
 
 }  // namespace
 
-DepthCoding::DepthCoding(double nearest, double farthest, double error_wanted) {
+DepthCoding::DepthCoding(double nearest, double farthest, double wanted_error) {
     const double range = farthest > nearest ? farthest - nearest : std::max(std::abs(farthest), 1e-6);
-    error = error_wanted > 0 ? error_wanted : 1e-3 * range;
-    // Far enough for any rounding, and no farther than need be: where it begins is an edge that is coded.
+    error = wanted_error > 0 ? wanted_error : 1e-3 * range;
+    // Far enough for any rounding, and no farther, because the edge of infinity is coded.
     beyond = farthest + 4 * error + 1e-2 * range;
     nothing = beyond + (beyond - farthest);
 }
 
-DepthCoding depth_coding(std::span<const LightFieldSource* const> faces, double error_wanted) {
+DepthCoding depth_coding(const LightField& light_field, double wanted_error) {
     Range all;
-    for (const LightFieldSource* face : faces) {
+    for (const LightField::Source& face : light_field.faces()) {
         const Tiling tiling(face->grid(), face->preferred_tile());
         core::parallel_ordered<Range>(
             tiling.count(), core::default_in_flight(), [&](std::size_t i) { return depths_of(*face, tiling[i]); },
             [&](std::size_t, Range& depths) { all.include(depths); });
     }
-    return all.nearest <= all.farthest ? DepthCoding(all.nearest, all.farthest, error_wanted)
-                                       : DepthCoding(0, 0, error_wanted);
+    return all.nearest <= all.farthest ? DepthCoding(all.nearest, all.farthest, wanted_error)
+                                       : DepthCoding(0, 0, wanted_error);
 }
 
-std::unique_ptr<LightFieldSource> depth_as_radiance(const LightFieldSource& source, const DepthCoding& coding) {
-    return std::make_unique<DepthAsRadiance>(source, coding);
+LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding) {
+    return light_field.wrapped(
+        [&](const LightField::Source& face) { return std::make_shared<DepthAsRadiance>(face, coding); });
 }
 
-StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+StreamInfo::Depth compress_depth(const LightField& light_field, const std::filesystem::path& path,
                                  const CompressionOptions& options) {
-    for (const LightFieldSource* face : faces)
-        if (!face->has_depth())
-            throw Error(ErrorCode::usage, "compression: depth was asked for, and the light field has none");
+    if (!light_field.has_depth()) throw Error(ErrorCode::usage, "depth was asked for, but the light field has none");
     if (!(options.depth_error >= 0 && std::isfinite(options.depth_error)))
-        throw Error(ErrorCode::usage, fmt::format("an error of depth of {} m was asked for, expected a positive one",
-                                                  options.depth_error));
-    const DepthCoding coding = depth_coding(faces, options.depth_error);
-    std::vector<std::unique_ptr<LightFieldSource>> sources;
-    std::vector<const LightFieldSource*> depths;
-    for (const LightFieldSource* face : faces)
-        depths.push_back(sources.emplace_back(depth_as_radiance(*face, coding)).get());
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("an error of depth of {} m was asked for, expected 0 or a positive one", options.depth_error));
+    const DepthCoding coding = depth_coding(light_field, options.depth_error);
     CompressionOptions exact;
     exact.target = MaxError{coding.error};
     exact.tile = options.tile;
-    return {compress(borrow(depths), path, exact).bytes, coding.error, coding.beyond};
+    return {compress(depth_as_radiance(light_field, coding), path, exact).bytes, coding.error, coding.beyond};
 }
 
 }  // namespace hogel::codec::encode

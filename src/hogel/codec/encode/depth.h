@@ -10,25 +10,25 @@
 
 namespace hogel::codec::encode {
 
-// How the depths of a light field stand in the stream behind its own: as a light field of one channel, each to within
-// an error, in metres. Nothing at all, at infinity, stands there as a depth behind all others.
+// How depths are coded in the depth stream: as a light field of one channel, each within an error. All in metres.
 struct DepthCoding {
-    double error = 0;    // metres
-    double nothing = 0;  // stands for infinity
-    double beyond = 0;   // from there on what is decoded is at infinity
+    double error = 0;
+    double nothing = 0;  // stands for infinity: a depth behind all others
+    double beyond = 0;   // decoded depths from here on are infinity
 
     // For depths from `nearest` to `farthest`; an error of 0 is a 1,000th of their range.
-    DepthCoding(double nearest, double farthest, double error_wanted);
+    DepthCoding(double nearest, double farthest, double wanted_error);
 };
 
-// Looks through all depths. Throws Error(bad_input) for one that is not a number, or −∞.
-DepthCoding depth_coding(std::span<const LightFieldSource* const> faces, double error_wanted);
+// Reads all depths. Throws Error(bad_input) for one that is not a number, or −∞.
+DepthCoding depth_coding(const LightField& light_field, double wanted_error);
 
 // The depths of a light field as radiance of one channel.
-std::unique_ptr<LightFieldSource> depth_as_radiance(const LightFieldSource& source, const DepthCoding& coding);
+LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding);
 
-// Writes the stream of the depths alone. Throws Error(usage) where there are none, or for an impossible error.
-StreamInfo::Depth compress_depth(std::span<const LightFieldSource* const> faces, const std::filesystem::path& path,
+// Writes the depth stream to a file of its own. Throws Error(usage) where there are no depths, or for an impossible
+// error.
+StreamInfo::Depth compress_depth(const LightField& light_field, const std::filesystem::path& path,
                                  const CompressionOptions& options);
 
 }  // namespace hogel::codec::encode

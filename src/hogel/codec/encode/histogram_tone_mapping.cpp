@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t per_octave = std::size_t{1} << (23 - ToneCurve::low_bits);
 constexpr std::size_t max_octaves = 20;
-constexpr double evenly = 0.1;  // the part of all samples that is spread evenly
+constexpr double evenly = 0.1;  // fraction of all samples that counts as spread evenly
 
-// The slopes, in logarithms, that rise by `height` altogether, in proportion to the densities but nowhere above 1.
-// `widths` are more than that together. What the paper does until few samples are above its ceiling, is done until none
+// Slopes of the curve over logarithms: in proportion to the densities, at most 1, and rising by `height` altogether,
+// which is less than the sum of the widths. The paper repeats this until few samples are above the ceiling; here none
 // is.
 std::vector<double> limited_slopes(const std::vector<double>& densities, const std::vector<double>& widths,
                                    double height) {
@@ -58,7 +58,7 @@ std::optional<ToneCurve> tone_curve_of(const LuminanceHistogram& histogram, doub
     for (std::size_t i = 0; i < widths.size(); ++i)
         densities.push_back((1 - evenly) * static_cast<double>(counts[begin + i]) / widths[i] + evenly * total / width);
     const std::vector<double> slopes = limited_slopes(densities, widths, height);
-    // The end of the last bin may be infinity: then the last point begins it.
+    // If the end of the last bin is infinity, the last point is its beginning.
     const auto first = static_cast<std::uint32_t>(begin + per_octave);
     const std::size_t last = end == counts.size() ? end - 1 : end;
     std::vector<float> values(last - begin + 1);

@@ -17,26 +17,25 @@ using namespace format;
 
 namespace {
 
-constexpr std::size_t tried = 2;        // tiles of a face, as large as they are where they are gathered
-constexpr double apart_step = 2;        // of the steps that give the same quality, times that of gathered hogels, about
+constexpr std::size_t tried = 2;        // tiles of each face, of the size for the layout stacked
+constexpr double separate_step = 2;     // estimate: the step of `faces` with the quality of a step of `stacked`
 constexpr double sqnr_tolerance = 1.5;  // decibels
 constexpr double bytes_tolerance = 0.2;
-// What twice as many bytes gain, about, in decibels.
-constexpr double worth_of_twice = 8;
+constexpr double db_per_doubling = 8;  // estimate: decibels that twice as many bytes gain
 
-// Some tiles of each face, to be coded in one layout and in the other.
+// Some tiles of each face, coded in both layouts.
 class Trial {
   public:
-    Trial(std::span<const LightFieldSource* const> faces, const StreamInfo& info, std::optional<HogelRange> tile,
+    Trial(const LightField& light_field, const StreamInfo& info, std::optional<HogelRange> tile,
           const CoderOfFace& coder_of)
-        : faces_(faces), info_(info), tile_(tile), coder_of_(coder_of) {
-        for (const LightFieldSource* face : faces_) {
+        : info_(info), tile_(tile), coder_of_(coder_of) {
+        for (const LightField::Source& face : light_field.faces()) {
             const LightFieldGrid& grid = face->grid();
             const Tiling tiling(grid, tile_size(*coder_in(StreamLayout::stacked, grid), grid));
             const std::size_t count = std::min(tiling.count(), tried);
             for (std::size_t i = 0; i < count; ++i) {
                 const HogelRange range = tiling[(2 * i + 1) * tiling.count() / (2 * count)];
-                samples_.push_back({face, range});
+                samples_.push_back({face.get(), range});
                 LightFieldTile seen(grid, range, false);
                 face->read(seen);
                 for (const float value : seen.radiance.elements()) {
@@ -91,7 +90,6 @@ class Trial {
         return size;
     }
 
-    std::span<const LightFieldSource* const> faces_;
     const StreamInfo& info_;
     std::optional<HogelRange> tile_;
     const CoderOfFace& coder_of_;
@@ -101,8 +99,8 @@ class Trial {
     bool finite_ = true;
 };
 
-// What coding in a layout comes to at a quality, about: the lower, the better.
-double cost(const CodingOutcome& outcome) { return std::log2(outcome.bytes) - outcome.sqnr() / worth_of_twice; }
+// Compares codings of different quality: the lower, the better.
+double cost(const CodingOutcome& outcome) { return std::log2(outcome.bytes) - outcome.sqnr() / db_per_doubling; }
 
 StepBand near(double sqnr) {
     StepBand band = band_of_sqnr(sqnr);
@@ -111,44 +109,44 @@ StepBand near(double sqnr) {
     return band;
 }
 
-bool gathering_pays(const Trial& trial, const CompressionTarget& target) {
+bool stacking_pays(const Trial& trial, const CompressionTarget& target) {
     const auto code_as = [&](StreamLayout layout) {
         return [&, layout](double step) { return trial.code(layout, step); };
     };
-    const auto gathered = code_as(StreamLayout::stacked), apart = code_as(StreamLayout::faces);
+    const auto stacked = code_as(StreamLayout::stacked), separate = code_as(StreamLayout::faces);
     if (!(trial.rms() > 0)) return true;
     const double step = likely_step(target, trial.rms());
-    if (is_exact(target)) return gathered(step).bytes <= apart(step).bytes;
-    if (!trial.finite()) return true;  // it will be refused
+    if (is_exact(target)) return stacked(step).bytes <= separate(step).bytes;
+    if (!trial.finite()) return true;  // compress() will refuse it
     const auto* const rate = std::get_if<PixelsPerBit>(&target);
     const bool fixed = std::holds_alternative<Step>(target);
     StepSearch search(std::log2(step),
                       [&](const CodingOutcome& outcome) { return rate ? std::log2(outcome.bytes) : outcome.sqnr(); });
-    const CodingOutcome of_gathered = [&] {
-        if (fixed) return gathered(step);
+    const CodingOutcome of_stacked = [&] {
+        if (fixed) return stacked(step);
         if (rate)
-            search.run(band_of_bytes(trial.rays() / rate->rate / 8, bytes_tolerance, false), gathered);
+            search.run(band_of_bytes(trial.rays() / rate->rate / 8, bytes_tolerance, false), stacked);
         else
-            search.run(near(std::get<Sqnr>(target).decibels), gathered);
+            search.run(near(std::get<Sqnr>(target).decibels), stacked);
         return search.outcome();
     }();
-    StepSearch same_quality(std::log2(apart_step * (fixed ? step : search.step())), &CodingOutcome::sqnr);
-    same_quality.run(near(of_gathered.sqnr()), apart);
-    return cost(of_gathered) <= cost(same_quality.outcome());
+    StepSearch same_quality(std::log2(separate_step * (fixed ? step : search.step())), &CodingOutcome::sqnr);
+    same_quality.run(near(of_stacked.sqnr()), separate);
+    return cost(of_stacked) <= cost(same_quality.outcome());
 }
 
 }  // namespace
 
-StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
-                           const CompressionOptions& options, const CoderOfFace& coder_of) {
-    const bool fits = can_gather(info.faces());
+StreamLayout choose_layout(const LightField& light_field, const StreamInfo& info, const CompressionOptions& options,
+                           const CoderOfFace& coder_of) {
+    const bool fits = can_stack(info.faces());
     if (options.layout == StreamLayout::stacked && !fits)
-        throw Error(ErrorCode::usage, "only a light field with a single row or column of directions can be gathered");
+        throw Error(ErrorCode::usage, "the layout stacked needs a single row or column of directions");
     if (options.layout)
         return *options.layout == StreamLayout::unfolded && info.sides.empty() ? StreamLayout::faces : *options.layout;
     if (!fits || options.method.coder != "hogel") return StreamLayout::faces;
-    return gathering_pays(Trial(faces, info, options.tile, coder_of), options.target) ? StreamLayout::stacked
-                                                                                      : StreamLayout::faces;
+    return stacking_pays(Trial(light_field, info, options.tile, coder_of), options.target) ? StreamLayout::stacked
+                                                                                           : StreamLayout::faces;
 }
 
 }  // namespace hogel::codec::encode

@@ -9,13 +9,13 @@
 
 namespace hogel::codec::encode {
 
-// How a stream of these faces is laid out: as the options say, or where they leave it open, gathered where that can be
-// and takes fewer bytes of some hogels in the middle of each face. Rows of hogels that lie far apart show too little of
-// the same for that. Throws Error(usage) for a layout that is impossible.
-// @param info      of which the layout is still open
-// @param coder_of  makes the coder of a face in a stream
+// The layout of a stream of a light field: that of the options, or by default `stacked` where it is possible and takes
+// fewer bytes for some tiles of each face than `faces` (docs/decisions/0041-codec-stacked-layout.md). Throws
+// Error(usage) for a layout that is impossible.
+// @param info       complete but for the layout
+// @param coder_of   makes the coder of a face in a stream
 using CoderOfFace = std::function<std::unique_ptr<TileCoder>(const StreamInfo& info, const LightFieldGrid& face)>;
-StreamLayout choose_layout(std::span<const LightFieldSource* const> faces, const StreamInfo& info,
-                           const CompressionOptions& options, const CoderOfFace& coder_of);
+StreamLayout choose_layout(const LightField& light_field, const StreamInfo& info, const CompressionOptions& options,
+                           const CoderOfFace& coder_of);
 
 }  // namespace hogel::codec::encode

@@ -10,65 +10,65 @@ using namespace format;
 
 namespace {
 
-// Bits that things cost, about.
-constexpr float likeliest_disparity = 0.3f, each_candidate = 1.5f, new_disparity = 14;
+// Estimated bits.
+constexpr float first_candidate = 0.3f, each_candidate = 1.5f, new_disparity = 14;
 constexpr float best_of_all_sides = 1, one_side = 2.5f;
 
-// Eight at once.
-std::size_t cheapest_line(const BestOfLines& main, const BestOfLines& beyond) {
-    OfLines cost;
-    for (std::size_t line = 0; line < block_lines; ++line) cost[line] = main.cost[line] + beyond.cost[line];
+// Compares eight edges at once.
+std::size_t cheapest_edge(const BestPerEdge& main, const BestPerEdge& second) {
+    PerEdge cost;
+    for (std::size_t edge = 0; edge < block_edges; ++edge) cost[edge] = main.cost[edge] + second.cost[edge];
     std::array<float, 8> least;
     std::copy_n(cost.begin(), least.size(), least.begin());
-    for (std::size_t line = least.size(); line < block_lines; line += least.size())
-        for (std::size_t n = 0; n < least.size(); ++n) least[n] = cost[line + n] < least[n] ? cost[line + n] : least[n];
+    for (std::size_t edge = least.size(); edge < block_edges; edge += least.size())
+        for (std::size_t n = 0; n < least.size(); ++n) least[n] = cost[edge + n] < least[n] ? cost[edge + n] : least[n];
     return static_cast<std::size_t>(std::ranges::find(cost, std::ranges::min(least)) - cost.begin());
 }
 
 }  // namespace
 
-// All ways to predict a block with a disparity, as parts on either side of all lines.
-void PartSearch::see(int disparity, float bits) {
+// Compares the predictions of all sides with both partitions of all edges.
+void PartitionSearch::try_all_sides(int disparity, float bits) {
     for (std::uint8_t side = 0; side < ReferenceWeights::sides; ++side) {
-        const PropagationOptions way{static_cast<std::int16_t>(disparity), side};
-        if (choice(way).count == 0) continue;
-        BlockSamples room;
-        const float cost = bit_ * (bits + (side == 0 ? best_of_all_sides : one_side));
-        take_better(predict(way, room), *wanted_, cost, static_cast<float>(ways_.size()), lines_in_rows(), main_,
-                    beyond_);
-        ways_.push_back(way);
+        const InterPrediction from{static_cast<std::int16_t>(disparity), side};
+        if (choice(from).count == 0) continue;
+        BlockSamples scratch;
+        const float cost = rate_weight_ * (bits + (side == 0 ? best_of_all_sides : one_side));
+        keep_better(predict(from, scratch), *target_, cost, static_cast<float>(tried_.size()), edge_row_cuts(), main_,
+                    second_);
+        tried_.push_back(from);
     }
 }
 
-void PartSearch::begin(const BlockSamples& wanted, const Candidates& candidates, float bit) {
-    wanted_ = &wanted;
-    bit_ = bit;
-    ways_.clear();
+void PartitionSearch::begin(const BlockSamples& target, const Candidates& candidates, float rate_weight) {
+    target_ = &target;
+    rate_weight_ = rate_weight;
+    tried_.clear();
     main_.cost.fill(std::numeric_limits<float>::infinity());
-    beyond_.cost.fill(std::numeric_limits<float>::infinity());
+    second_.cost.fill(std::numeric_limits<float>::infinity());
     for (std::size_t k = 0; k < candidates.count; ++k)
-        see(candidates.disparity[k], likeliest_disparity + each_candidate * static_cast<float>(k));
+        try_all_sides(candidates.disparity[k], first_candidate + each_candidate * static_cast<float>(k));
 }
 
-void PartSearch::add(int disparity) {
-    if (std::ranges::none_of(ways_, [&](PropagationOptions way) { return way.disparity == disparity; }))
-        see(disparity, new_disparity);
+void PartitionSearch::add(int disparity) {
+    if (std::ranges::none_of(tried_, [&](InterPrediction from) { return from.disparity == disparity; }))
+        try_all_sides(disparity, new_disparity);
 }
 
-std::optional<Block> PartSearch::best(BlockSamples& prediction) {
-    if (ways_.empty()) return std::nullopt;
-    const std::size_t line = cheapest_line(main_, beyond_);
-    const PropagationOptions main = ways_[static_cast<std::size_t>(main_.way[line])];
-    const PropagationOptions beyond = ways_[static_cast<std::size_t>(beyond_.way[line])];
-    BlockSamples room;
-    prediction = predict(main, room);
-    put_beyond(line, predict(beyond, room), prediction);
+std::optional<Block> PartitionSearch::best(BlockSamples& prediction) {
+    if (tried_.empty()) return std::nullopt;
+    const std::size_t edge = cheapest_edge(main_, second_);
+    const InterPrediction main = tried_[static_cast<std::size_t>(main_.choice[edge])];
+    const InterPrediction second = tried_[static_cast<std::size_t>(second_.choice[edge])];
+    BlockSamples scratch;
+    prediction = predict(main, scratch);
+    put_second_partition(edge, predict(second, scratch), prediction);
     Block block;
-    block.mode = parted;
-    block.line = static_cast<std::uint8_t>(line);
+    block.mode = mode_partitioned;
+    block.edge = static_cast<std::uint8_t>(edge);
     block.disparity = main.disparity;
-    block.disparity_beyond = beyond.disparity;
-    block.side = {main.side, beyond.side};
+    block.second_disparity = second.disparity;
+    block.side = {main.side, second.side};
     return block;
 }
 

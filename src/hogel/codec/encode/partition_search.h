@@ -7,40 +7,40 @@
 
 namespace hogel::codec::encode {
 
-// Looks for two parts of a block: how each is best predicted from other hogels, and which line is between them.
-class PartSearch {
+// The search for two partitions of a block: the prediction of each, and the edge between them.
+class PartitionSearch {
   public:
-    // @param seen   of the block that is looked at
-    PartSearch(SeenBlocks& seen, format::ReferenceWeights& weights) : seen_(seen), weights_(weights) {}
+    // @param warped   cache of the block that is searched
+    PartitionSearch(WarpedBlocks& warped, format::ReferenceWeights& weights) : warped_(warped), weights_(weights) {}
 
-    // Begins with a block that shows `wanted`, and its candidates as disparities of parts.
-    // @param bit   what a bit is worth, in squared error
-    void begin(const format::BlockSamples& wanted, const format::Candidates& candidates, float bit);
-    // One more disparity that parts may have.
+    // Starts with a block whose samples are `target`, and tries its candidates as disparities of partitions.
+    // @param rate_weight   squared error that a bit is worth
+    void begin(const format::BlockSamples& target, const format::Candidates& candidates, float rate_weight);
+    // Tries one more disparity.
     void add(int disparity);
-    // The best parts so far, if there are any, and what they predict.
+    // The best partitions so far, if there are any, and their prediction.
     std::optional<format::Block> best(format::BlockSamples& prediction);
 
   private:
-    struct PropagationOptions {
+    struct InterPrediction {
         std::int16_t disparity;
         std::uint8_t side;
     };
-    void see(int disparity, float bits);
-    const format::BlockSamples& predict(PropagationOptions way, format::BlockSamples& room) {
-        return seen_.predict(way.disparity, choice(way), room);
+    void try_all_sides(int disparity, float bits);
+    const format::BlockSamples& predict(InterPrediction from, format::BlockSamples& scratch) {
+        return warped_.predict(from.disparity, choice(from), scratch);
     }
-    const format::ReferenceWeights::Choice& choice(PropagationOptions way) {
-        return weights_.choose(way.disparity, static_cast<format::ReferenceWeights::Side>(way.side));
+    const format::ReferenceWeights::Choice& choice(InterPrediction from) {
+        return weights_.choose(from.disparity, static_cast<format::ReferenceWeights::Side>(from.side));
     }
 
-    SeenBlocks& seen_;
+    WarpedBlocks& warped_;
     format::ReferenceWeights& weights_;
-    // Of the block looked at:
-    const format::BlockSamples* wanted_ = nullptr;
-    float bit_ = 0;
-    std::vector<PropagationOptions> ways_;
-    format::BestOfLines main_, beyond_;
+    // The block that is searched:
+    const format::BlockSamples* target_ = nullptr;
+    float rate_weight_ = 0;
+    std::vector<InterPrediction> tried_;
+    format::BestPerEdge main_, second_;
 };
 
 }  // namespace hogel::codec::encode

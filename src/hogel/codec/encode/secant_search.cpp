@@ -6,12 +6,12 @@
 
 namespace hogel::codec::encode {
 
-bool Search::tell(double value) {
+bool Search::add(double value) {
     if (value >= low_ && value <= high_) return true;
     if (std::isfinite(value)) {
         if (last_ && last_->first != next_) {
             const double slope = (value - last_->second) / (next_ - last_->first);
-            // A function that is flat or rises here says nothing about the rest.
+            // A slope far from the expected one is disorder.
             if (slope < 0.2 * slope_ && slope > 5 * slope_) slope_ = slope;
         }
         last_ = {next_, value};
@@ -21,8 +21,9 @@ bool Search::tell(double value) {
     double step = std::isfinite(value) ? (aim - value) / slope_ : value > 0 ? 4.0 : -4.0;
     step = std::clamp(step, -8.0, 8.0);
     double there = next_ + step;
-    // Every fourth time the middle, in case the secant crawls along one side.
-    if (above_ && below_ && (++told_ % 4 == 0 || there <= *above_ || there >= *below_)) there = (*above_ + *below_) / 2;
+    // Every fourth time bisection, in case the secant approaches from one side only.
+    if (above_ && below_ && (++bracketed_ % 4 == 0 || there <= *above_ || there >= *below_))
+        there = (*above_ + *below_) / 2;
     next_ = there;
     return false;
 }

@@ -7,17 +7,17 @@
 namespace hogel::codec::encode {
 
 // Finds where a falling function is within a band, from as few values as possible: by the secant through the last two
-// places, or the middle of what is known to be too far on either side when the secant leads out of it.
+// places, or by bisection of the interval that is left where the secant leads out of it.
 class Search {
   public:
     Search(double low, double high, double start, double slope) : low_(low), high_(high), next_(start), slope_(slope) {}
 
-    // Where to look next.
+    // The place to evaluate next.
     double next() const { return next_; }
-    // The function's value there. Returns true when it is within the band.
-    bool tell(double value);
+    // Takes the function's value at next(). Returns whether it is within the band.
+    bool add(double value);
     double slope() const { return slope_; }
-    // The places nearest to the band from both sides: above it (too small a place) and below.
+    // The places nearest to the band from both sides: where the function is above it, and below it.
     std::optional<double> above() const { return above_; }
     std::optional<double> below() const { return below_; }
 
@@ -25,7 +25,7 @@ class Search {
     double low_, high_, next_, slope_;
     std::optional<double> above_, below_;
     std::optional<std::pair<double, double>> last_;
-    int told_ = 0;
+    int bracketed_ = 0;  // values since there are places on both sides
 };
 
 }  // namespace hogel::codec::encode

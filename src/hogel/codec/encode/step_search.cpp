@@ -49,7 +49,7 @@ StepFound StepSearch::run(const StepBand& band, const Code& code) {
     std::optional<std::pair<double, double>> best;  // place and figure
     for (int pass = 0; pass < max_passes; ++pass) {
         const double place = search.next(), figure = code_at(place, code);
-        const bool found = search.tell(figure);
+        const bool found = search.add(figure);
         slope_ = search.slope();
         if (found) return StepFound::in_band;
         if (band.above_is_better ? figure > band.high && !(best && best->second < figure)

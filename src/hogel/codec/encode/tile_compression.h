@@ -25,7 +25,7 @@ class SpareTiles {
 
 // An array of directions that a stream holds, and the coder of its tiles.
 struct CodedPart {
-    const LightFieldSource* source;
+    LightField::Source source;
     std::unique_ptr<TileCoder> coder;
 };
 

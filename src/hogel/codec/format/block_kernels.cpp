@@ -9,8 +9,8 @@
 namespace hogel::codec::format {
 namespace {
 
-// A sum over a block: of the even and of the odd rows column by column, then of halves, so that vectors of eight or
-// less have the same bits.
+// A sum over a block: of the even and of the odd rows column by column, then of halves, so that vectors of up to eight
+// lanes give the same bits.
 template <class Term>
 float sum_in_columns(Term&& term) {
     float sum[2][block_side] = {};
@@ -64,9 +64,9 @@ void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight
 }
 
 float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
-                            const BlockSamples& wanted, BlockSamples& out) {
+                            const BlockSamples& target, BlockSamples& out) {
     mix_blocks_plain(a, b, weight_a, weight_b, out);
-    return squared_difference_plain(out.data(), block_side, wanted);
+    return squared_difference_plain(out.data(), block_side, target);
 }
 
 float squared_difference_plain(const float* a, std::size_t stride, const BlockSamples& b) {
@@ -109,28 +109,28 @@ void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes
         }
 }
 
-void take_better_plain(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
-                       const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond) {
+void keep_better_plain(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
+                       const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second) {
     std::array<std::array<float, row_cuts>, block_side> sums{};
     for (std::size_t n = 0; n < block_samples; ++n) {
-        const float difference = prediction[n] - wanted[n], error = difference * difference;
+        const float difference = prediction[n] - target[n], error = difference * difference;
         for (std::size_t cut = 0; cut < row_cuts; ++cut)
             if (sample_in_cut(n % block_side, cut)) sums[n / block_side][cut] += error;
     }
     float all = sums[0][block_side];
     for (std::size_t r = 1; r < block_side; ++r) all += sums[r][block_side];
-    for (std::size_t line = 0; line < block_lines; ++line) {
-        const auto in_row = [&](std::size_t r) { return sums[r][static_cast<std::size_t>(lines[r][line])]; };
+    for (std::size_t edge = 0; edge < block_edges; ++edge) {
+        const auto in_row = [&](std::size_t r) { return sums[r][static_cast<std::size_t>(edges[r][edge])]; };
         float sum = in_row(0);
         for (std::size_t r = 1; r < block_side; ++r) sum += in_row(r);
-        const float of_main = all - sum + more, of_beyond = sum + more;
-        if (of_main < main.cost[line]) {
-            main.cost[line] = of_main;
-            main.way[line] = way;
+        const float of_main = all - sum + extra, of_second = sum + extra;
+        if (of_main < main.cost[edge]) {
+            main.cost[edge] = of_main;
+            main.choice[edge] = choice;
         }
-        if (of_beyond < beyond.cost[line]) {
-            beyond.cost[line] = of_beyond;
-            beyond.way[line] = way;
+        if (of_second < second.cost[edge]) {
+            second.cost[edge] = of_second;
+            second.choice[edge] = choice;
         }
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of block_kernels.cpp, compiled for every instruction set and chosen when first called. Products are
+// The vector twins of block_kernels.cpp, compiled for every SIMD target and chosen when first called. Products are
 // rounded before they are added, as there.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/codec/format/block_kernels_simd.cpp"
@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Row = hn::CappedTag<float, block_side>;       // a row of a block, or an even part of one
 using Rows = hn::CappedTag<float, 2 * block_side>;  // or two of them, one after the other
 
-// Rows of a block, or of a window for it, from those of a window.
+// Interpolates rows of a block, or of a window for it, along u.
 HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t count, const Taps& weights, float* out) {
     const Row d;
     const auto w0 = hn::Set(d, weights[0]), w1 = hn::Set(d, weights[1]), w2 = hn::Set(d, weights[2]);
@@ -40,7 +40,7 @@ HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t cou
 HWY_INLINE void AlongColumns(const float* rows, std::size_t stride, const Taps& weights, float* out) {
     const Row d;
     for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
-        // Rows that have been loaded serve for the next ones too.
+        // A loaded row is used for up to six rows of the block.
         const float* in = rows + c;
         auto r0 = hn::LoadU(d, in), r1 = hn::LoadU(d, in + stride), r2 = hn::LoadU(d, in + 2 * stride);
         auto r3 = hn::LoadU(d, in + 3 * stride), r4 = hn::LoadU(d, in + 4 * stride);
@@ -90,7 +90,7 @@ void MixBlocks(const BlockSamples& a, const BlockSamples& b, float weight_a, flo
         hn::StoreU(hn::Add(hn::Mul(of_a, hn::LoadU(d, &a[k])), hn::Mul(of_b, hn::LoadU(d, &b[k]))), d, &out[k]);
 }
 
-// As sum_in_columns() of the plain twins; term(d, k) gives terms from k on.
+// sum_in_columns() of the plain twins; term(d, k) gives a vector of terms from k on.
 template <class Term>
 HWY_INLINE float SumInColumns(Term&& term) {
     const Row d;
@@ -109,12 +109,12 @@ HWY_INLINE float SumInColumns(Term&& term) {
 }
 
 float MixAndCompare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
-                    const BlockSamples& wanted, BlockSamples& out) {
+                    const BlockSamples& target, BlockSamples& out) {
     return SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
         const auto mixed = hn::Add(hn::Mul(hn::Set(d, weight_a), hn::LoadU(d, &a[k])),
                                    hn::Mul(hn::Set(d, weight_b), hn::LoadU(d, &b[k])));
         hn::StoreU(mixed, d, &out[k]);
-        const auto difference = hn::Sub(mixed, hn::LoadU(d, &wanted[k]));
+        const auto difference = hn::Sub(mixed, hn::LoadU(d, &target[k]));
         return hn::Mul(difference, difference);
     });
 }
@@ -130,7 +130,7 @@ float SquaredDifference(const float* a, std::size_t stride, const BlockSamples& 
 using Doubles = hn::CappedTag<double, block_side / 2>;
 using FloatsOfDoubles = hn::Rebind<float, Doubles>;
 
-// Σ value², in eight sums: vector(k) gives values from k on, value(k) one.
+// Σ value² in eight sums: vector(k) gives a vector of values from k on, value(k) a single one.
 template <class Vector, class Value>
 HWY_INLINE double SumOfSquares(std::size_t count, Vector&& vector, Value&& value) {
     const Doubles d;
@@ -149,7 +149,7 @@ HWY_INLINE double SumOfSquares(std::size_t count, Vector&& vector, Value&& value
     }
     for (std::size_t k = whole; k < count; ++k) sum[k % block_side] += value(k) * value(k);
     double all = 0;
-    for (const double part : sum) all += part;
+    for (const double s : sum) all += s;
     return all;
 }
 
@@ -208,7 +208,7 @@ void SlopesOfBlock(const float* rows, std::size_t stride, Slopes& slopes) {
         }
 }
 
-// Which samples of a row each cut has, as ones and zeros: [column][cut].
+// Whether a cut of a row has a sample, 1 or 0: [column][cut].
 struct CutsOfRow {
     HWY_ALIGN float of[block_side][row_cuts];
     constexpr CutsOfRow() : of() {
@@ -218,18 +218,17 @@ struct CutsOfRow {
 };
 constexpr CutsOfRow cuts;
 
-void TakeBetter(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
-                const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond) {
+void KeepBetter(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
+                const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second) {
     const hn::CappedTag<float, row_cuts> d;
     const hn::RebindToSigned<decltype(d)> indices;
     const std::size_t lanes = hn::Lanes(d);
     HWY_ALIGN float errors[block_samples];
     for (std::size_t k = 0; k < block_samples; k += lanes) {
-        const auto difference = hn::Sub(hn::LoadU(d, &prediction[k]), hn::LoadU(d, &wanted[k]));
+        const auto difference = hn::Sub(hn::LoadU(d, &prediction[k]), hn::LoadU(d, &target[k]));
         hn::Store(hn::Mul(difference, difference), d, errors + k);
     }
-    // What is beyond a line is looked up row by row in the sums of all cuts of the row. Products with 0 and 1 need no
-    // rounding, so that they may be added unrounded.
+    // The sums of all cuts of each row. Products with 0 and 1 are exact, so that a fused multiply-add gives the same.
     HWY_ALIGN float sums[block_side][row_cuts];
     for (std::size_t cut = 0; cut < row_cuts; cut += lanes)
         for (std::size_t r = 0; r < block_side; ++r) {
@@ -240,8 +239,8 @@ void TakeBetter(const BlockSamples& prediction, const BlockSamples& wanted, floa
         }
     float all = sums[0][block_side];
     for (std::size_t r = 1; r < block_side; ++r) all += sums[r][block_side];
-    const auto in_row = [&](std::size_t r, std::size_t line) HWY_ATTR {
-        const auto cut = hn::LoadU(indices, &lines[r][line]);
+    const auto in_row = [&](std::size_t r, std::size_t edge) HWY_ATTR {
+        const auto cut = hn::LoadU(indices, &edges[r][edge]);
 #if !HWY_HAVE_SCALABLE
         if constexpr (hn::MaxLanes(d) == row_cuts)
             return hn::TableLookupLanes(hn::Load(d, sums[r]), hn::IndicesFromVec(d, cut));
@@ -255,18 +254,18 @@ void TakeBetter(const BlockSamples& prediction, const BlockSamples& wanted, floa
 #endif
         return hn::GatherIndex(d, sums[r], cut);
     };
-    const auto take = [&](auto cost, std::size_t line, BestOfLines& best) HWY_ATTR {
-        const auto so_far = hn::LoadU(d, &best.cost[line]);
+    const auto keep = [&](auto cost, std::size_t edge, BestPerEdge& best) HWY_ATTR {
+        const auto so_far = hn::LoadU(d, &best.cost[edge]);
         const auto better = hn::Lt(cost, so_far);
-        hn::StoreU(hn::IfThenElse(better, cost, so_far), d, &best.cost[line]);
-        hn::StoreU(hn::IfThenElse(better, hn::Set(d, way), hn::LoadU(d, &best.way[line])), d, &best.way[line]);
+        hn::StoreU(hn::IfThenElse(better, cost, so_far), d, &best.cost[edge]);
+        hn::StoreU(hn::IfThenElse(better, hn::Set(d, choice), hn::LoadU(d, &best.choice[edge])), d, &best.choice[edge]);
     };
-    const auto all_of_it = hn::Set(d, all), added = hn::Set(d, more);
-    for (std::size_t line = 0; line < block_lines; line += lanes) {
-        auto sum = in_row(0, line);
-        for (std::size_t r = 1; r < block_side; ++r) sum = hn::Add(sum, in_row(r, line));
-        take(hn::Add(hn::Sub(all_of_it, sum), added), line, main);
-        take(hn::Add(sum, added), line, beyond);
+    const auto whole = hn::Set(d, all), added = hn::Set(d, extra);
+    for (std::size_t edge = 0; edge < block_edges; edge += lanes) {
+        auto sum = in_row(0, edge);
+        for (std::size_t r = 1; r < block_side; ++r) sum = hn::Add(sum, in_row(r, edge));
+        keep(hn::Add(hn::Sub(whole, sum), added), edge, main);
+        keep(hn::Add(sum, added), edge, second);
     }
 }
 
@@ -312,7 +311,7 @@ HWY_EXPORT(InterpolateBlock);
 HWY_EXPORT(MixBlocks);
 HWY_EXPORT(MixAndCompare);
 HWY_EXPORT(SquaredDifference);
-HWY_EXPORT(TakeBetter);
+HWY_EXPORT(KeepBetter);
 HWY_EXPORT(SquaredDifferenceOfRows);
 HWY_EXPORT(SumOfSquaresOf);
 HWY_EXPORT(LargeSamples);
@@ -332,8 +331,8 @@ void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, fl
 }
 
 float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
-                      const BlockSamples& wanted, BlockSamples& out) {
-    return HWY_DYNAMIC_DISPATCH(MixAndCompare)(a, b, weight_a, weight_b, wanted, out);
+                      const BlockSamples& target, BlockSamples& out) {
+    return HWY_DYNAMIC_DISPATCH(MixAndCompare)(a, b, weight_a, weight_b, target, out);
 }
 
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b) {
@@ -358,9 +357,9 @@ void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes) {
     HWY_DYNAMIC_DISPATCH(SlopesOfBlock)(rows, stride, slopes);
 }
 
-void take_better(const BlockSamples& prediction, const BlockSamples& wanted, float more, float way,
-                 const LinesInRows& lines, BestOfLines& main, BestOfLines& beyond) {
-    HWY_DYNAMIC_DISPATCH(TakeBetter)(prediction, wanted, more, way, lines, main, beyond);
+void keep_better(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
+                 const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second) {
+    HWY_DYNAMIC_DISPATCH(KeepBetter)(prediction, target, extra, choice, edges, main, second);
 }
 
 void transform_along_u(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out) {

@@ -13,43 +13,47 @@ namespace {
 
 constexpr int one_surface = 12;  // disparities no farther apart than this belong to one surface
 
-// What a block that is moved here tells of modes and disparities, as a number: nothing is moved here; as usual; not.
-std::size_t by_mode(const Block* moved) { return !moved ? 0 : moved->mode == 1 ? 1 : 2; }
+// Context of modes and disparities: 0 there is no warped block, 1 its mode is the common one, 2 another.
+std::size_t warped_context(const Block* warped) { return !warped ? 0 : warped->mode == mode_any ? 1 : 2; }
 
+// @param around   how many of the blocks to the left and above have a mode other than mode_any
+// @param first    in the first hogel all blocks are intra
 template <class Coder>
-void code_mode(Coder& coder, typename Coder::Models& models, std::size_t from, std::size_t context, bool first,
+void code_mode(Coder& coder, typename Coder::Models& models, std::size_t warped, std::size_t around, bool first,
                Block& block) {
     if (!first) {
-        // The best of all sides, within, and then one side after the other.
-        auto& model = models.mode[from][context];
-        if (!coder.bit(model[0], block.mode != 1))
-            block.mode = 1;
-        else if (coder.bit(models.parts.parted[from][context], block.mode == parted))
-            block.mode = parted;
-        else if (!coder.bit(model[1], block.mode != 0))
-            block.mode = 0;
+        auto& model = models.mode[warped][around];
+        if (!coder.bit(model[0], block.mode != mode_any))
+            block.mode = mode_any;
+        else if (coder.bit(models.partitions.partitioned[warped][around], block.mode == mode_partitioned))
+            block.mode = mode_partitioned;
+        else if (!coder.bit(model[1], block.mode != mode_intra))
+            block.mode = mode_intra;
         else {
-            std::uint8_t mode = 2;
-            while (mode + 1 < across_modes && coder.bit(model[mode], block.mode != mode)) ++mode;
+            std::uint8_t mode = mode_any + 1;
+            while (mode + 1 < inter_modes && coder.bit(model[mode], block.mode != mode)) ++mode;
             block.mode = mode;
         }
     }
-    if (block.mode != 0) return;
-    std::uint8_t within = 0;
-    while (within + 1 < within_modes && coder.bit(models.within[within], block.within != within)) ++within;
-    block.within = within;
+    if (block.mode != mode_intra) return;
+    std::uint8_t predictor = 0;
+    while (predictor + 1 < intra_predictors && coder.bit(models.intra[predictor], block.intra_predictor != predictor))
+        ++predictor;
+    block.intra_predictor = predictor;
 }
 
+// @param around   how many of the blocks to the left and above do not have their first candidate
+// @param unit     of differences from the first candidate
 template <class Coder>
-void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, std::size_t from, std::size_t around,
+void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, std::size_t warped, std::size_t around,
                     int unit, const Candidates& candidates, std::int16_t& disparity) {
     const auto* end = candidates.disparity.begin() + candidates.count;
     const auto* found = std::find(candidates.disparity.begin(), end, disparity);
-    const int likeliest = candidates.disparity[0];
+    const int first = candidates.disparity[0];
     const std::size_t spread = candidates.spread();
-    auto& model = models.disparity[from][spread][around];
+    auto& model = models.disparity[warped][spread][around];
     if (!coder.bit(model[0], found != candidates.disparity.begin())) {
-        disparity = static_cast<std::int16_t>(likeliest);
+        disparity = static_cast<std::int16_t>(first);
     } else if (!coder.bit(model[1], found == end)) {
         std::size_t k = 1;
         const auto index = static_cast<std::size_t>(found - candidates.disparity.begin());
@@ -57,38 +61,74 @@ void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, 
             ++k;
         disparity = candidates.disparity[std::min(k, candidates.count - 1)];
     } else {
-        const int difference = (disparity - likeliest) / unit;
+        const int difference = (disparity - first) / unit;
         const bool negative = coder.bit(models.sign, difference < 0);
         const std::uint32_t size =
             1 + std::min(code_number(coder, models.difference, static_cast<std::uint32_t>(std::abs(difference) - 1)),
                          std::uint32_t{4 * max_disparity});
-        const int value = likeliest + (negative ? -unit : unit) * static_cast<int>(size);
+        const int value = first + (negative ? -unit : unit) * static_cast<int>(size);
         disparity = static_cast<std::int16_t>(std::clamp(value, -max_disparity, max_disparity));
     }
 }
 
-// What a parted block has beside the disparity of its main part.
-// @param moved   the block that is moved here; may be null
+// The elements that a partitioned block has beside its main disparity.
+// @param warped   the warped block, or null
 template <class Coder>
-void code_parts(Coder& coder, typename Coder::Models::ForParts& models, const Block* moved, int unit,
-                const Candidates& candidates, Block& block) {
-    for (std::size_t part = 0; part < 2; ++part) {
+void code_partitions(Coder& coder, typename Coder::Models::ForPartitions& models, const Block* warped, int unit,
+                     const Candidates& candidates, Block& block) {
+    for (std::size_t partition = 0; partition < 2; ++partition) {
         std::uint8_t side = 0;
-        while (side + 1u < ReferenceWeights::sides && coder.bit(models.side[part][side], block.side[part] != side))
+        while (side + 1u < ReferenceWeights::sides &&
+               coder.bit(models.side[partition][side], block.side[partition] != side))
             ++side;
-        block.side[part] = side;
+        block.side[partition] = side;
     }
-    std::size_t angle = block.line / line_places, place = block.line % line_places;
-    if (moved && moved->mode == parted) {  // an edge is seen from near by as it is here
-        const std::size_t before = moved->line / line_places;
-        angle = before + code_path(coder, models.turn, 5, (angle + line_angles - before) % line_angles);
-        place = code_path(coder, models.place_by_moved[moved->line % line_places], 2, place);
+    std::size_t angle = block.edge / edge_offsets, offset = block.edge % edge_offsets;
+    if (warped && warped->mode == mode_partitioned) {  // an edge looks alike from neighbouring hogels
+        const std::size_t before = warped->edge / edge_offsets;
+        angle = before + code_path(coder, models.angle_by, 5, (angle + edge_angles - before) % edge_angles);
+        offset = code_path(coder, models.offset_by[warped->edge % edge_offsets], 2, offset);
     } else {
         angle = code_path(coder, models.angle, 5, angle);
-        place = code_path(coder, models.place, 2, place);
+        offset = code_path(coder, models.offset, 2, offset);
     }
-    block.line = static_cast<std::uint8_t>(line_number(angle % line_angles, place));
-    code_disparity(coder, models.beyond, by_mode(moved), 0, unit, candidates, block.disparity_beyond);
+    block.edge = static_cast<std::uint8_t>(edge_number(angle % edge_angles, offset));
+    code_disparity(coder, models.second, warped_context(warped), 0, unit, candidates, block.second_disparity);
+}
+
+// Blocks whose syntax elements are contexts for those of a block; each may be null.
+struct Neighbours {
+    const Block *left, *above, *warped;
+
+    // How many of the blocks to the left and above a predicate holds for.
+    template <class Predicate>
+    std::size_t count(Predicate&& holds) const {
+        return (left && holds(*left) ? 1u : 0u) + (above && holds(*above) ? 1u : 0u);
+    }
+};
+
+// Codes which channels of a block have levels, and their levels, from number `used` of coded.levels on.
+template <class Coder>
+void code_residual(Coder& coder, typename Coder::Models& models, std::size_t channels, const Neighbours& near,
+                   Block& block, CodedHogel& coded, std::size_t& used) {
+    const std::size_t kind = block.mode == mode_intra ? 2 : block.mode == mode_any ? 0 : 1;
+    std::uint8_t flags = 0;
+    for (std::size_t c = 0; c < channels; ++c) {
+        const auto has_levels = [c](const Block& other) { return (other.coded >> c & 1) != 0; };
+        const std::size_t chrominance = c > 0 ? 1 : 0;
+        const std::size_t around = near.count(has_levels);
+        const std::size_t warped = !near.warped ? 0 : has_levels(*near.warped) ? 2 : 1;
+        auto& of_kind = block.mode == mode_partitioned ? models.partitions.coded[warped][chrominance]
+                                                       : models.coded[warped][chrominance][kind];
+        if (!coder.bit(of_kind[block.not_first ? 1 : 0][around], has_levels(block))) continue;
+        flags = static_cast<std::uint8_t>(flags | 1 << c);
+        if (used == coded.levels.size()) coded.levels.emplace_back();
+        Levels& levels = coded.levels[used++];
+        auto& of_basis = models.basis[chrominance][block.mode == mode_partitioned ? 3 : kind];
+        block.basis[c] = code_basis(coder, of_basis, block.basis[c]);
+        code_levels(coder, models.levels[chrominance][block.mode == mode_intra ? 1 : 0], bases[block.basis[c]], levels);
+    }
+    block.coded = flags;
 }
 
 }  // namespace
@@ -100,38 +140,38 @@ std::size_t Candidates::spread() const {
 }
 
 int disparity_unit(const HogelOrder::Hogel& hogel) {
-    if (hogel.level == 0) return 1;
+    if (hogel.layer == 0) return 1;
     int nearest = shift_unit;
     for (const HogelOrder::Reference& reference : hogel.references)
         nearest = std::min(nearest, std::abs(reference.ds) + std::abs(reference.dt));
     return std::max(1, 4 / nearest);
 }
 
-Candidates candidates_for(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
-                          const Block* moved, const std::vector<Block>* beside) {
+Candidates predictor_candidates(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
+                                const Block* warped, const std::vector<Block>* context_blocks) {
     Candidates candidates;
     const bool left = block % grid.columns > 0, above = block >= grid.columns;
-    if (moved) candidates.add(moved->disparity);
+    if (warped) candidates.add(warped->disparity);
     if (left) candidates.add(blocks[block - 1].disparity);
     if (above) candidates.add(blocks[block - grid.columns].disparity);
     if (left && above)  // as on a plane
         candidates.add(blocks[block - 1].disparity + blocks[block - grid.columns].disparity -
                        blocks[block - grid.columns - 1].disparity);
-    if (beside && candidates.count < 4) candidates.add((*beside)[block].disparity);
-    if (left && blocks[block - 1].mode == parted) candidates.add(blocks[block - 1].disparity_beyond);
-    if (above && blocks[block - grid.columns].mode == parted)
-        candidates.add(blocks[block - grid.columns].disparity_beyond);
-    if (moved && moved->mode == parted) candidates.add(moved->disparity_beyond);
+    if (context_blocks && candidates.count < 4) candidates.add((*context_blocks)[block].disparity);
+    if (left && blocks[block - 1].mode == mode_partitioned) candidates.add(blocks[block - 1].second_disparity);
+    if (above && blocks[block - grid.columns].mode == mode_partitioned)
+        candidates.add(blocks[block - grid.columns].second_disparity);
+    if (warped && warped->mode == mode_partitioned) candidates.add(warped->second_disparity);
     if (candidates.count == 0) candidates.add(0);
     return candidates;
 }
 
-std::vector<const Block*> moved_blocks(const HogelOrder::Hogel& hogel, const std::vector<CodedHogel>& coded,
-                                       const BlockGrid& grid, float aspect) {
+std::vector<const Block*> warped_blocks(const HogelOrder::Hogel& hogel, const std::vector<CodedHogel>& coded,
+                                        const BlockGrid& grid, float aspect) {
     constexpr std::int64_t side = static_cast<std::int64_t>(block_side) * shift_unit, half = side / 2;
-    std::vector<const Block*> moved(grid.count(), nullptr);
+    std::vector<const Block*> warped(grid.count(), nullptr);
     std::vector<std::int64_t> distance(grid.count(), std::numeric_limits<std::int64_t>::max());
-    for (const HogelOrder::Reference& reference : hogel.tellers) {
+    for (const HogelOrder::Reference& reference : hogel.context_references) {
         const std::int64_t apart = reference.ds * reference.ds + reference.dt * reference.dt;
         const std::vector<Block>& blocks = coded[reference.hogel].blocks;
         for (std::size_t block = 0; block < blocks.size(); ++block) {
@@ -145,7 +185,7 @@ std::vector<const Block*> moved_blocks(const HogelOrder::Hogel& hogel, const std
             const std::int64_t du = u % side - half, dv = v % side - half;
             const std::int64_t here = du * du + dv * dv + apart * shift_unit * shift_unit / 2;
             // The nearer surface hides the farther one; of one surface, what comes nearest to the middle.
-            const Block*& kept = moved[row * grid.columns + column];
+            const Block*& kept = warped[row * grid.columns + column];
             std::int64_t& kept_distance = distance[row * grid.columns + column];
             if (!kept || disparity > kept->disparity + one_surface ||
                 (disparity > kept->disparity - one_surface && here < kept_distance)) {
@@ -154,61 +194,45 @@ std::vector<const Block*> moved_blocks(const HogelOrder::Hogel& hogel, const std
             }
         }
     }
-    return moved;
+    return warped;
 }
 
 template <class Coder>
 void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
-                const std::vector<const Block*>& moved, const std::vector<Block>* beside, CodedHogel& coded) {
+                const std::vector<const Block*>& warped, const std::vector<Block>* context_blocks, CodedHogel& coded) {
     const bool first = hogel.references.empty();
     const int unit = disparity_unit(hogel);
     std::size_t used = 0;  // levels
     coded.blocks.resize(grid.count());
     for (std::size_t k = 0; k < grid.count(); ++k) {
         Block& block = coded.blocks[k];
-        const Block* left = k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr;
-        const Block* above = k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr;
-        const std::size_t context = (left && left->mode != 1 ? 1u : 0u) + (above && above->mode != 1 ? 1u : 0u);
-        const Block* from = moved[k];
-        code_mode(coder, models, by_mode(from), context, first, block);
-        const Candidates candidates =
-            coded.candidates.empty() ? candidates_for(k, grid, coded.blocks, moved[k], beside) : coded.candidates[k];
-        if (block.mode == 0 && !first) {
+        const Neighbours near{k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr,
+                              k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr, warped[k]};
+        const std::size_t context = warped_context(near.warped);
+        const std::size_t other_modes = near.count([](const Block& other) { return other.mode != mode_any; });
+        code_mode(coder, models, context, other_modes, first, block);
+        const Candidates candidates = coded.candidates.empty()
+                                          ? predictor_candidates(k, grid, coded.blocks, warped[k], context_blocks)
+                                          : coded.candidates[k];
+        if (block.mode == mode_intra && !first) {
             block.disparity = candidates.disparity[0];
         } else {
-            const std::size_t around = (left && left->surprising ? 1u : 0u) + (above && above->surprising ? 1u : 0u);
-            code_disparity(coder, models.main, by_mode(from), around, unit, candidates, block.disparity);
+            const std::size_t around = near.count([](const Block& other) { return other.not_first; });
+            code_disparity(coder, models.main, context, around, unit, candidates, block.disparity);
         }
-        if (block.mode == parted) code_parts(coder, models.parts, from, unit, candidates, block);
-        block.surprising = block.disparity != candidates.disparity[0];
-        const std::size_t kind = block.mode == 0 ? 2 : block.mode == 1 ? 0 : 1;
-        std::uint8_t flags = 0;
-        for (std::size_t c = 0; c < grid.channels; ++c) {
-            const std::size_t chrominance = c > 0 ? 1 : 0;
-            const std::size_t around =
-                (left && left->coded >> c & 1 ? 1u : 0u) + (above && above->coded >> c & 1 ? 1u : 0u);
-            const std::size_t before = !from ? 0 : from->coded >> c & 1 ? 2 : 1;
-            auto& of_kind = block.mode == parted ? models.parts.coded[before][chrominance]
-                                                 : models.coded[before][chrominance][kind];
-            if (!coder.bit(of_kind[block.surprising ? 1 : 0][around], block.coded >> c & 1)) continue;
-            flags = static_cast<std::uint8_t>(flags | 1 << c);
-            if (used == coded.levels.size()) coded.levels.emplace_back();
-            Levels& levels = coded.levels[used++];
-            const std::size_t within = block.mode == 0 ? 1 : 0;
-            auto& of_basis = models.basis[chrominance][block.mode == parted ? 3 : kind];
-            block.basis[c] = code_basis(coder, of_basis, block.basis[c]);
-            code_levels(coder, models.levels[chrominance][within], bases[block.basis[c]], levels);
-        }
-        block.coded = flags;
+        if (block.mode == mode_partitioned)
+            code_partitions(coder, models.partitions, near.warped, unit, candidates, block);
+        block.not_first = block.disparity != candidates.disparity[0];
+        code_residual(coder, models, grid.channels, near, block, coded, used);
     }
 }
 
-void guess_hogel(const BlockGrid& grid, const std::vector<const Block*>& moved, const std::vector<Block>* beside,
-                 CodedHogel& coded) {
+void predict_syntax(const BlockGrid& grid, const std::vector<const Block*>& warped,
+                    const std::vector<Block>* context_blocks, CodedHogel& coded) {
     coded.blocks.resize(grid.count());
     for (std::size_t k = 0; k < grid.count(); ++k) {
-        coded.blocks[k].mode = 1;
-        coded.blocks[k].disparity = candidates_for(k, grid, coded.blocks, moved[k], beside).disparity[0];
+        coded.blocks[k].mode = mode_any;
+        coded.blocks[k].disparity = predictor_candidates(k, grid, coded.blocks, warped[k], context_blocks).disparity[0];
     }
 }
 

@@ -14,7 +14,7 @@
 
 namespace hogel::codec::format {
 
-// Numbers and texts of a stream, little-endian; texts are their length as 32 bits and their bytes.
+// Writes numbers and texts of a stream, little-endian; a text is its length as 32 bits and its bytes.
 class ByteWriter {
   public:
     template <std::unsigned_integral T>
@@ -32,7 +32,7 @@ class ByteWriter {
     std::vector<std::uint8_t> bytes;
 };
 
-// Throws Error(bad_input), beginning with `what`, where the bytes end too early.
+// Reads them. Throws Error(bad_input), beginning with `what`, where the bytes end too early.
 class ByteReader {
   public:
     ByteReader(std::span<const std::uint8_t> bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}

@@ -25,7 +25,7 @@ void join(float& a, float& b, float& c) {
     c = sum - across + between;
 }
 
-// Calls change with the three channels of a part of the tile.
+// Calls change() with the three channels of parts of the tile, on all threads.
 template <class Change>
 void for_each_part(View<float, 5> radiance, Change&& change) {
     if (radiance.extent(0) != 3) return;

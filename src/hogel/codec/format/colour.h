@@ -8,8 +8,8 @@
 
 namespace hogel::codec::format {
 
-// R, G, B to one luminance-like and two chrominance-like channels and back, in place: the orthonormal DCT of three
-// points, so that an error has the same energy in either. One channel stays as it is.
+// Transforms R, G, B into luminance and two channels of chrominance and back, in place: the orthonormal DCT of three
+// points, so that an error has the same energy in both. A single channel stays as it is.
 void separate_colours(View<float, 5> radiance);
 void join_colours(View<float, 5> radiance);
 // The same on one thread, for three arrays of one size.

@@ -13,7 +13,7 @@ constexpr std::size_t batch = 1 << 14;
 
 float luminance(float red, float green, float blue) { return (red + green + blue) / 3; }
 
-// Calls change with the colours of parts of the tile, three spans or one, on all threads.
+// Calls change() with the colours of parts of the tile, as three spans or one, on all threads.
 template <class Change>
 void for_each_part(View<float, 5> radiance, Change&& change) {
     const std::size_t channels = radiance.extent(0), count = radiance.size() / channels;
@@ -28,8 +28,8 @@ void for_each_part(View<float, 5> radiance, Change&& change) {
     });
 }
 
-// Scales the colours of each ray alike, and what they differ by from their mean by another factor on top of it.
-// @param factor_of   of the luminance
+// Scales the colours of each ray by a factor, and their differences from their mean by another one on top of it.
+// @param factor_of   factor for a luminance
 template <class Factor>
 void scale(View<float, 5> radiance, Factor&& factor_of, float chrominance) {
     struct Scale {
@@ -53,19 +53,19 @@ void scale(View<float, 5> radiance, Factor&& factor_of, float chrominance) {
 
 class CompandedSource final : public LightFieldSource {
   public:
-    CompandedSource(const LightFieldSource& source, const Companding& companding)
-        : source_(source), companding_(companding) {}
-    const LightFieldGrid& grid() const override { return source_.grid(); }
-    bool has_depth() const override { return source_.has_depth(); }
-    HogelRange preferred_tile() const override { return source_.preferred_tile(); }
+    CompandedSource(LightField::Source source, const Companding& companding)
+        : source_(std::move(source)), companding_(companding) {}
+    const LightFieldGrid& grid() const override { return source_->grid(); }
+    bool has_depth() const override { return source_->has_depth(); }
+    HogelRange preferred_tile() const override { return source_->preferred_tile(); }
     void read(LightFieldTile& tile) const override {
-        source_.read(tile);
+        source_->read(tile);
         companding_.apply(tile.radiance.view());
     }
 
   private:
-    const LightFieldSource& source_;
-    const Companding& companding_;
+    LightField::Source source_;
+    Companding companding_;
 };
 
 void count(const LightFieldTile& tile, LuminanceHistogram& histogram) {
@@ -89,11 +89,13 @@ void Companding::undo(View<float, 5> radiance) const {
     if (changes()) scale(radiance, factor, chrominance);
 }
 
-std::unique_ptr<LightFieldSource> companded(const LightFieldSource& source, const Companding& companding) {
-    return std::make_unique<CompandedSource>(source, companding);
+LightField companded(const LightField& light_field, const Companding& companding) {
+    return light_field.wrapped(
+        [&](const LightField::Source& face) { return std::make_shared<CompandedSource>(face, companding); });
 }
 
-LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> faces, const Progress& progress) {
+LuminanceHistogram luminance_histogram(const LightField& light_field, const Progress& progress) {
+    const std::span<const LightField::Source> faces = light_field.faces();
     LuminanceHistogram sum;
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const LightFieldGrid& grid = faces[face]->grid();

@@ -11,12 +11,12 @@
 
 namespace hogel::codec::format {
 
-/// What radiances become before they are coded, and what is undone behind the decoder, so that coders do not know of
-/// it. The colours of a ray are scaled alike, by y(L)/L of a curve, L = (R + G + B)/3; then, what they differ by from
-/// their mean is divided. That mean is what coders separate as luminance: errors of chrominance change no factor.
+/// A mapping of radiances that is applied before coding and undone after decoding; coders do not know of it. The three
+/// colours of a ray are scaled by y(L)/L of a tone curve, L = (R + G + B)/3; then their differences from their mean are
+/// divided. Coders separate that mean as luminance, so errors of chrominance do not change the scale.
 struct Companding {
     std::optional<ToneCurve> tone;
-    float chrominance = 1;  ///< 1 to max_chrominance: how much coarser its steps are than those of luminance
+    float chrominance = 1;  ///< divisor of chrominance, 1 to max_chrominance
     static constexpr float max_chrominance = 1024;
 
     bool changes() const { return tone || chrominance != 1; }
@@ -26,10 +26,10 @@ struct Companding {
     friend bool operator==(const Companding&, const Companding&) = default;
 };
 
-/// The light field with its radiances mapped, where they are read. Both arguments must outlive it.
-std::unique_ptr<LightFieldSource> companded(const LightFieldSource& source, const Companding& companding);
+/// The light field with its radiances mapped where they are read.
+LightField companded(const LightField& light_field, const Companding& companding);
 
-/// What luminances all of the light fields together have; reads them once, tile by tile on all threads.
-LuminanceHistogram luminance_histogram(std::span<const LightFieldSource* const> faces, const Progress& progress = {});
+/// The luminances of all faces together. Reads them once, tile by tile on all threads.
+LuminanceHistogram luminance_histogram(const LightField& light_field, const Progress& progress = {});
 
 }  // namespace hogel::codec::format

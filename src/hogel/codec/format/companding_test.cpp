@@ -24,12 +24,11 @@ LightFieldBuffer high_range(std::size_t hogels_s, std::size_t hogels_t, std::siz
     return field;
 }
 
-Companding mapping_of(const LightFieldBuffer& field, double decades, float chrominance) {
-    const LightFieldSource* const source = &field;
-    return {encode::tone_curve_of(luminance_histogram({&source, 1}), decades), chrominance};
+Companding companding_of(const LightFieldBuffer& field, double decades, float chrominance) {
+    return {encode::tone_curve_of(luminance_histogram(borrow(field)), decades), chrominance};
 }
 
-CompressionOptions mapped(const CodingMethod& method, std::optional<double> decades, double chrominance) {
+CompressionOptions with_companding(const CodingMethod& method, std::optional<double> decades, double chrominance) {
     CompressionOptions options;
     options.method = method;
     options.target = Sqnr{40};
@@ -43,18 +42,18 @@ TEST(Companding, is_undone) {
     for (const std::size_t channels : {1, 3})
         for (const float chrominance : {1.0f, 4.0f}) {
             LightFieldBuffer field = high_range(3, 2, 16, 12, channels);
-            // Colours of no lamp come back too: none, negative, and of opposite signs.
+            // Also zero, negative colours, and colours of opposite signs.
             for (std::size_t c = 0; c < channels; ++c) {
                 field.radiance(c, 0, 0, 0, 0) = 0;
                 field.radiance(c, 0, 0, 0, 1) = -0.3f * static_cast<float>(c + 1);
                 field.radiance(c, 0, 0, 0, 2) = c == 1 ? -0.3f : 0.2f;
             }
-            const Companding mapping = mapping_of(field, 2, chrominance);
-            ASSERT_TRUE(mapping.tone);
+            const Companding companding = companding_of(field, 2, chrominance);
+            ASSERT_TRUE(companding.tone);
             LightFieldBuffer there = field;
-            mapping.apply(there.radiance.view());
+            companding.apply(there.radiance.view());
             EXPECT_LT(sqnr_of(field, there), 10);
-            mapping.undo(there.radiance.view());
+            companding.undo(there.radiance.view());
             const std::size_t rays = field.radiance.size() / channels;
             for (std::size_t i = 0; i < rays; ++i) {
                 double largest = 0;
@@ -66,14 +65,13 @@ TEST(Companding, is_undone) {
         }
 }
 
-// Scaled alike the colours of a ray keep their ratios, and chrominance its mean; coarser, they come nearer to it.
-TEST(Companding, keeps_ratios_of_colours_and_divides_chrominance) {
+TEST(Companding, keeps_the_ratios_of_colours_and_divides_chrominance) {
     const LightFieldBuffer field = high_range(2, 2, 8, 8, 3);
     const auto at = [](const LightFieldBuffer& f, std::size_t c, std::size_t i) {
         return double(f.radiance.data()[c * f.radiance.size() / 3 + i]);
     };
     LightFieldBuffer toned = field, grey = field;
-    mapping_of(field, 2, 1).apply(toned.radiance.view());
+    companding_of(field, 2, 1).apply(toned.radiance.view());
     Companding{std::nullopt, 4}.apply(grey.radiance.view());
     for (std::size_t i = 0; i < field.radiance.size() / 3; ++i) {
         const double mean = (at(field, 0, i) + at(field, 1, i) + at(field, 2, i)) / 3;
@@ -85,8 +83,8 @@ TEST(Companding, keeps_ratios_of_colours_and_divides_chrominance) {
     }
 }
 
-// Of all coders: the SQNR that was asked for is that of the mapped light field, and what is read is it, mapped back.
-TEST(Companding, goes_with_every_coder) {
+// The SQNR that was asked for is that of the mapped light field.
+TEST(Companding, works_with_every_coder) {
     const TestFolder folder;
     const LightFieldBuffer field = high_range(5, 4, 16, 12, 3);
     for (const CodingMethod& method : {CodingMethod{"hogel", ""},
@@ -94,12 +92,12 @@ TEST(Companding, goes_with_every_coder) {
                                        {"ezw", "haar"},
                                        {"jpeg4d", "dct8"},
                                        {"fringes", "cdf97"}}) {
-        const CompressionResult result = compress(field, folder / "a.hgl", mapped(method, 2, 2));
-        const Companding mapping = StreamReader(folder / "a.hgl").info().companding;
-        EXPECT_EQ(mapping, mapping_of(field, 2, 2));
+        const CompressionResult result = compress(field, folder / "a.hgl", with_companding(method, 2, 2));
+        const Companding companding = StreamReader(folder / "a.hgl").info().companding;
+        EXPECT_EQ(companding, companding_of(field, 2, 2));
         LightFieldBuffer truth = field, other = decoded(folder / "a.hgl");
-        mapping.apply(truth.radiance.view());
-        mapping.apply(other.radiance.view());
+        companding.apply(truth.radiance.view());
+        companding.apply(other.radiance.view());
         EXPECT_GE(result.sqnr, 40) << method.coder;
         EXPECT_NEAR(sqnr_of(truth, other), result.sqnr, 0.01) << method.coder;
         if (method.coder == "fringes") {
@@ -108,8 +106,8 @@ TEST(Companding, goes_with_every_coder) {
     }
 }
 
-// Both faces of a stream are mapped, by the histogram of all together; unfolded, before the corners are filled.
-TEST(Companding, goes_with_hemicubes) {
+// By the histogram of all faces together; in the layout unfolded, before the corners are filled.
+TEST(Companding, maps_all_faces_of_a_hemicube) {
     const TestFolder folder;
     std::vector<LightFieldBuffer> fields;
     std::vector<const LightFieldSource*> faces;
@@ -124,34 +122,33 @@ TEST(Companding, goes_with_hemicubes) {
     }
     for (const LightFieldBuffer& field : fields) faces.push_back(&field);
     for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded}) {
-        CompressionOptions options = mapped({"threepass", "cdf97"}, 2, 2);
+        CompressionOptions options = with_companding({"threepass", "cdf97"}, 2, 2);
         options.layout = layout;
-        compress(faces, folder / "a.hgl", options);
-        const Companding mapping = StreamReader(folder / "a.hgl").info().companding;
-        EXPECT_EQ(mapping.tone, encode::tone_curve_of(luminance_histogram(faces), 2));
-        const auto sources = open_faces(folder / "a.hgl");
+        hogel::compress(borrow(faces), folder / "a.hgl", options);
+        const Companding companding = StreamReader(folder / "a.hgl").info().companding;
+        EXPECT_EQ(companding.tone, encode::tone_curve_of(luminance_histogram(borrow(faces)), 2));
+        const LightField opened = open_stream(folder / "a.hgl");
         for (std::size_t i = 0; i < faces.size(); ++i) {
             LightFieldBuffer truth = fields[i], other(fields[i].grid());
-            copy(*sources[i], other);
-            mapping.apply(truth.radiance.view());
-            mapping.apply(other.radiance.view());
+            copy(*opened.faces()[i], other);
+            companding.apply(truth.radiance.view());
+            companding.apply(other.radiance.view());
             EXPECT_GT(sqnr_of(truth, other), 35);
         }
     }
 }
 
-// With luminances that span no more than is asked for, nothing is mapped, and the bytes are those without.
-TEST(Companding, of_a_low_range_is_none) {
+TEST(Companding, does_not_change_a_light_field_of_low_range) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(5, 4, 16, 12, 3);
-    compress(field, folder / "a.hgl", mapped({}, std::nullopt, 1));
-    compress(field, folder / "b.hgl", mapped({}, 2, 1));
+    compress(field, folder / "a.hgl", with_companding({}, std::nullopt, 1));
+    compress(field, folder / "b.hgl", with_companding({}, 2, 1));
     EXPECT_EQ(bytes_of_file(folder / "a.hgl"), bytes_of_file(folder / "b.hgl"));
-    compress(field, folder / "b.hgl", mapped({}, 0.2, 1));
+    compress(field, folder / "b.hgl", with_companding({}, 0.2, 1));
     EXPECT_NE(bytes_of_file(folder / "a.hgl"), bytes_of_file(folder / "b.hgl"));
 }
 
-// Takes note of how many samples are asked for at once and in all.
+// Counts the samples that are read at once and in all.
 class WatchedSource final : public LightFieldSource {
   public:
     explicit WatchedSource(const LightFieldBuffer& field) : field_(field) {}
@@ -170,33 +167,32 @@ class WatchedSource final : public LightFieldSource {
     mutable std::mutex mutex_;
 };
 
-TEST(Companding, histogram_is_the_same_for_any_number_of_threads_and_reads_once_by_tiles) {
+TEST(Companding, histogram_does_not_depend_on_threads_and_reads_each_tile_once) {
     const LightFieldBuffer field = high_range(8, 7, 16, 12, 3);
-    const LightFieldSource* const whole = &field;
-    const LuminanceHistogram expected = luminance_histogram({&whole, 1});
+    const LuminanceHistogram expected = luminance_histogram(borrow(field));
     for (const std::size_t threads : {1, 2, 5}) {
         const ThreadLimit limit(threads);
         const WatchedSource watched(field);
-        const LightFieldSource* const source = &watched;
-        const LuminanceHistogram histogram = luminance_histogram({&source, 1});
+        const LuminanceHistogram histogram = luminance_histogram(borrow(watched));
         EXPECT_TRUE(std::ranges::equal(histogram.counts(), expected.counts()));
         EXPECT_EQ(watched.most, field.radiance.size() / 56 * 6);
         EXPECT_EQ(watched.all, field.radiance.size());
     }
 }
 
-TEST(Companding, asks_that_make_no_sense_are_refused) {
+TEST(Companding, impossible_requests_are_refused) {
     const TestFolder folder;
     const LightFieldBuffer colours = high_range(2, 2, 8, 8, 3), grey = high_range(2, 2, 8, 8, 1);
     const auto refused = [&](const LightFieldBuffer& field, const CompressionOptions& options) {
         return code_of([&] { compress(field, folder / "a.hgl", options); }) == ErrorCode::usage;
     };
-    EXPECT_FALSE(refused(grey, mapped({}, 2, 1)));
-    EXPECT_TRUE(refused(grey, mapped({}, 2, 3)));
-    for (const double bad : {0.5, 0.0, -1.0, 1e6, double(NAN)}) EXPECT_TRUE(refused(colours, mapped({}, {}, bad)));
-    for (const double bad : {0.0, -1.0, 21.0, double(NAN)}) EXPECT_TRUE(refused(colours, mapped({}, bad, 1)));
+    EXPECT_FALSE(refused(grey, with_companding({}, 2, 1)));
+    EXPECT_TRUE(refused(grey, with_companding({}, 2, 3)));
+    for (const double bad : {0.5, 0.0, -1.0, 1e6, double(NAN)})
+        EXPECT_TRUE(refused(colours, with_companding({}, {}, bad)));
+    for (const double bad : {0.0, -1.0, 21.0, double(NAN)}) EXPECT_TRUE(refused(colours, with_companding({}, bad, 1)));
     for (const bool lossless : {false, true}) {
-        CompressionOptions exact = mapped({}, 2, 1);
+        CompressionOptions exact = with_companding({}, 2, 1);
         exact.target = MaxError{0.1};
         if (lossless) exact.target = Lossless{};
         EXPECT_TRUE(refused(colours, exact));
@@ -207,7 +203,7 @@ TEST(Companding, asks_that_make_no_sense_are_refused) {
     }
 }
 
-// What reading the header of a damaged file says; empty where nothing is wrong.
+// The message that reading the header of a file ends in; empty if it is read.
 std::string complaint(const std::filesystem::path& path) {
     try {
         read_stream_info(path);
@@ -221,12 +217,12 @@ std::string complaint(const std::filesystem::path& path) {
     return "";
 }
 
-// The mapping's part of a header, forged so that the checksum is right.
-TEST(Companding, damaged_in_a_header_is_refused) {
+// With the right checksum.
+TEST(Companding, damaged_field_of_a_header_is_refused) {
     const TestFolder folder;
     const LightFieldBuffer field = high_range(2, 2, 8, 8, 3);
-    compress(field, folder / "plain.hgl", mapped({"threepass", "haar"}, {}, 1));
-    compress(field, folder / "a.hgl", mapped({"threepass", "haar"}, 2, 2));
+    compress(field, folder / "plain.hgl", with_companding({"threepass", "haar"}, {}, 1));
+    compress(field, folder / "a.hgl", with_companding({"threepass", "haar"}, 2, 2));
     const auto length_of = [](const std::vector<std::uint8_t>& file) { return file[12] | std::size_t{file[13]} << 8; };
     const std::vector<std::uint8_t> plain = bytes_of_file(folder / "plain.hgl"), good = bytes_of_file(folder / "a.hgl");
     const std::size_t begin = 16 + length_of(plain), end = 16 + length_of(good);
@@ -255,13 +251,13 @@ TEST(Companding, damaged_in_a_header_is_refused) {
             const bool number = (at >= 12 && at < chrominance) || at >= part.size() - 4;
             EXPECT_TRUE(with(bad) != "" || number) << at;
             if (!number) continue;
-            // What is still a curve is one: the samples come, other ones.
+            // A damaged number may still be a valid one, which gives other samples.
             if (complaint(folder / "b.hgl").empty()) decoded(folder / "b.hgl");
         }
     ByteWriter twice, swapped;
     for (ByteWriter* forged : {&twice, &swapped}) forged->put(std::span(part).subspan(chrominance));
     twice.put(std::span(part).subspan(chrominance));
-    EXPECT_NE(with(twice.bytes).find("part that is not known, or twice"), std::string::npos);
+    EXPECT_NE(with(twice.bytes).find("unknown field, or one twice"), std::string::npos);
     swapped.put(std::span(part).first(chrominance));
     EXPECT_NE(with(swapped.bytes), "");
     for (const float bad : {1.0f, 0.5f, -2.0f, 2000.0f, std::nanf(""), std::numeric_limits<float>::infinity()}) {

@@ -6,38 +6,40 @@
 
 namespace hogel::codec::format {
 
-// The order in which the hogels of a tile are coded, from far apart to side by side: first the corners, then what lies
-// halfway between coded ones, and so on. A hogel is predicted from those of its own row and column that come earlier:
-// on each side from the nearest ones, so that a hogel can be decoded without most of the others.
+// The coding order of the hogels of a tile, by halving: the hogel in the middle, then the corners and the middles of
+// the edges, then the hogels halfway between coded ones, and so on. Each halving is a layer. A hogel is predicted from
+// hogels of its own row and column that come earlier, the nearest on each side, so that it can be decoded without most
+// of the others (docs/decisions/0032-codec-middle-first.md).
 class HogelOrder {
   public:
     struct Reference {
-        std::size_t hogel;  // its place in order()
-        int ds, dt;         // where it lies, in hogels
+        std::size_t hogel;  // its index in hogels()
+        int ds, dt;         // its offset in hogels
     };
     struct Hogel {
         std::size_t s, t;  // column and row in the tile
-        int level;         // 0 for what comes first
-        std::size_t wave;  // needs nothing of its own wave
+        int layer;
+        std::size_t wavefront;  // hogels of one wavefront do not refer to each other
         std::vector<Reference> references;
-        std::vector<Reference> tellers;  // those of the references whose disparities are moved here
+        std::vector<Reference> context_references;  // whose syntax elements are contexts for those of this hogel
     };
 
-    // @param references_a_side   how many there are at most to the left, to the right, above and below
-    // @param tellers_a_side      and how many of these tell disparities
-    HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_a_side, std::size_t tellers_a_side);
-    // Of a tile of that size, without making its order.
-    static int levels(std::size_t columns, std::size_t rows);
+    // @param references_per_side           at most, to the left, to the right, above and below
+    // @param context_references_per_side   likewise
+    HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_per_side,
+               std::size_t context_references_per_side);
+    // The number of layers of a tile of that size, without making its order.
+    static int layers(std::size_t columns, std::size_t rows);
     const std::vector<Hogel>& hogels() const { return hogels_; }
-    int levels() const { return hogels_.back().level + 1; }
-    // The first hogel of each wave, and the end of the last.
-    const std::vector<std::size_t>& waves() const { return waves_; }
-    // The first wave of each level, and the end of the last.
-    const std::vector<std::size_t>& waves_of_levels() const { return waves_of_levels_; }
+    int layers() const { return hogels_.back().layer + 1; }
+    // The first hogel of each wavefront, and the end of the last.
+    const std::vector<std::size_t>& wavefronts() const { return wavefronts_; }
+    // The first wavefront of each layer, and the end of the last.
+    const std::vector<std::size_t>& wavefronts_of_layers() const { return wavefronts_of_layers_; }
 
   private:
     std::vector<Hogel> hogels_;
-    std::vector<std::size_t> waves_, waves_of_levels_;
+    std::vector<std::size_t> wavefronts_, wavefronts_of_layers_;
 };
 
 }  // namespace hogel::codec::format

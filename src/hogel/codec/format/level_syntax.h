@@ -7,11 +7,11 @@
 
 namespace hogel::codec::format {
 
-// How the levels of a channel of a block are told.
+// Syntax of the levels of a channel of a block.
 
 using LevelOrder = std::array<std::uint8_t, block_samples>;
 
-// The zigzag of JPEG: frequencies of a block by their sum.
+// The zigzag of JPEG: frequencies of a block by rising sum.
 constexpr LevelOrder zigzag = [] {
     LevelOrder order{};
     std::size_t n = 0;
@@ -25,7 +25,7 @@ constexpr LevelOrder zigzag = [] {
 }();
 
 // Row by row, and column by column.
-constexpr std::array<LevelOrder, 2> level_lines = [] {
+constexpr std::array<LevelOrder, 2> raster_orders = [] {
     std::array<LevelOrder, 2> order{};
     for (std::size_t n = 0; n < block_samples; ++n) {
         order[0][n] = static_cast<std::uint8_t>(n);
@@ -34,12 +34,12 @@ constexpr std::array<LevelOrder, 2> level_lines = [] {
     return order;
 }();
 
-// Low frequencies first.
+// The scan order of levels, low frequencies first.
 constexpr const LevelOrder& order_of_levels(Basis basis) {
-    return basis.cosines() ? zigzag : level_lines[basis.cosines_u ? 1 : 0];
+    return basis.cosines() ? zigzag : raster_orders[basis.cosines_u ? 1 : 0];
 }
 
-// Which class a sum of sizes belongs to; they get coarser.
+// The class of a sum of magnitudes; classes get coarser.
 constexpr std::array<std::uint8_t, level_classes - 1> level_class_begins{1, 2, 3, 5, 8, 12, 18, 28, 44, 70, 120};
 constexpr int in_last_class = level_class_begins.back();
 constexpr std::array<std::uint8_t, in_last_class + 1> level_class_of = [] {
@@ -50,7 +50,7 @@ constexpr std::array<std::uint8_t, in_last_class + 1> level_class_of = [] {
     return classes;
 }();
 
-// A number of `bits` bits, from the highest on, as a path through a binary tree.
+// A number of `bits` bits, from the highest on: a path through a binary tree with a model at each node.
 template <class Coder, class Model, std::size_t count>
 std::size_t code_path(Coder& coder, std::array<Model, count>& models, int bits, std::size_t value) {
     std::size_t node = 1;
@@ -58,7 +58,7 @@ std::size_t code_path(Coder& coder, std::array<Model, count>& models, int bits, 
     return node - (std::size_t{1} << bits);
 }
 
-// The place of the last level that is not zero, as a path through a binary tree.
+// The place of the last level that is not zero.
 template <class Coder, class Model>
 std::size_t code_last(Coder& coder, std::array<Model, block_samples>& models, const LevelOrder& order,
                       const Levels& levels) {
@@ -69,7 +69,7 @@ std::size_t code_last(Coder& coder, std::array<Model, block_samples>& models, co
     return code_path(coder, models, 6, last);
 }
 
-// Which basis, as a number in unary.
+// The number of the basis, in unary.
 template <class Coder, class Model>
 std::uint8_t code_basis(Coder& coder, std::array<Model, bases.size() - 1>& models, std::uint8_t basis) {
     std::uint8_t number = 0;
@@ -83,7 +83,7 @@ void code_levels(Coder& coder, std::array<typename Coder::Models::ForLevels, 3>&
     auto& models = of_bases[basis.cosines() ? 0 : basis.samples() ? 1 : 2];
     const LevelOrder& order = order_of_levels(basis);
     const std::size_t last = code_last(coder, models.last, order, levels);
-    // From there down to the first one; what stands on the right and below is known then, and tells much.
+    // Back to the first one, so that the levels to the right and below are known, which are good contexts.
     std::array<std::array<std::uint8_t, block_side + 2>, block_side + 2> seen{};
     std::array<std::array<std::uint8_t, block_side + 1>, block_side + 1> signs{};  // 1: positive, 2: negative
     for (std::size_t n = last + 1; n-- > 0;) {
@@ -96,13 +96,13 @@ void code_levels(Coder& coder, std::array<typename Coder::Models::ForLevels, 3>&
         std::int32_t& level = levels[order[n]];
         std::uint32_t magnitude = static_cast<std::uint32_t>(std::abs(level));
         if (n == last || coder.bit(models.significant[around][place], magnitude > 0)) {
-            if (!coder.bit(models.beyond_one[around][place], magnitude > 1))
+            if (!coder.bit(models.above_one[around][place], magnitude > 1))
                 magnitude = 1;
-            else if (!coder.bit(models.beyond_two[around], magnitude > 2))
+            else if (!coder.bit(models.above_two[around], magnitude > 2))
                 magnitude = 2;
             else
                 magnitude = 3 + code_number(coder, models.rest[around], magnitude - 3);
-            // What is left of an edge has one sign along it.
+            // The residual along an edge has one sign.
             const bool negative = basis.cosines() ? coder.even(level < 0)
                                                   : coder.bit(models.sign[basis.cosines_u ? 0 : signs[row][column + 1]]
                                                                          [basis.cosines_v ? 0 : signs[row + 1][column]],

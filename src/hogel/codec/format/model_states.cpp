@@ -9,9 +9,9 @@ namespace hogel::codec::format {
 namespace {
 
 constexpr int max_state = 40;
-constexpr double bits_of_change = 7;  // what it takes to tell another state, about
+constexpr double bits_of_change = 7;  // about what a changed state costs
 
-// Where a state is in a table.
+// Index of a state in a table.
 std::size_t place_of(int state) {
     const int place = state + max_state;
     return static_cast<std::size_t>(place);
@@ -19,7 +19,7 @@ std::size_t place_of(int state) {
 
 struct Probabilities {
     std::array<std::uint16_t, 2 * max_state + 1> zero;          // of 2¹⁶
-    std::array<std::array<double, 2>, 2 * max_state + 1> bits;  // that a zero and a one take
+    std::array<std::array<double, 2>, 2 * max_state + 1> bits;  // cost of a zero and of a one
     Probabilities() {
         for (int state = -max_state; state <= max_state; ++state) {
             const double p = 1 / (1 + std::exp2(-state / 4.0));
@@ -47,15 +47,15 @@ ModelStates::ModelStates() {
 ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& before) {
     for (const BitCount& count : counts) {
         const int old = before.states_[states_.size()];
-        if (count[0] + count[1] == 0) {  // as of most in small tiles
+        if (count[0] + count[1] == 0) {  // most models in small tiles
             states_.push_back(old);
             continue;
         }
         // The nearest state to the ratio that was counted is as good as the best one.
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
         const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -max_state, max_state);
-        const bool worth_it = bits_for(count, found) + bits_of_change < bits_for(count, old);
-        states_.push_back(worth_it ? found : old);
+        const bool pays = bits_for(count, found) + bits_of_change < bits_for(count, old);
+        states_.push_back(pays ? found : old);
     }
 }
 
@@ -74,7 +74,7 @@ BlockModels ModelStates::models() const {
 
 template <class Coder>
 void ModelStates::code(Coder& coder, const ModelStates& before) {
-    std::array<coding::BitModel, 2> changed;  // by whether the one before has
+    std::array<coding::BitModel, 2> changed;  // by whether the state before has changed
     coding::BitModel sign;
     std::array<coding::BitModel, max_number_bits + 1> size;
     bool last = false;

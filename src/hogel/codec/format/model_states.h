@@ -8,20 +8,20 @@
 
 namespace hogel::codec::format {
 
-// Where the models of all hogels of a level begin, so that each can be decoded without having seen the others: the
-// logarithm of zeros to ones, in quarters of a bit, of each model in order.
+// The states in which the models of all hogels of a layer start, so that each hogel can be decoded without the others:
+// for each model, in order, the logarithm of the ratio of zeros to ones in quarters of a bit.
 class ModelStates {
   public:
-    // Nothing is known.
+    // Even: zeros and ones are equally likely.
     ModelStates();
-    // Those that suit what was counted of each; as before where another is not worth telling.
+    // Those that suit counted bits; as before where a change would cost more than it gains.
     ModelStates(std::span<const BitCount> counts, const ModelStates& before);
 
     std::size_t count() const { return states_.size(); }
     BlockModels models() const;
     std::vector<coding::BitModel> models_in_order() const;
 
-    // Writes them as what is new since `before`, or reads them.
+    // Writes them as changes from `before`, or reads them.
     template <class Coder>
     void code(Coder& coder, const ModelStates& before);
 
@@ -29,7 +29,7 @@ class ModelStates {
     std::vector<int> states_;
 };
 
-// The lengths of codes that follow each other.
+// The lengths of the codes of a layer.
 class CodeLengths {
   public:
     template <class Coder>

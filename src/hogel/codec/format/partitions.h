@@ -9,22 +9,22 @@
 
 namespace hogel::codec::format {
 
-// Where a nearer surface ends within a block, a straight line cuts it into two parts: the main one, which holds its
-// middle, and what lies beyond the line.
+// Where a nearer surface ends inside a block, a straight edge splits the block into two partitions: the main one, which
+// holds its middle, and the second one.
 
-constexpr std::size_t line_angles = 32, line_places = 4;
-static_assert(line_angles * line_places == block_lines);
+constexpr std::size_t edge_angles = 32, edge_offsets = 4;
+static_assert(edge_angles * edge_offsets == block_edges);
 
-// Line `place` places from the middle of a block, seen from there at an angle of `angle` 32nds of a turn. A place is a
-// sample for lines along the rows and columns, and √2 samples for those across.
-constexpr std::size_t line_number(std::size_t angle, std::size_t place) { return angle * line_places + place; }
+// The edge whose normal has an angle of `angle` 32nds of a full turn, at a distance of `offset` from the middle of the
+// block, in units of one sample for edges along rows and columns and of √2 samples for diagonal ones.
+constexpr std::size_t edge_number(std::size_t angle, std::size_t offset) { return angle * edge_offsets + offset; }
 
-// A bit for each sample of a block, from the lowest on: whether it lies beyond the line.
-std::uint64_t samples_beyond(std::size_t line);
-// The same row by row.
-const LinesInRows& lines_in_rows();
+// A bit for each sample of a block, from the lowest on: whether it belongs to the second partition.
+std::uint64_t partition_mask(std::size_t edge);
+// The masks of all edges as cuts of their rows.
+const EdgeRowCuts& edge_row_cuts();
 
-// Puts what lies beyond a line in place of what is there.
-void put_beyond(std::size_t line, const BlockSamples& beyond, BlockSamples& block);
+// Replaces the samples of the second partition of `block` by those of `second`.
+void put_second_partition(std::size_t edge, const BlockSamples& second, BlockSamples& block);
 
 }  // namespace hogel::codec::format

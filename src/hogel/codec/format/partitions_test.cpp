@@ -9,34 +9,34 @@
 namespace hogel::codec::format {
 namespace {
 
-TEST(Parts, main_part_holds_the_middle) {
-    for (std::size_t angle = 0; angle < line_angles; ++angle) {
-        const std::size_t opposite = (angle + line_angles / 2) % line_angles;
-        // Through the middle there are two ways to name a line.
-        EXPECT_EQ(samples_beyond(line_number(angle, 0)) & samples_beyond(line_number(opposite, 0)), 0u) << angle;
-        for (std::size_t place = 0; place < line_places; ++place) {
-            const std::size_t line = line_number(angle, place);
-            const std::uint64_t beyond = samples_beyond(line);
-            EXPECT_GT(std::popcount(beyond), 0) << angle << ", " << place;
-            EXPECT_LE(std::popcount(beyond), 32) << angle << ", " << place;
-            if (place > 0) {
-                const std::uint64_t nearer = samples_beyond(line_number(angle, place - 1));
-                EXPECT_EQ(beyond & nearer, beyond);
-                EXPECT_NE(beyond, nearer);
+TEST(Partitions, main_partition_holds_the_middle) {
+    for (std::size_t angle = 0; angle < edge_angles; ++angle) {
+        const std::size_t opposite = (angle + edge_angles / 2) % edge_angles;
+        // An edge through the middle has two names, which swap the partitions.
+        EXPECT_EQ(partition_mask(edge_number(angle, 0)) & partition_mask(edge_number(opposite, 0)), 0u) << angle;
+        for (std::size_t offset = 0; offset < edge_offsets; ++offset) {
+            const std::size_t edge = edge_number(angle, offset);
+            const std::uint64_t mask = partition_mask(edge);
+            EXPECT_GT(std::popcount(mask), 0) << angle << ", " << offset;
+            EXPECT_LE(std::popcount(mask), 32) << angle << ", " << offset;
+            if (offset > 0) {
+                const std::uint64_t nearer = partition_mask(edge_number(angle, offset - 1));
+                EXPECT_EQ(mask & nearer, mask);
+                EXPECT_NE(mask, nearer);
             }
             for (std::size_t n = 0; n < block_samples; ++n)
                 EXPECT_EQ(
-                    sample_in_cut(n % block_side, static_cast<std::size_t>(lines_in_rows()[n / block_side][line])),
-                    (beyond >> n & 1) != 0);
+                    sample_in_cut(n % block_side, static_cast<std::size_t>(edge_row_cuts()[n / block_side][edge])),
+                    (mask >> n & 1) != 0);
         }
     }
     // The last column; the last three rows.
-    EXPECT_EQ(samples_beyond(line_number(0, 3)), 0x8080808080808080u);
-    EXPECT_EQ(samples_beyond(line_number(8, 1)), 0xFFFFFF0000000000u);
+    EXPECT_EQ(partition_mask(edge_number(0, 3)), 0x8080808080808080u);
+    EXPECT_EQ(partition_mask(edge_number(8, 1)), 0xFFFFFF0000000000u);
 }
 
-// A surface that moves by two directions from hogel to hogel covers one that does not move, from a column on.
-TEST(Parts, are_found_where_a_surface_ends) {
+// From a column on, a surface with a disparity of two directions covers one with none.
+TEST(Partitions, are_found_where_a_surface_ends) {
     constexpr int disparity = 2, edge = 13;
     const HogelOrder order(5, 1, 1, 1);
     const auto shown = [](int i, int u, int v) {
@@ -52,26 +52,26 @@ TEST(Parts, are_found_where_a_surface_ends) {
     ASSERT_EQ(middle.s, 1u);
     const std::array<float, 5> noise{1, 1, 1, 1, 1};
     ReferenceWeights weights(middle, noise, 1);
-    BlockSamples wanted, prediction;
-    for (std::size_t n = 0; n < block_samples; ++n) wanted[n] = shown(0, 8 + int(n % 8), int(n / 8));
+    BlockSamples target, prediction;
+    for (std::size_t n = 0; n < block_samples; ++n) target[n] = shown(0, 8 + int(n % 8), int(n / 8));
     Candidates candidates;
     candidates.add(0);
     candidates.add(disparity * shift_unit);
-    encode::SeenBlocks seen(middle, pictures);
-    seen.go_to(8, 0);
-    encode::PartSearch parts(seen, weights);
-    parts.begin(wanted, candidates, 1e-4f);
-    const auto block = parts.best(prediction);
+    encode::WarpedBlocks warped(middle, pictures);
+    warped.go_to(8, 0);
+    encode::PartitionSearch partitions(warped, weights);
+    partitions.begin(target, candidates, 1e-4f);
+    const auto block = partitions.best(prediction);
     ASSERT_TRUE(block);
-    EXPECT_EQ(block->mode, parted);
-    EXPECT_EQ(samples_beyond(block->line), samples_beyond(line_number(0, 1)));
+    EXPECT_EQ(block->mode, mode_partitioned);
+    EXPECT_EQ(partition_mask(block->edge), partition_mask(edge_number(0, 1)));
     EXPECT_EQ(block->disparity, 0);
-    EXPECT_EQ(block->disparity_beyond, disparity * shift_unit);
-    // To the right the near surface covers more of what is behind.
+    EXPECT_EQ(block->second_disparity, disparity * shift_unit);
+    // From the right the near surface covers more of the far one.
     EXPECT_EQ(block->side[0], static_cast<int>(ReferenceWeights::Side::left));
-    EXPECT_EQ(squared_difference(prediction, wanted), 0);
-    ASSERT_TRUE(predict_parts(pictures, middle, *block, choices_of(*block, weights), 0, 8, 0, prediction));
-    EXPECT_EQ(squared_difference(prediction, wanted), 0);
+    EXPECT_EQ(squared_difference(prediction, target), 0);
+    ASSERT_TRUE(predict_partitions(pictures, middle, *block, choices_of(*block, weights), 0, 8, 0, prediction));
+    EXPECT_EQ(squared_difference(prediction, target), 0);
 }
 
 }  // namespace

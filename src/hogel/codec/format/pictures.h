@@ -12,15 +12,14 @@
 
 namespace hogel::codec::format {
 
-// A hogel's channels, filled up to whole blocks by their last samples, apart in luminance and chrominance. `s` and `t`
-// count within the tile.
+// The channels of a hogel of a tile, padded to whole blocks by their last samples, as luminance and chrominance.
 Picture picture_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
-// The same with its colours.
+// The same as red, green and blue.
 Picture copy_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
-// The same where it lies, of whole blocks; it must not outlive the tile.
+// The hogel in place in the tile, whose hogels must be whole blocks. Must not outlive the tile.
 Picture as_in_tile(LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
 
-// The way back, row by row: use(channel, v, samples).
+// Calls use(channel, v, samples) with the rows of a picture, as red, green and blue and without padding.
 template <class Use>
 void for_each_row(const Picture& picture, const TileSetup& setup, Use&& use) {
     std::array<std::vector<float>, 3> row;

@@ -8,8 +8,8 @@
 namespace hogel::codec::format {
 namespace {
 
-// Interpolation at each 64th between two samples: a sinc windowed by a wider sinc (Lanczos), in units of 2^-14 so that
-// every machine has the same.
+// Interpolation at each 64th between two samples: a sinc windowed by a wider sinc (Lanczos), rounded to multiples of
+// 2^-14 so that every machine has the same.
 struct Filters {
     std::array<Taps, shift_unit> of;
     Filters() {
@@ -29,7 +29,7 @@ struct Filters {
 };
 const Filters filters;
 
-// What interpolation at a fraction adds to the noise of a sample, because samples alias: sin² of it, in units of 2^-14.
+// The noise that interpolation at a fraction adds, because samples alias: sin² of it, rounded to multiples of 2^-14.
 struct AliasTable {
     std::array<float, shift_unit> of;
     AliasTable() {
@@ -41,6 +41,7 @@ struct AliasTable {
 };
 const AliasTable alias;
 
+// Weights of the expected noise, relative to that of aliasing.
 constexpr float noise_weight = 0.03f, distance_weight = 0.003f;
 
 std::size_t fraction_of(int shift) { return static_cast<std::size_t>(shift & (shift_unit - 1)); }
@@ -55,10 +56,10 @@ ReferenceWeights::Side side_of(const HogelOrder::Reference& reference) {
 
 void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t columns, std::size_t rows) {
     const auto width = static_cast<std::ptrdiff_t>(plane.width), height = static_cast<std::ptrdiff_t>(plane.height);
-    // Of each row so many samples are the first one, then so many lie within.
+    // Samples of each row before the plane's left border, and before its right border.
     const auto count = static_cast<std::ptrdiff_t>(columns);
     const std::ptrdiff_t first = std::clamp<std::ptrdiff_t>(-x, 0, count);
-    const std::ptrdiff_t within = std::clamp<std::ptrdiff_t>(width - x, 0, count);
+    const std::ptrdiff_t inside = std::clamp<std::ptrdiff_t>(width - x, 0, count);
     float* to = copy_.data();
     const float* before = nullptr;
     for (std::size_t r = 0; r < rows; ++r, to += window_side) {
@@ -70,41 +71,40 @@ void PlaneWindow::copy(const Plane& plane, std::ptrdiff_t x, std::ptrdiff_t y, s
         }
         before = from;
         std::fill(to, to + first, from[0]);
-        if (first < within) std::copy_n(from + (x + first), within - first, to + first);
-        std::fill(to + std::max(first, within), to + count, from[width - 1]);
+        if (first < inside) std::copy_n(from + (x + first), inside - first, to + first);
+        std::fill(to + std::max(first, inside), to + count, from[width - 1]);
     }
     rows_ = copy_.data();
     stride_ = window_side;
 }
 
-void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& block) {
+void fetch_warped(const Plane& plane, int x, int y, Shift shift, BlockSamples& block) {
     struct Axis {
         int first;
         std::size_t count;
         const Taps* weights;
     };
-    const auto along = [](int at, int moved) {
-        const std::size_t fraction = fraction_of(moved);
-        if (fraction == 0) return Axis{at + (moved >> 6), block_side, nullptr};
-        return Axis{at + (moved >> 6) - int(taps_before), window_side, &filters.of[fraction]};
+    const auto along = [](int at, int by) {
+        const std::size_t fraction = fraction_of(by);
+        if (fraction == 0) return Axis{at + (by >> 6), block_side, nullptr};
+        return Axis{at + (by >> 6) - int(taps_before), window_side, &filters.of[fraction]};
     };
     const Axis u = along(x, shift.u), v = along(y, shift.v);
     const PlaneWindow window(plane, u.first, v.first, u.count, v.count);
-    // Whoever looks here soon looks at blocks farther to the right.
+    // Blocks farther to the right are fetched soon.
     constexpr std::size_t ahead = 4 * block_side;
     for (std::size_t r = 0; r < v.count; ++r) __builtin_prefetch(window.rows() + r * window.stride() + ahead);
     interpolate_block(window.rows(), window.stride(), u.weights, v.weights, block);
 }
 
-BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift) {
+BlockRange fetched_blocks(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift) {
     struct Ends {
         std::size_t first, last;
     };
-    // Along one axis; whole directions are taken as they are.
-    const auto along = [](std::size_t block, std::size_t count, int moved) {
-        const bool interpolated = fraction_of(moved) > 0;
+    const auto along = [](std::size_t block, std::size_t count, int by) {
+        const bool interpolated = fraction_of(by) > 0;
         const auto side = static_cast<std::ptrdiff_t>(block_side), end = static_cast<std::ptrdiff_t>(count) * side;
-        const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(block) * side + (moved >> 6);
+        const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(block) * side + (by >> 6);
         const auto block_at = [&](std::ptrdiff_t sample) {
             return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(sample, 0, end - 1) / side);
         };
@@ -134,7 +134,7 @@ const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
     for (std::uint32_t k = 0; k < fixed_.size(); ++k) {
         const Shift shift = shift_of(disparity, hogel_.references[k], aspect_);
         const float here = fixed_[k].cost + alias.of[fraction_of(shift.u)] + alias.of[fraction_of(shift.v)];
-        // The first `most` of a side by their cost, of equal ones the earlier.
+        // Keeps the `most` references of a side with the least noise; of equal ones the earlier.
         const auto offer = [&](Side side, std::uint32_t most) {
             auto& costs = cost[static_cast<std::size_t>(side)];
             Choice& choice = kept.choices[static_cast<std::size_t>(side)];
@@ -161,7 +161,7 @@ const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
         Choice& choice = kept.choices[side];
         choice.weight[0] = 1;
         if (choice.count < 2) continue;
-        // Weights as the inverse of the noise that is expected.
+        // Weights in inverse proportion to the expected noise.
         choice.weight[0] = cost[side][1] / (cost[side][0] + cost[side][1]);
         choice.weight[1] = 1 - choice.weight[0];
     }

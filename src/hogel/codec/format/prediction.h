@@ -15,8 +15,8 @@
 
 namespace hogel::codec::format {
 
-// Samples of one hogel and channel, [v][u], filled up to whole blocks: its own, which mean nothing at first, or
-// somebody else's.
+// The samples of one channel of a hogel, [v][u], padded to whole blocks: in memory of its own, not initialised, or
+// elsewhere.
 class Plane {
   public:
     std::size_t width, height;
@@ -26,7 +26,7 @@ class Plane {
         : width(w), height(h), own_(allocate(w * h, memory)) {
         samples = {own_.get(), w * h};
     }
-    Plane(std::size_t w, std::size_t h, float* of_others) : width(w), height(h), samples(of_others, w * h) {}
+    Plane(std::size_t w, std::size_t h, float* elsewhere) : width(w), height(h), samples(elsewhere, w * h) {}
 
   private:
     struct Return {
@@ -44,7 +44,8 @@ class Plane {
     Own own_{nullptr, Return{}};
 };
 
-// A window of a plane, which goes on as its edges are: where it lies, or a copy where it reaches over an edge.
+// A window of a plane, which repeats its outermost samples beyond its borders: in place, or a copy where it reaches
+// over a border.
 class PlaneWindow {
   public:
     // @param columns, rows   at most window_side
@@ -71,14 +72,14 @@ class PlaneWindow {
     std::array<float, window_side * window_side> copy_;
 };
 
-// Directions along u and v by which what a block shows moves from a hogel to another, in 64ths.
+// By how many directions along u and v the content of a block is shifted in another hogel, in 64ths.
 constexpr int shift_unit = 64;
 struct Shift {
     int u = 0, v = 0;
 };
 
-// Disparity: how many directions (in u, in 64ths) what a block shows moves from one hogel to the next: ΔU-steps of
-// d/ζ. It moves `aspect` times as many directions in v.
+// Disparity: by how many directions along u, in 64ths, the content of a block is shifted from one hogel to the next,
+// 64 d/(ζ ΔU). Along v it is shifted by `aspect` = ΔU/ΔV times as many.
 constexpr int max_disparity = 1 << 14;
 inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
     if (reference.dt == 0) return {-disparity * reference.ds, 0};
@@ -87,31 +88,31 @@ inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, flo
     return {-disparity * reference.ds, static_cast<int>(std::clamp(v, -1e9, 1e9))};
 }
 
-// The block at (x, y) as the plane shows it, moved; six-tap interpolation, the plane continued by its edges. Depends
-// on the order of the additions, which is part of the format.
-void fetch_moved(const Plane& plane, int x, int y, Shift shift, BlockSamples& block);
+// The shifted block at (x, y) of a plane, interpolated by six taps; beyond its borders the plane repeats its outermost
+// samples. The order of the additions is part of the format.
+void fetch_warped(const Plane& plane, int x, int y, Shift shift, BlockSamples& block);
 
-// Which whole blocks fetch_moved() looks at, for the block in this column and row.
+// The blocks that fetch_warped() reads for the block in a column and row.
 struct BlockRange {
     std::size_t first_column, last_column, first_row, last_row;
 };
-BlockRange blocks_seen(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift);
+BlockRange fetched_blocks(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift);
 
-// Which hogels a block is predicted from: those that are likely to show it best at its disparity.
+// Chooses the references that a block is predicted from: those with the least expected noise at its disparity.
 class ReferenceWeights {
   public:
-    // @param noise   of each reference, relative to that of the best
+    // @param noise   of quantisation, of each hogel of the order, relative to that of the first layer
     ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect);
 
     enum class Side { any, left, right, above, below };
     static constexpr std::size_t sides = 5;
     struct Choice {
         std::uint32_t count;
-        std::array<std::uint32_t, 2> reference;  // of hogel.references
+        std::array<std::uint32_t, 2> reference;  // indices of hogel.references
         std::array<float, 2> weight;             // their sum is 1
         std::array<Shift, 2> shift;
     };
-    // The best two for any side, the best one for one. None where there is nothing on that side. Valid until the next
+    // The best two for any side, the best one for a single side; none if there is no reference. Valid until the next
     // call.
     const Choice& choose(int disparity, Side side) { return choices_for(disparity)[static_cast<std::size_t>(side)]; }
 
@@ -122,7 +123,7 @@ class ReferenceWeights {
         Choices choices;
     };
     struct Fixed {
-        float cost;  // whatever the shift is
+        float cost;  // the part of the noise that does not depend on the shift
         Side side;
     };
 
@@ -131,7 +132,7 @@ class ReferenceWeights {
     const HogelOrder::Hogel& hogel_;
     std::vector<Fixed> fixed_;  // of each reference
     float aspect_;
-    // Of the disparities asked for last, as neighbouring blocks ask for the same ones.
+    // A cache, as neighbouring blocks have the same disparities.
     static constexpr std::size_t kept_choices = 64;
     std::unique_ptr<Kept[]> kept_;
 };

@@ -12,7 +12,7 @@ namespace hogel::codec::format {
 namespace {
 
 struct Cosines {
-    // [frequency][sample] and transposed, in units of 2^-20 so that every machine has the same.
+    // [frequency][sample] and transposed, rounded to multiples of 2^-20 so that every machine has the same.
     std::array<BlockSamples, 2> of;
     Cosines() {
         for (std::size_t k = 0; k < block_side; ++k)
@@ -46,7 +46,7 @@ TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_
       width(directions_u),
       height(directions_v),
       aspect(v_per_u),
-      step(static_cast<std::size_t>(order.levels())),
+      step(static_cast<std::size_t>(order.layers())),
       memory(std::make_unique<PictureMemory>(grid.count() * block_samples * sizeof(float),
                                              order.hogels().size() * grid.channels)) {
     set_steps(finest_step, step_growth);
@@ -54,10 +54,10 @@ TileSetup::TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_
 
 void TileSetup::set_steps(float finest, float growth) {
     step.back() = finest;
-    for (std::size_t level = step.size() - 1; level-- > 0;) step[level] = step[level + 1] / growth;
+    for (std::size_t layer = step.size() - 1; layer-- > 0;) step[layer] = step[layer + 1] / growth;
     noise.clear();
     for (const HogelOrder::Hogel& hogel : order.hogels()) {
-        const float ratio = step[static_cast<std::size_t>(hogel.level)] / step[0];
+        const float ratio = step[static_cast<std::size_t>(hogel.layer)] / step[0];
         noise.push_back(ratio * ratio);
     }
 }
@@ -79,19 +79,21 @@ void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& 
 
 namespace {
 
-// A block as its edges go on along a direction: that of the first edge, in halves of a sample from one line to the
-// next. Its samples are from the corner on; where the direction leaves it behind, the other edge's are.
-using Edge = std::array<float, 1 + 2 * block_side>;
-float along_direction(const Edge& edge, const Edge& other, int halves, int along, int line) {
-    const int at = 2 * along + halves * (line + 1), beyond = 1 + line + 2 * (along + 1) / halves;
-    if (at < -2) return other[static_cast<std::size_t>(beyond)];
+// The decoded samples along one side of a block, from the corner on.
+using Border = std::array<float, 1 + 2 * block_side>;
+// A sample of a block, `along` samples along the first border and `away` from it, where the borders continue along a
+// direction. Where the direction leads past the corner, the sample comes from the other border.
+// @param halves   of a sample that the direction moves along the first border from one row to the next
+float along_direction(const Border& border, const Border& other, int halves, int along, int away) {
+    const int at = 2 * along + halves * (away + 1), on_other = 1 + away + 2 * (along + 1) / halves;
+    if (at < -2) return other[static_cast<std::size_t>(on_other)];
     const std::size_t index = static_cast<std::size_t>(at + 2) / 2;
-    return at % 2 == 0 ? edge[index] : 0.5f * (edge[index] + edge[index + 1]);
+    return at % 2 == 0 ? border[index] : 0.5f * (border[index] + border[index + 1]);
 }
 
-void predict_along(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block) {
-    // Beyond its last sample an edge goes on as it is, so does the plane beyond its first ones.
-    Edge left, above;
+void predict_along(const Plane& plane, std::size_t x, std::size_t y, int predictor, BlockSamples& block) {
+    // Each border repeats its last known sample. A missing border repeats the first sample of the other one.
+    Border left, above;
     const auto sample = [&](std::size_t column, std::size_t row) { return plane.samples[row * plane.width + column]; };
     const bool on_left = x > 0, on_top = y > 0;
     const float none = on_left ? sample(x - 1, y) : on_top ? sample(x, y - 1) : 0;
@@ -100,21 +102,22 @@ void predict_along(const Plane& plane, std::size_t x, std::size_t y, int how, Bl
         left[1 + k] = on_left ? sample(x - 1, y + std::min(k, block_side - 1)) : none;
         above[1 + k] = on_top ? sample(std::min(x + k, plane.width - 1), y - 1) : none;
     }
-    constexpr std::array<int, within_modes - first_direction> halves{2, 1, -1, -2, -1, 1};
-    constexpr int left_from = first_direction + 4;  // the first ones go on with what is above
-    const int slope = halves[static_cast<std::size_t>(how - first_direction)];
+    constexpr std::array<int, intra_predictors - first_directional> halves{2, 1, -1, -2, -1, 1};
+    constexpr int left_from = first_directional + 4;  // the ones before it continue the border above
+    const int slope = halves[static_cast<std::size_t>(predictor - first_directional)];
     for (int r = 0; r < static_cast<int>(block_side); ++r)
         for (int c = 0; c < static_cast<int>(block_side); ++c)
             block[static_cast<std::size_t>(r) * block_side + static_cast<std::size_t>(c)] =
-                how < left_from ? along_direction(above, left, slope, c, r) : along_direction(left, above, slope, r, c);
+                predictor < left_from ? along_direction(above, left, slope, c, r)
+                                      : along_direction(left, above, slope, r, c);
 }
 
 }  // namespace
 
-void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, BlockSamples& block) {
-    // Where one of the edges is missing the other's first sample stands for it; in the first block both are 0.
+void predict_intra(const Plane& plane, std::size_t x, std::size_t y, int predictor, BlockSamples& block) {
+    // A missing border repeats the first sample of the other one; in the first block both are 0.
     float left[block_side] = {}, above[block_side] = {};
-    if (how >= first_direction) return predict_along(plane, x, y, how, block);
+    if (predictor >= first_directional) return predict_along(plane, x, y, predictor, block);
     const auto sample = [&](std::size_t column, std::size_t row) { return plane.samples[row * plane.width + column]; };
     for (std::size_t k = 0; k < block_side; ++k) {
         left[k] = x > 0 ? sample(x - 1, y + k) : y > 0 ? sample(x, y - 1) : 0;
@@ -124,16 +127,16 @@ void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, B
         for (std::size_t r = 0; r < block_side; ++r)
             for (std::size_t c = 0; c < block_side; ++c) block[r * block_side + c] = value(r, c);
     };
-    if (how == 0) {  // a surface through both edges
+    if (predictor == 0) {  // a surface through both borders
         constexpr std::array<float, block_side + 1> number{0, 1, 2, 3, 4, 5, 6, 7, 8};
         fill([&](std::size_t r, std::size_t c) {
             return (number[7 - c] * left[r] + number[c + 1] * above[7] + number[7 - r] * above[c] +
                     number[r + 1] * left[7]) /
                    16;
         });
-    } else if (how == 2) {
+    } else if (predictor == 2) {
         fill([&](std::size_t r, std::size_t) { return left[r]; });
-    } else if (how == 3) {
+    } else if (predictor == 3) {
         fill([&](std::size_t, std::size_t c) { return above[c]; });
     } else {
         float mean = 0;
@@ -143,13 +146,13 @@ void predict_within(const Plane& plane, std::size_t x, std::size_t y, int how, B
     }
 }
 
-bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
-                    const ReferenceWeights::Choice& choice, std::size_t channel, std::size_t x, std::size_t y,
-                    BlockSamples& block) {
+bool predict_inter(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
+                   const ReferenceWeights::Choice& choice, std::size_t channel, std::size_t x, std::size_t y,
+                   BlockSamples& block) {
     if (choice.count == 0) return false;
     const auto fetch = [&](std::size_t k, BlockSamples& to) {
-        fetch_moved(pictures[hogel.references[choice.reference[k]].hogel][channel], static_cast<int>(x),
-                    static_cast<int>(y), choice.shift[k], to);
+        fetch_warped(pictures[hogel.references[choice.reference[k]].hogel][channel], static_cast<int>(x),
+                     static_cast<int>(y), choice.shift[k], to);
     };
     fetch(0, block);
     if (choice.count == 2) {
@@ -162,31 +165,35 @@ bool predict_across(const std::vector<Picture>& pictures, const HogelOrder::Hoge
 
 BlockChoices choices_of(const Block& block, ReferenceWeights& weights) {
     using Side = ReferenceWeights::Side;
-    if (block.mode != parted) return {1, {weights.choose(block.disparity, static_cast<Side>(block.mode - 1))}};
+    if (block.mode != mode_partitioned)
+        return {1, {weights.choose(block.disparity, static_cast<Side>(block.mode - mode_any))}};
     BlockChoices choices{2, {weights.choose(block.disparity, static_cast<Side>(block.side[0]))}};
-    choices.of[1] = weights.choose(block.disparity_beyond, static_cast<Side>(block.side[1]));
+    choices.of[1] = weights.choose(block.second_disparity, static_cast<Side>(block.side[1]));
     return choices;
 }
 
-bool predict_parts(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel, const Block& block,
-                   const BlockChoices& choices, std::size_t channel, std::size_t x, std::size_t y,
-                   BlockSamples& prediction) {
-    if (!predict_across(pictures, hogel, choices.of[0], channel, x, y, prediction)) return false;
-    if (choices.parts == 1) return true;
-    BlockSamples beyond;
-    if (!predict_across(pictures, hogel, choices.of[1], channel, x, y, beyond)) return false;
-    put_beyond(block.line, beyond, prediction);
+bool predict_partitions(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel, const Block& block,
+                        const BlockChoices& choices, std::size_t channel, std::size_t x, std::size_t y,
+                        BlockSamples& prediction) {
+    if (!predict_inter(pictures, hogel, choices.of[0], channel, x, y, prediction)) return false;
+    if (choices.partitions == 1) return true;
+    BlockSamples second;
+    if (!predict_inter(pictures, hogel, choices.of[1], channel, x, y, second)) return false;
+    put_second_partition(block.edge, second, prediction);
     return true;
 }
 
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
-                 Basis basis, float step, float beyond_level) {
+                 Basis basis, float step, float reconstruction_offset) {
     BlockSamples residual;
     if (levels) {
         BlockSamples coefficients;
         for (std::size_t k = 0; k < block_samples; ++k) {
             const auto level = static_cast<float>((*levels)[k]);
-            coefficients[k] = (level + (level > 0 ? beyond_level : level < 0 ? -beyond_level : 0)) * step;
+            coefficients[k] = (level + (level > 0   ? reconstruction_offset
+                                        : level < 0 ? -reconstruction_offset
+                                                    : 0)) *
+                              step;
         }
         inverse_transform_block(basis, coefficients, residual);
     }
@@ -204,7 +211,7 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
                  std::vector<Picture>& pictures) {
     const HogelOrder::Hogel& place = setup.order.hogels()[hogel];
     ReferenceWeights weights(place, setup.noise, setup.aspect);
-    const float step = setup.step[static_cast<std::size_t>(place.level)];
+    const float step = setup.step[static_cast<std::size_t>(place.layer)];
     if (pictures[hogel].empty()) pictures[hogel] = setup.blank();
     Picture& picture = pictures[hogel];
     auto levels = coded.levels.begin();
@@ -217,16 +224,16 @@ void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& co
         }
         const std::size_t x = k % setup.grid.columns * block_side, y = k / setup.grid.columns * block_side;
         BlockChoices choices;
-        if (block.mode > 0) choices = choices_of(block, weights);
+        if (block.mode != mode_intra) choices = choices_of(block, weights);
         for (std::size_t c = 0; c < setup.grid.channels; ++c) {
-            if (block.mode == 0)
-                predict_within(picture[c], x, y, block.within, prediction);
-            else if (!predict_parts(pictures, place, block, choices, c, x, y, prediction))
+            if (block.mode == mode_intra)
+                predict_intra(picture[c], x, y, block.intra_predictor, prediction);
+            else if (!predict_partitions(pictures, place, block, choices, c, x, y, prediction))
                 throw Error(ErrorCode::bad_input, "a block is predicted from a hogel that is not there");
             place_block(picture[c], x, y, prediction, block.coded >> c & 1 ? &*levels++ : nullptr,
-                        bases[block.basis[c]], step, setup.beyond_level(block.mode == 0));
+                        bases[block.basis[c]], step, setup.reconstruction_offset(block.mode == mode_intra));
         }
-        blocks[k] = BlockState::made;
+        blocks[k] = BlockState::reconstructed;
     }
 }
 

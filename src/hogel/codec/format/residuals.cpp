@@ -8,7 +8,7 @@
 namespace hogel::codec::format {
 namespace {
 
-// Of a number, how many bits its magnitude has.
+// The number of bits of the magnitude.
 int size_of(std::int32_t number) {
     const auto bits = static_cast<std::uint32_t>(number);
     return std::bit_width(number < 0 ? 0 - bits : bits);
@@ -16,7 +16,7 @@ int size_of(std::int32_t number) {
 
 }  // namespace
 
-ResidualsAround::Context ResidualsAround::at(std::size_t v, std::size_t u, const ResidualsAround* before) const {
+ResidualContexts::Context ResidualContexts::at(std::size_t v, std::size_t u, const ResidualContexts* before) const {
     const std::size_t here = v * width_ + u;
     Context context{0, 0, 2};
     int sum = 0, weights = 0;
@@ -32,25 +32,25 @@ ResidualsAround::Context ResidualsAround::at(std::size_t v, std::size_t u, const
         else
             context.sign += size > 0 ? 1u : size < 0 ? ~std::size_t{0} : 0u;
     };
-    if (u > 0) see_beside(of_[here - 1]);
+    if (u > 0) see_beside(sizes_[here - 1]);
     if (v > 0) {
-        see_beside(of_[here - width_]);
-        if (u > 0) see(of_[here - width_ - 1], 1);
-        if (u + 1 < width_) see(of_[here - width_ + 1], 1);
+        see_beside(sizes_[here - width_]);
+        if (u > 0) see(sizes_[here - width_ - 1], 1);
+        if (u + 1 < width_) see(sizes_[here - width_ + 1], 1);
     }
-    if (before) see(before->of_[here], 2);
+    if (before) see(before->sizes_[here], 2);
     if (weights > 0) context.mean = static_cast<std::size_t>((sum + weights / 2) / weights);
     return context;
 }
 
-void ResidualsAround::set(std::size_t v, std::size_t u, const Residual& residual) {
+void ResidualContexts::set(std::size_t v, std::size_t u, const Residual& residual) {
     int size = residual.special ? static_cast<int>(ResidualModels::special) : size_of(residual.number);
     if (!residual.special && residual.number < 0) size = -size;
-    of_[v * width_ + u] = static_cast<std::int8_t>(size);
+    sizes_[v * width_ + u] = static_cast<std::int8_t>(size);
 }
 
 template <class Coder>
-Residual code_residual(Coder& coder, ResidualModels& models, const ResidualsAround::Context& context,
+Residual code_residual(Coder& coder, ResidualModels& models, const ResidualContexts::Context& context,
                        const Residual& residual) {
     auto& of_size = models.size[context.special][context.mean];
     const unsigned given = residual.special ? unsigned{ResidualModels::special} : unsigned(size_of(residual.number));
@@ -62,7 +62,7 @@ Residual code_residual(Coder& coder, ResidualModels& models, const ResidualsArou
     const bool negative = coder.bit(models.sign[context.sign], residual.number < 0);
     auto magnitude = static_cast<std::uint32_t>(residual.number);
     if (residual.number < 0) magnitude = 0 - magnitude;
-    // The two bits below the highest are not quite even; the others are.
+    // The two bits below the highest have models; the lower ones are as good as even.
     std::uint32_t result = 1;
     int left = static_cast<int>(size) - 1;
     for (int k = 0; k < 2 && left > 0; ++k) {
@@ -73,7 +73,7 @@ Residual code_residual(Coder& coder, ResidualModels& models, const ResidualsArou
     return {static_cast<std::int32_t>(negative ? 0 - result : result), false};
 }
 
-template Residual code_residual(ResidualWriter&, ResidualModels&, const ResidualsAround::Context&, const Residual&);
-template Residual code_residual(ResidualReader&, ResidualModels&, const ResidualsAround::Context&, const Residual&);
+template Residual code_residual(ResidualWriter&, ResidualModels&, const ResidualContexts::Context&, const Residual&);
+template Residual code_residual(ResidualReader&, ResidualModels&, const ResidualContexts::Context&, const Residual&);
 
 }  // namespace hogel::codec::format

@@ -9,40 +9,40 @@
 
 namespace hogel::codec::format {
 
-// What a sample is told beside its prediction: a whole number, or that it is special, which the coder knows the
-// meaning of.
+// The residual of a sample: a whole number, or "special", whose meaning is the coder's.
 struct Residual {
     std::int32_t number = 0;
     bool special = false;
 };
 
-// Adaptive models of residuals: of how many bits a number has, by how many those around it have.
+// Adaptive models of residuals; the size of a number is the number of bits of its magnitude.
 struct ResidualModels {
-    static constexpr std::size_t sizes = 34, special = 33;  // numbers of 0 to 32 bits; special
-    std::array<std::array<std::array<coding::BitModel, 64>, sizes>, 3> size;
-    std::array<coding::BitModel, 5> sign;
-    std::array<std::array<coding::BitModel, 4>, sizes> below_highest;
+    static constexpr std::size_t sizes = 34, special = 33;                    // sizes 0 to 32; special
+    std::array<std::array<std::array<coding::BitModel, 64>, sizes>, 3> size;  // [specials][mean size around]
+    std::array<coding::BitModel, 5> sign;                                     // by the signs to the left and above
+    std::array<std::array<coding::BitModel, 4>, sizes> below_highest;         // [size][bits so far]
 };
 
-// The sizes of the residuals of an array [v][u] so far, negative for negative numbers.
-class ResidualsAround {
+// Contexts of the residuals of an array [v][u]: the sizes of those coded so far, negative for negative numbers.
+class ResidualContexts {
   public:
-    ResidualsAround(std::size_t width, std::size_t height) : width_(width), of_(width * height) {}
+    ResidualContexts(std::size_t width, std::size_t height) : width_(width), sizes_(width * height) {}
 
     struct Context {
-        std::size_t special, mean;  // how many are special on the left and above; the mean size of the others
-        std::size_t sign;           // 0 to 4, from both negative to both positive
+        std::size_t special;  // how many of those to the left and above are special
+        std::size_t mean;     // size of those around that are not special
+        std::size_t sign;     // of those to the left and above, 0 (both negative) to 4 (both positive)
     };
-    // @param before   the array before this one, if there is one
-    Context at(std::size_t v, std::size_t u, const ResidualsAround* before) const;
+    // @param before   the array of the previous channel, or null
+    Context at(std::size_t v, std::size_t u, const ResidualContexts* before) const;
     void set(std::size_t v, std::size_t u, const Residual& residual);
 
   private:
     std::size_t width_;
-    std::vector<std::int8_t> of_;
+    std::vector<std::int8_t> sizes_;
 };
 
-// One function for both: a writer returns what it is given, a reader what it reads.
+// Writer and reader share code_residual(): a writer returns what it is given, a reader what it reads.
 class ResidualWriter {
   public:
     bool bit(coding::BitModel& model, bool value) {
@@ -65,11 +65,11 @@ class ResidualReader {
 };
 
 template <class Coder>
-Residual code_residual(Coder& coder, ResidualModels& models, const ResidualsAround::Context& context,
+Residual code_residual(Coder& coder, ResidualModels& models, const ResidualContexts::Context& context,
                        const Residual& residual);
-extern template Residual code_residual(ResidualWriter&, ResidualModels&, const ResidualsAround::Context&,
+extern template Residual code_residual(ResidualWriter&, ResidualModels&, const ResidualContexts::Context&,
                                        const Residual&);
-extern template Residual code_residual(ResidualReader&, ResidualModels&, const ResidualsAround::Context&,
+extern template Residual code_residual(ResidualReader&, ResidualModels&, const ResidualContexts::Context&,
                                        const Residual&);
 
 }  // namespace hogel::codec::format

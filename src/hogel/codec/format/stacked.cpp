@@ -3,19 +3,20 @@
 
 #include <algorithm>
 
+#include "hogel/codec/format/block_kernels.h"
+
 namespace hogel::codec::format {
 namespace {
 
-constexpr std::size_t max_gathered = 64;  // hogels: eight rows of blocks
-constexpr std::size_t whole_blocks = 8;
+constexpr std::size_t max_stacked = 64;  // rows: eight rows of blocks
 
 bool single_row(const LightFieldGrid& grid) { return grid.directions_v == 1; }
 bool single_column(const LightFieldGrid& grid) { return grid.directions_u == 1 && grid.directions_v > 1; }
 
-// How the hogels of a tile are gathered: those in a row, or in a column, become rows of directions.
-class Gathering {
+// The stacking of a tile: its rows (or columns) of hogels become rows of directions of another light field.
+class Stacking {
   public:
-    Gathering(const LightFieldGrid& grid, const HogelRange& tile)
+    Stacking(const LightFieldGrid& grid, const HogelRange& tile)
         : rows_(single_row(grid)), tile_(tile), directions_(grid.directions()), grid_(grid) {
         grid_.hogels_s = rows_ ? grid.hogels_s : grid.hogels_t;
         grid_.hogels_t = 1;
@@ -23,30 +24,30 @@ class Gathering {
         grid_.directions_v = rows_ ? tile.nt : tile.ns;
     }
 
-    // Of the gathered light field: its tile stands where the hogels are.
+    // The stacked light field, and the range of it that holds a part of the tile.
     const LightFieldGrid& grid() const { return grid_; }
     HogelRange range(const HogelRange& part) const {
         return rows_ ? HogelRange{part.s0, 0, part.ns, 1} : HogelRange{part.t0, 0, part.nt, 1};
     }
 
-    LightFieldTile gather(const LightFieldTile& tile) const {
-        LightFieldTile gathered(grid_, range(tile.range), false);
+    LightFieldTile stack(const LightFieldTile& tile) const {
+        LightFieldTile stacked(grid_, range(tile.range), false);
         for_each_hogel(
             tile.range, [&](std::size_t c, std::size_t t, std::size_t s, std::size_t across, std::size_t down) {
-                std::copy_n(&tile.radiance(c, t, s, 0, 0), directions_, &gathered.radiance(c, 0, across, down, 0));
+                std::copy_n(&tile.radiance(c, t, s, 0, 0), directions_, &stacked.radiance(c, 0, across, down, 0));
             });
-        return gathered;
+        return stacked;
     }
-    void scatter(const LightFieldTile& gathered, LightFieldTile& part) const {
+    void unstack(const LightFieldTile& stacked, LightFieldTile& part) const {
         for_each_hogel(
             part.range, [&](std::size_t c, std::size_t t, std::size_t s, std::size_t across, std::size_t down) {
-                std::copy_n(&gathered.radiance(c, 0, across, down, 0), directions_, &part.radiance(c, t, s, 0, 0));
+                std::copy_n(&stacked.radiance(c, 0, across, down, 0), directions_, &part.radiance(c, t, s, 0, 0));
             });
     }
 
   private:
-    // use(channel, row and column of a hogel in the part, its place among the gathered hogels and its row of
-    // directions)
+    // Calls use(channel, row and column of a hogel in the part, its place among the stacked hogels, its row of
+    // directions there).
     template <class Use>
     void for_each_hogel(const HogelRange& part, Use&& use) const {
         for (std::size_t c = 0; c < grid_.channels; ++c)
@@ -61,63 +62,63 @@ class Gathering {
     LightFieldGrid grid_;
 };
 
-class GatheredTile final : public TileDecoder {
+class StackedTile final : public TileDecoder {
   public:
-    GatheredTile(const Gathering& gathering, std::unique_ptr<TileDecoder> tile)
-        : gathering_(gathering), tile_(std::move(tile)) {}
+    StackedTile(const Stacking& stacking, std::unique_ptr<TileDecoder> tile)
+        : stacking_(stacking), tile_(std::move(tile)) {}
     void read(LightFieldTile& part) override {
-        LightFieldTile gathered(gathering_.grid(), gathering_.range(part.range), false);
-        tile_->read(gathered);
-        gathering_.scatter(gathered, part);
+        LightFieldTile stacked(stacking_.grid(), stacking_.range(part.range), false);
+        tile_->read(stacked);
+        stacking_.unstack(stacked, part);
     }
 
   private:
-    Gathering gathering_;
+    Stacking stacking_;
     std::unique_ptr<TileDecoder> tile_;
 };
 
-class GatheredCoder final : public TileCoder {
+class StackedCoder final : public TileCoder {
   public:
-    GatheredCoder(const LightFieldGrid& grid, CoderOf coder_of) : grid_(grid), coder_of_(std::move(coder_of)) {}
+    StackedCoder(const LightFieldGrid& grid, CoderOf coder_of) : grid_(grid), coder_of_(std::move(coder_of)) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         const bool rows = single_row(grid);
         HogelRange tile{0, 0, grid.hogels_s, grid.hogels_t};
-        std::size_t& gathered = rows ? tile.nt : tile.ns;
-        // Tiles of nearly one size, in whole blocks.
-        const std::size_t all = gathered, tiles = (all + max_gathered - 1) / max_gathered;
-        gathered = std::min(all, ((all + tiles - 1) / tiles + whole_blocks - 1) / whole_blocks * whole_blocks);
-        const Gathering gathering(grid, tile);
-        (rows ? tile.ns : tile.nt) = coder_of_(gathering.grid())->preferred_tile(gathering.grid()).ns;
+        std::size_t& stacked = rows ? tile.nt : tile.ns;
+        // Tiles of nearly equal sizes, in whole blocks.
+        const std::size_t all = stacked, tiles = (all + max_stacked - 1) / max_stacked;
+        stacked = std::min(all, ((all + tiles - 1) / tiles + block_side - 1) / block_side * block_side);
+        const Stacking stacking(grid, tile);
+        (rows ? tile.ns : tile.nt) = coder_of_(stacking.grid())->preferred_tile(stacking.grid()).ns;
         return tile;
     }
 
     bool takes_any_value() const override { return coder_of_(grid_)->takes_any_value(); }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t max_bytes) const override {
-        const Gathering gathering(grid_, tile.range);
-        LightFieldTile gathered = gathering.gather(tile);
-        return coder_of_(gathering.grid())->encode(gathered, step, max_bytes);
+        const Stacking stacking(grid_, tile.range);
+        LightFieldTile stacked = stacking.stack(tile);
+        return coder_of_(stacking.grid())->encode(stacked, step, max_bytes);
     }
 
     void decode(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
-        const Gathering gathering(grid_, tile.range);
-        LightFieldTile gathered(gathering.grid(), gathering.range(tile.range), false);
-        coder_of_(gathering.grid())->decode(bytes, gathered);
-        gathering.scatter(gathered, tile);
+        const Stacking stacking(grid_, tile.range);
+        LightFieldTile stacked(stacking.grid(), stacking.range(tile.range), false);
+        coder_of_(stacking.grid())->decode(bytes, stacked);
+        stacking.unstack(stacked, tile);
     }
 
     std::size_t layers(const HogelRange& tile) const override {
-        const Gathering gathering(grid_, tile);
-        return coder_of_(gathering.grid())->layers(gathering.range(tile));
+        const Stacking stacking(grid_, tile);
+        return coder_of_(stacking.grid())->layers(stacking.range(tile));
     }
 
     std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
                                       const HogelRange& range, std::size_t layers) const override {
-        const Gathering gathering(grid, range);
-        return std::make_unique<GatheredTile>(
-            gathering,
-            coder_of_(gathering.grid())->open(std::move(bytes), gathering.grid(), gathering.range(range), layers));
+        const Stacking stacking(grid, range);
+        return std::make_unique<StackedTile>(
+            stacking,
+            coder_of_(stacking.grid())->open(std::move(bytes), stacking.grid(), stacking.range(range), layers));
     }
 
   private:
@@ -127,7 +128,7 @@ class GatheredCoder final : public TileCoder {
 
 }  // namespace
 
-bool can_gather(std::span<const LightFieldGrid> faces) {
+bool can_stack(std::span<const LightFieldGrid> faces) {
     const LightFieldGrid& front = faces.front();
     return (front.hogels_t > 1 && std::ranges::all_of(faces, single_row)) ||
            (front.hogels_s > 1 && std::ranges::all_of(faces, single_column));
@@ -135,7 +136,7 @@ bool can_gather(std::span<const LightFieldGrid> faces) {
 
 std::unique_ptr<TileCoder> coder_in_layout(StreamLayout layout, const LightFieldGrid& grid, CoderOf coder_of) {
     if (layout != StreamLayout::stacked) return coder_of(grid);
-    return std::make_unique<GatheredCoder>(grid, std::move(coder_of));
+    return std::make_unique<StackedCoder>(grid, std::move(coder_of));
 }
 
 }  // namespace hogel::codec::format

@@ -20,7 +20,7 @@ struct Size {
     std::size_t s, t, u, v;
 };
 
-// In tiles of odd sizes.
+// By default in tiles of odd sizes.
 CompressionOptions in_layout(StreamLayout layout, std::optional<HogelRange> tile = HogelRange{0, 0, 7, 11}) {
     CompressionOptions options;
     options.target = Step{0.05};
@@ -29,13 +29,13 @@ CompressionOptions in_layout(StreamLayout layout, std::optional<HogelRange> tile
     return options;
 }
 
-// What reading these bytes as a stream ends in.
+// The outcome of reading bytes as a stream.
 ErrorCode outcome_of(const TestFolder& folder, const std::vector<std::uint8_t>& bytes) {
     write_bytes(folder / "b.hgl", bytes);
     return code_of([&] { decoded(folder / "b.hgl"); });
 }
 
-// The same light field with rows for columns, of hogels and of directions.
+// The light field with rows and columns exchanged, of hogels and of directions.
 LightFieldBuffer transposed(const LightFieldBuffer& field) {
     LightFieldGrid grid = field.grid();
     std::swap(grid.hogels_s, grid.hogels_t);
@@ -54,8 +54,8 @@ void expect_same(const LightFieldBuffer& a, const LightFieldBuffer& b) {
     for (std::size_t i = 0; i < a.radiance.size(); ++i) ASSERT_EQ(a.radiance.data()[i], b.radiance.data()[i]) << i;
 }
 
-// One that lies flat, its rows of hogels as rows of directions, codes to the same tiles, which decode to the same.
-TEST(Gathered, tiles_are_those_of_rows_of_directions) {
+// A light field whose rows of directions are the rows of hogels of the first one codes to the same tiles.
+TEST(Stacked, tiles_are_those_of_rows_of_directions) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(13, 19, 24, 1, 3);
     LightFieldGrid grid = field.grid();
@@ -72,7 +72,7 @@ TEST(Gathered, tiles_are_those_of_rows_of_directions) {
         compress(field, folder / "a.hgl", options);
         compress(flat, folder / "b.hgl", plain);
         const StreamReader a(folder / "a.hgl"), b(folder / "b.hgl");
-        // Lossless, the step that is found is that of other samples.
+        // Without loss the step is chosen for other samples.
         if (!lossless) {
             EXPECT_EQ(a.read(0, a.info().layer_ends.size()), b.read(0, b.info().layer_ends.size()));
         }
@@ -88,7 +88,7 @@ TEST(Gathered, tiles_are_those_of_rows_of_directions) {
     }
 }
 
-TEST(Gathered, columns_of_directions_are_rows_lying_on_their_side) {
+TEST(Stacked, columns_are_stacked_as_rows_are) {
     const TestFolder folder;
     const LightFieldBuffer rows = textured_planes(13, 19, 24, 1, 1), columns = transposed(rows);
     compress(rows, folder / "a.hgl", in_layout(StreamLayout::stacked));
@@ -98,8 +98,8 @@ TEST(Gathered, columns_of_directions_are_rows_lying_on_their_side) {
                 double(std::filesystem::file_size(folder / "b.hgl")), 0);
 }
 
-// Any range of hogels alone, and any number of layers, is what the whole has there.
-TEST(Gathered, reads_any_range_the_same) {
+// For any number of layers.
+TEST(Stacked, any_range_has_the_samples_of_the_whole) {
     const TestFolder folder;
     for (const bool by_columns : {false, true}) {
         LightFieldBuffer field = textured_planes(13, 19, 24, 1, 1);
@@ -109,15 +109,15 @@ TEST(Gathered, reads_any_range_the_same) {
         ASSERT_EQ(layers, by_columns ? 5u : 4u);
         for (std::size_t layer = 1; layer <= layers; ++layer) {
             LightFieldBuffer whole(field.grid());
-            copy(*open_front(folder / "a.hgl", {.layers = layer}), whole);
+            copy(open_stream(folder / "a.hgl", {.layers = layer}).front(), whole);
             EXPECT_GE(sqnr_of(field, whole), layer == layers ? 25 : 5);
-            const auto source = open_front(folder / "a.hgl", {.memory = 1, .layers = layer});
+            const LightField source = open_stream(folder / "a.hgl", {.memory = 1, .layers = layer});
             core::parallel_for(60, [&](std::size_t i) {
                 HogelRange range{i % field.grid().hogels_s, i * 7 % field.grid().hogels_t, 0, 0};
                 range.ns = 1 + i % (field.grid().hogels_s - range.s0);
                 range.nt = 1 + i % (field.grid().hogels_t - range.t0);
                 LightFieldTile tile(field.grid(), range, false), expected = tile;
-                source->read(tile);
+                source.front().read(tile);
                 whole.read(expected);
                 for (std::size_t k = 0; k < tile.radiance.size(); ++k)
                     ASSERT_EQ(tile.radiance.data()[k], expected.radiance.data()[k]);
@@ -126,8 +126,8 @@ TEST(Gathered, reads_any_range_the_same) {
     }
 }
 
-// A plane, whose rows are alike, is gathered; rows that each lie at a depth of their own are not.
-TEST(Gathered, is_chosen_where_rows_are_alike) {
+// A plane has rows that are alike; the other light field has rows at depths of their own.
+TEST(Stacked, is_chosen_where_rows_are_alike) {
     const TestFolder folder;
     LightFieldBuffer alike(LightFieldGrid{24, 24, 1e-3, 48, 1, Perspective{0.3, 0.3}, 1}), apart(alike.grid());
     for (std::size_t t = 0; t < 24; ++t)
@@ -159,11 +159,11 @@ TEST(Gathered, is_chosen_where_rows_are_alike) {
         }
 }
 
-TEST(Gathered, needs_a_single_row_or_column_of_directions) {
+TEST(Stacked, needs_a_single_row_or_column_of_directions) {
     const auto fits = [](Size front, std::vector<Size> sides = {}) {
         std::vector<LightFieldGrid> grids{{front.s, front.t, 1e-3, front.u, front.v, Perspective{1, 1}, 1}};
         for (const Size& side : sides) grids.push_back({side.s, side.t, 1e-3, side.u, side.v, Perspective{1, 1}, 1});
-        return can_gather(grids);
+        return can_stack(grids);
     };
     EXPECT_TRUE(fits({5, 4, 9, 1}));
     EXPECT_TRUE(fits({5, 4, 1, 9}));
@@ -180,8 +180,7 @@ TEST(Gathered, needs_a_single_row_or_column_of_directions) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
 }
 
-// A header may not gather what has several rows of directions.
-TEST(Gathered, header_that_lies_is_refused) {
+TEST(Stacked, header_with_several_rows_of_directions_is_refused) {
     const TestFolder folder;
     compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::stacked));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
@@ -190,8 +189,8 @@ TEST(Gathered, header_that_lies_is_refused) {
     EXPECT_EQ(outcome_of(folder, with_number(good, 16 + 8 * 2, 1)), ErrorCode::bad_input);  // T
 }
 
-// Damage ends in an error, also where checksums are right.
-TEST(Gathered, every_truncation_and_every_flipped_byte_is_noticed) {
+// Also where checksums are right.
+TEST(Stacked, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
     compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::stacked));
     const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
@@ -212,8 +211,7 @@ TEST(Gathered, every_truncation_and_every_flipped_byte_is_noticed) {
     expect_harmless_damage(*coder, coder->encode(used, 0.05).bytes, tile, 1, 1);
 }
 
-// All faces of a hemisquare, with depth.
-TEST(Gathered, hemisquares_come_back) {
+TEST(Stacked, hemisquares_with_depth_come_back) {
     const TestFolder folder;
     std::vector<LightFieldBuffer> faces;
     for (const Face face : {Face::front, Face::left, Face::right}) {
@@ -230,13 +228,13 @@ TEST(Gathered, hemisquares_come_back) {
     options.with_depth = true;
     options.depth_error = 1e-5;
     const std::vector<const LightFieldSource*> sources{&faces[0], &faces[1], &faces[2]};
-    compress(sources, folder / "a.hgl", options);
-    const auto opened = open_faces(folder / "a.hgl");
-    ASSERT_EQ(opened.size(), 3u);
+    hogel::compress(borrow(sources), folder / "a.hgl", options);
+    const LightField opened = open_stream(folder / "a.hgl");
+    ASSERT_EQ(opened.faces().size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
-        LightFieldBuffer back(opened[k]->grid(), true);
+        LightFieldBuffer back(opened.faces()[k]->grid(), true);
         EXPECT_EQ(back.grid(), faces[k].grid());
-        copy(*opened[k], back);
+        copy(*opened.faces()[k], back);
         EXPECT_GE(sqnr_of(faces[k], back), 25);
         for (std::size_t i = 0; i < back.depth.size(); ++i) {
             const float truth = faces[k].depth.data()[i];

@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t prefix = stream_magic.size() + 8;  // then version and length of the header
+constexpr std::size_t prefix = stream_magic.size() + 8;  // with version and length of the header
 constexpr std::size_t entry_bytes = 8, checksum_bytes = 4;
 constexpr std::uint32_t max_header = 1 << 24;
 
@@ -28,7 +28,7 @@ bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
     return room > 0;
 }
 
-// Whether two streams are of the same rays, whatever their channels.
+// Whether two streams have the same rays; their channels may differ.
 bool same_faces(const StreamInfo& a, const StreamInfo& b) {
     const auto rays = [](const StreamInfo& info) {
         std::vector<LightFieldGrid> faces = info.faces();
@@ -151,10 +151,10 @@ StreamReader::StreamReader(const std::filesystem::path& path, Content content)
     index_.clear();
     read_index(read_header(all - outer.depth.bytes));
     if (info_.grid.channels != 1 || !same_faces(info_, outer) || info_.depth.bytes > 0)
-        damaged("what stands behind it is not its depth");
+        damaged("the stream behind it is not its depth");
 }
 
-// Returns where it ends.
+// Returns where the header ends.
 std::uint64_t StreamReader::read_header(std::uint64_t at) {
     const std::uint64_t size = end_ - at;
     if (size < prefix + 4) damaged("it is too short for a compressed light field");
@@ -177,8 +177,8 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
     info_ = read_header_fields(fields);
     if (fields.left() > 0) damaged("its header has bytes left over");
     for (const LightFieldGrid& face : info_.faces()) validate(face, ErrorCode::bad_input, what_);
-    if (info_.layout == StreamLayout::stacked && !can_gather(info_.faces()))
-        damaged("its header gathers hogels with several rows of directions");
+    if (info_.layout == StreamLayout::stacked && !can_stack(info_.faces()))
+        damaged("its header has the layout stacked, but several rows of directions");
     try {
         parts_ = coded_parts(info_);
     } catch (const Error& error) {
@@ -210,7 +210,7 @@ void StreamReader::read_index(std::uint64_t header) {
     if (entries.take<std::uint32_t>() != core::checksum(std::span(index).first(index.size() - checksum_bytes)))
         damaged("its index is damaged");
     if (info_.layers_there == 0) damaged("it is truncated");
-    // Behind the last layer comes the depth, or nothing.
+    // The last layer is followed by the depth stream, or by nothing.
     info_.depth_there = info_.depth.bytes > 0 && offset <= end_ && end_ - offset >= info_.depth.bytes;
     if (offset < end_ && end_ - offset > info_.depth.bytes) damaged("it has bytes left over");
 }

@@ -15,7 +15,7 @@
 
 namespace hogel::codec::format {
 
-// The tiles of a stream, numbered row by row.
+// The tiles of an array of hogels, numbered row by row.
 class Tiling {
   public:
     Tiling(const LightFieldGrid& grid, const HogelRange& size);
@@ -29,38 +29,38 @@ class Tiling {
     HogelRange size_;
 };
 
-// The largest tile that a stream may have; what a damaged header can make a reader ask memory for.
+// The largest tile that a stream may have, so that a damaged header cannot make a reader allocate more.
 constexpr std::size_t max_tile_samples = std::size_t{1} << 28;
 
-// The arrays of directions whose tiles a stream holds one after the other, all tiles of the first before those of the
-// second: its faces, or what they unfold into. Throws Error(usage) for faces that do not unfold.
+// The arrays of directions whose tiles a stream holds, all tiles of the first before those of the second: its faces, or
+// the array that they unfold into. Throws Error(usage) for faces that do not unfold.
 std::vector<LightFieldGrid> coded_parts(const StreamInfo& info);
-// What of such an array is the light field's.
+// The directions of such an array that belong to the light field.
 DirectionCross counted(const StreamInfo& info);
-// The coder of its tiles. Throws Error(usage) for a method that does not exist.
+// The coder of such an array's tiles. Throws Error(usage) for a method that does not exist.
 std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part);
 
-// A tile's layer as a file knows it.
+// A layer of a tile in a file.
 struct StreamEntry {
     std::uint64_t offset, bytes;
     std::uint32_t checksum;
 };
 
-// Takes a stream's tiles one after the other; they may be given anew from the first until finish(), which puts them
-// into the file, layer by layer.
+// Writes a stream from its tiles, given one after the other, and given anew after restart(). finish() puts them into
+// the file layer by layer.
 class StreamWriter {
   public:
-    // @param depth   the file of the stream that info.depth speaks of
+    // @param depth   file with the depth stream that info.depth describes
     StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth = {});
-    // Forgets the tiles so far.
+    // Drops the tiles so far.
     void restart();
-    // @param layers   where they end; the last of the stream's may be missing
+    // @param layers   where the tile's layers end; small tiles may have fewer than the stream
     void append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers);
-    // Of the whole file, as if it were finished now.
+    // Bytes of the whole file if it were finished now.
     std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
-    // What a file of so many tiles, of all parts, has beside them.
+    // Bytes of a file with that number of tiles (of all parts) beside the tiles themselves.
     std::uint64_t overhead(std::size_t tiles) const;
-    // @param filler   by how many bytes the file is longer than size(): 0, or min_filler to max_filler
+    // @param filler   bytes by which the file is longer than size(): 0, or min_filler to max_filler
     void finish(std::uint64_t filler = 0);
 
   private:
@@ -71,7 +71,7 @@ class StreamWriter {
     std::size_t layers_;
     std::filesystem::path depth_;
     std::uint64_t next_ = 0;
-    std::vector<StreamEntry> entries_;  // the layers of each tile
+    std::vector<StreamEntry> entries_;  // tile by tile, the layers of each
 };
 
 // Reads a stream's header and index, and tiles on demand. Errors name the file.
@@ -82,7 +82,7 @@ class StreamReader {
     const StreamHeader& info() const { return info_; }
     const Tiling& tiling() const { return *tiling_; }
     const std::vector<LightFieldGrid>& parts() const { return parts_; }
-    // The first layers of a tile, one after the other.
+    // The first layers of a tile, concatenated.
     std::vector<std::uint8_t> read(std::size_t tile, std::size_t layers) const;
     [[noreturn]] void damaged(const std::string& why) const;
 
@@ -97,7 +97,7 @@ class StreamReader {
     StreamHeader info_;
     std::optional<Tiling> tiling_;  // of each part
     std::vector<LightFieldGrid> parts_;
-    std::vector<StreamEntry> index_;  // the tiles of each layer
+    std::vector<StreamEntry> index_;  // layer by layer, the tiles of each
 };
 
 }  // namespace hogel::codec::format

@@ -18,7 +18,7 @@ constexpr std::array<std::pair<StreamLayout, std::string_view>, 3> layout_names{
 Face take_face(ByteReader& reader) {
     const std::string face = reader.take_text();
     const auto* const found = std::ranges::find(all_faces, face, [](Face known) { return face_name(known); });
-    if (found == all_faces.end()) reader.damaged("its header names an unknown face of a hemicube");
+    if (found == all_faces.end()) reader.damaged("its header names an unknown face");
     return *found;
 }
 
@@ -44,8 +44,7 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     for (std::uint32_t i = 0; i < count; ++i) {
         LightFieldGrid& side = info.sides.emplace_back(info.grid);
         std::get<Perspective>(side.view).face = take_face(reader);
-        if (std::ranges::count(seen, side.face()) > 0 || seen.front() != Face::front)
-            reader.damaged("its header names faces that make no hemicube");
+        if (std::ranges::count(seen, side.face()) > 0) reader.damaged("its header names a face twice");
         seen.push_back(side.face());
         for (std::size_t* number : {&side.directions_u, &side.directions_v}) *number = reader.take<std::uint64_t>();
         for (double* number :
@@ -54,77 +53,78 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     }
 }
 
-// What a header ends with, each part by its name and length, so that a reader refuses what it does not know.
+// Optional fields at the end of a header, each with its name and length, so that a reader can refuse unknown ones.
 constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance", depth_name = "depth";
 
-void put_parts(ByteWriter& fields, const StreamHeader& info) {
-    const auto put_part = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
+void put_optional_fields(ByteWriter& fields, const StreamHeader& info) {
+    const auto put_field = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
         fields.put(name);
         fields.put(static_cast<std::uint32_t>(bytes.size()));
         fields.put(std::span(bytes));
     };
     if (const auto& tone = info.companding.tone) {
-        ByteWriter part;
-        part.put(tone->first());
-        for (const float value : tone->values()) part.put(value);
-        put_part(tone_name, part.bytes);
+        ByteWriter field;
+        field.put(tone->first());
+        for (const float value : tone->values()) field.put(value);
+        put_field(tone_name, field.bytes);
     }
     if (info.companding.chrominance != 1) {
-        ByteWriter part;
-        part.put(info.companding.chrominance);
-        put_part(chrominance_name, part.bytes);
+        ByteWriter field;
+        field.put(info.companding.chrominance);
+        put_field(chrominance_name, field.bytes);
     }
     if (info.depth.bytes > 0) {
-        ByteWriter part;
-        part.put(info.depth.bytes);
-        for (const double number : {info.depth.error, info.depth.beyond}) part.put(number);
-        put_part(depth_name, part.bytes);
+        ByteWriter field;
+        field.put(info.depth.bytes);
+        for (const double number : {info.depth.error, info.depth.beyond}) field.put(number);
+        put_field(depth_name, field.bytes);
     }
 }
 
-ToneCurve take_tone(ByteReader& part) {
-    const auto first = part.take<std::uint32_t>();
+ToneCurve take_tone(ByteReader& field) {
+    const auto first = field.take<std::uint32_t>();
     std::vector<float> values;
-    while (part.left() > 0) values.push_back(part.take_float());
+    while (field.left() > 0) values.push_back(field.take_float());
     try {
         return {first, std::move(values)};
     } catch (const Error& error) {
-        part.damaged(std::string("its header has ") + error.what());
+        field.damaged(std::string("its header has ") + error.what());
     }
 }
 
-float take_chrominance(ByteReader& part) {
-    const float chrominance = part.take_float();
-    if (!(chrominance > 1 && chrominance <= Companding::max_chrominance) || part.left() > 0)
-        part.damaged("its header has an impossible factor of chrominance");
+float take_chrominance(ByteReader& field) {
+    const float chrominance = field.take_float();
+    if (!(chrominance > 1 && chrominance <= Companding::max_chrominance) || field.left() > 0)
+        field.damaged("its header has an impossible factor of chrominance");
     return chrominance;
 }
 
-StreamInfo::Depth take_depth(ByteReader& part) {
+StreamInfo::Depth take_depth(ByteReader& field) {
     StreamInfo::Depth depth;
-    depth.bytes = part.take<std::uint64_t>();
-    for (double* number : {&depth.error, &depth.beyond}) *number = part.take_double();
-    if (depth.bytes == 0 || !std::isfinite(depth.error) || !std::isfinite(depth.beyond) || part.left() > 0)
-        part.damaged("its header speaks of impossible depths");
+    depth.bytes = field.take<std::uint64_t>();
+    for (double* number : {&depth.error, &depth.beyond}) *number = field.take_double();
+    if (depth.bytes == 0 || !std::isfinite(depth.error) || !std::isfinite(depth.beyond) || field.left() > 0)
+        field.damaged("its header has impossible depths");
     return depth;
 }
 
-void take_parts(ByteReader& reader, StreamHeader& info) {
-    Companding& mapping = info.companding;
+void take_optional_fields(ByteReader& reader, StreamHeader& info) {
+    Companding& companding = info.companding;
     while (reader.left() > 0) {
         const std::string name = reader.take_text();
-        ByteReader part = reader.take_part(reader.take<std::uint32_t>());
-        if (name == tone_name && !mapping.changes())
-            mapping.tone = take_tone(part);
-        else if (name == chrominance_name && mapping.chrominance == 1)
-            mapping.chrominance = take_chrominance(part);
+        ByteReader field = reader.take_part(reader.take<std::uint32_t>());
+        if (name == tone_name && !companding.changes())
+            companding.tone = take_tone(field);
+        else if (name == chrominance_name && companding.chrominance == 1)
+            companding.chrominance = take_chrominance(field);
         else if (name == depth_name && info.depth.bytes == 0)
-            info.depth = take_depth(part);
+            info.depth = take_depth(field);
         else
-            reader.damaged("its header has a part that is not known, or twice");
+            reader.damaged("its header has an unknown field, or one twice");
     }
-    if (mapping.tone) info.tone = StreamInfo::ToneMapping{mapping.tone->decades(), mapping.tone->mapped_decades()};
-    info.chrominance = mapping.chrominance;
+    if (companding.tone)
+        info.tone = StreamInfo::ToneMapping{companding.tone->decades(), companding.tone->mapped_decades()};
+    info.chrominance = companding.chrominance;
 }
 
 }  // namespace
@@ -141,16 +141,16 @@ std::vector<std::uint8_t> header_bytes(const StreamHeader& info) {
     fields.put(std::uint64_t{info.tile.nt});
     fields.put(std::string_view(info.method.coder));
     fields.put(std::string_view(info.method.transform));
-    Metadata words = info.metadata;
-    if (info.filler > 0) words.emplace_back(filler_name, std::string(info.filler - min_filler, ' '));
-    fields.put(static_cast<std::uint32_t>(words.size()));
-    for (const auto& [name, value] : words) {
+    Metadata entries = info.metadata;
+    if (info.filler > 0) entries.emplace_back(filler_name, std::string(info.filler - min_filler, ' '));
+    fields.put(static_cast<std::uint32_t>(entries.size()));
+    for (const auto& [name, value] : entries) {
         fields.put(std::string_view(name));
         fields.put(std::string_view(value));
     }
     put_sides(fields, info);
     fields.put(static_cast<std::uint32_t>(info.layer_ends.size()));
-    put_parts(fields, info);
+    put_optional_fields(fields, info);
     ByteWriter header;
     header.put(std::span(stream_magic));
     header.put(stream_version);
@@ -168,13 +168,13 @@ StreamHeader read_header_fields(ByteReader& reader) {
     for (double* number :
          {&grid.pitch, &grid.range().half_u, &grid.range().half_v, &grid.range().center_u, &grid.range().center_v})
         *number = reader.take_double();
-    std::get<Perspective>(grid.view).face = take_face(reader);
+    if (take_face(reader) != Face::front) reader.damaged("its first face is not the front");
     info.tile.ns = reader.take<std::uint64_t>();
     info.tile.nt = reader.take<std::uint64_t>();
     info.method.coder = reader.take_text();
     info.method.transform = reader.take_text();
-    const auto words = reader.take<std::uint32_t>();
-    for (std::uint32_t i = 0; i < words; ++i) {
+    const auto entries = reader.take<std::uint32_t>();
+    for (std::uint32_t i = 0; i < entries; ++i) {
         std::string name = reader.take_text();
         std::string value = reader.take_text();
         if (name == filler_name)
@@ -186,7 +186,7 @@ StreamHeader read_header_fields(ByteReader& reader) {
     const auto layers = reader.take<std::uint32_t>();
     if (layers == 0 || layers > max_layers) reader.damaged("its header has an impossible number of layers");
     info.layer_ends.resize(layers);
-    take_parts(reader, info);
+    take_optional_fields(reader, info);
     return info;
 }
 

@@ -11,10 +11,10 @@
 
 namespace hogel::codec::format {
 
-// As in PNG: not text, and damaged by what damages line ends.
+// As in PNG: not text, and damaged by whatever converts line ends.
 constexpr std::array<std::uint8_t, 8> stream_magic{0x89, 'H', 'G', 'L', '\r', '\n', 0x1A, '\n'};
 
-// What fills up a stream is a word of its metadata, whose name and lengths take so many bytes.
+// Filler is a metadata entry, whose name and lengths take min_filler bytes.
 constexpr std::size_t min_filler = 14, max_filler = std::size_t{1} << 23;
 
 // The version of the format that is written and read (docs/format.md).

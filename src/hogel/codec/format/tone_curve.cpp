@@ -13,7 +13,7 @@ ToneCurve::ToneCurve(std::uint32_t first, std::vector<float> values) : first_(fi
     const auto refuse = [](const char* why) { throw Error(ErrorCode::bad_input, why); };
     const std::size_t count = values_.size();
     if (count < 2 || count > max_points) refuse("a tone curve with an impossible number of points");
-    if (first_ < smallest || first_ > end - count) refuse("a tone curve whose points are no normal numbers");
+    if (first_ < smallest || first_ > end - count) refuse("a tone curve whose points are not normal numbers");
     for (std::size_t i = 0; i < count; ++i) {
         const float factor = values_[i] / point(i);
         if (!std::isnormal(values_[i]) || !(factor >= 1 / max_factor && factor <= max_factor))
@@ -23,9 +23,9 @@ ToneCurve::ToneCurve(std::uint32_t first, std::vector<float> values) : first_(fi
     lowest_ = point(0);
     highest_ = point(count - 1);
     below_ = values_.front() / lowest_;
-    beyond_ = values_.back() / highest_;
+    above_ = values_.back() / highest_;
     inverse_below_ = lowest_ / values_.front();
-    inverse_beyond_ = highest_ / values_.back();
+    inverse_above_ = highest_ / values_.back();
     for (std::size_t i = 0; i + 1 < count; ++i) {
         const float across = point(i + 1) - point(i), up = values_[i + 1] - values_[i];
         pieces_.push_back({point(i), values_[i], up / across, across / up});

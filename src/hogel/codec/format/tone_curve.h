@@ -9,12 +9,12 @@
 
 namespace hogel::codec::format {
 
-/// A strictly increasing function y(L) of luminance and its inverse: straight from point to point, eight points an
-/// octave, which are the numbers of binary32 whose lowest 20 bits are 0; in proportion to L below the first point and
-/// beyond the last; odd. In binary32, by basic operations alone, so that it is the same everywhere.
+/// A strictly increasing, odd function y(L) of luminance and its inverse. It is piecewise linear between points, the
+/// numbers of binary32 whose lowest 20 bits are 0 (eight an octave), and proportional to L below the first and above
+/// the last point. It uses basic operations of binary32 only, so that all machines agree.
 class ToneCurve {
   public:
-    static constexpr int low_bits = 20;  // of a point, which are 0
+    static constexpr int low_bits = 20;  // lowest bits of a point, which are 0
     static constexpr std::size_t max_points = 512;
 
     /// @param first    the highest bits of the first point
@@ -27,7 +27,7 @@ class ToneCurve {
     float point(std::size_t i) const { return point_at(first_ + static_cast<std::uint32_t>(i)); }
     std::uint32_t first() const { return first_; }
     const std::vector<float>& values() const { return values_; }
-    /// Decades from the first point to the last, of luminance and of what it becomes.
+    /// Decades from the first point to the last, of luminance and of y.
     double decades() const;
     double mapped_decades() const;
 
@@ -35,7 +35,7 @@ class ToneCurve {
     float factor(float luminance) const {
         const float l = std::abs(luminance);
         if (!(l > lowest_)) return below_;
-        if (!(l < highest_)) return beyond_;
+        if (!(l < highest_)) return above_;
         const std::size_t i = (std::bit_cast<std::uint32_t>(l) >> low_bits) - first_;
         const Piece& piece = pieces_[i];
         return (piece.value + (l - piece.point) * piece.slope) / l;
@@ -44,7 +44,7 @@ class ToneCurve {
     float inverse_factor(float mapped) const {
         const float y = std::abs(mapped);
         if (!(y > values_.front())) return inverse_below_;
-        if (!(y < values_.back())) return inverse_beyond_;
+        if (!(y < values_.back())) return inverse_above_;
         std::size_t i = begin_[(std::bit_cast<std::uint32_t>(y) >> bucket_bits) - first_bucket_];
         while (!(y < values_[i + 1])) ++i;
         const Piece& piece = pieces_[i];
@@ -65,14 +65,13 @@ class ToneCurve {
 
     std::uint32_t first_;
     std::vector<float> values_;
-    float lowest_, highest_, below_, beyond_, inverse_below_, inverse_beyond_;
+    float lowest_, highest_, below_, above_, inverse_below_, inverse_above_;
     std::vector<Piece> pieces_;
     std::uint32_t first_bucket_;
-    std::vector<std::uint16_t> begin_;  // for the highest bits of y, the first piece to look at
+    std::vector<std::uint16_t> begin_;  // for the highest bits of y, the first piece that may hold it
 };
 
-/// How many luminances a light field has between a point of a ToneCurve and the next; those that are not normal numbers
-/// count nowhere. |L| counts.
+/// How many luminances |L| a light field has between each point of a ToneCurve and the next.
 class LuminanceHistogram {
   public:
     LuminanceHistogram() : counts_(std::size_t{1} << (31 - ToneCurve::low_bits)) {}

@@ -16,7 +16,8 @@ namespace {
 
 double uniform(std::uint32_t i, std::uint32_t key) { return core::philox({i, 0, 0, 0}, {key, 9})[0] * 0x1p-32; }
 
-// Luminances over some decades, of several kinds: even in the logarithm, two heaps, nearly all in one bin, few at all.
+// Luminances over some decades: even in the logarithm, in two clusters, nearly all in one bin, over 70 decades, two
+// only.
 std::vector<LuminanceHistogram> histograms() {
     std::vector<LuminanceHistogram> all(5);
     for (std::uint32_t i = 0; i < 5000; ++i) {
@@ -31,7 +32,7 @@ std::vector<LuminanceHistogram> histograms() {
     return all;
 }
 
-// The logarithmic slopes from point to point, and what they rise by together, in decades.
+// The logarithmic slopes from point to point.
 std::vector<double> slopes(const ToneCurve& curve) {
     std::vector<double> result;
     for (std::size_t i = 0; i + 1 < curve.values().size(); ++i)
@@ -40,7 +41,7 @@ std::vector<double> slopes(const ToneCurve& curve) {
     return result;
 }
 
-TEST(ToneCurve, increases_nowhere_faster_than_luminance_and_spans_what_was_asked_for) {
+TEST(ToneCurve, spans_the_decades_asked_for_and_is_nowhere_steeper_than_luminance) {
     for (const LuminanceHistogram& histogram : histograms())
         for (const double decades : {0.1, 0.5, 2.0, 3.0}) {
             const std::optional<ToneCurve> curve = encode::tone_curve_of(histogram, decades);
@@ -55,16 +56,16 @@ TEST(ToneCurve, increases_nowhere_faster_than_luminance_and_spans_what_was_asked
         }
 }
 
-// Of luminances that are even in the logarithm the curve is a power, and its exponent what is left of their decades.
-TEST(ToneCurve, of_an_even_histogram_is_a_power) {
+// Its exponent is the ratio of the decades.
+TEST(ToneCurve, is_a_power_for_luminances_even_in_the_logarithm) {
     LuminanceHistogram histogram;
     for (int i = 0; i < 400000; ++i) histogram.add(static_cast<float>(std::exp2(12 * (i + 0.5) / 400000)));
     const ToneCurve curve = encode::tone_curve_of(histogram, 1.5).value();
     for (const double slope : slopes(curve)) EXPECT_NEAR(slope, 1.5 / std::log10(4096), 1e-3);
 }
 
-// Of two luminances far apart what is around each keeps its contrast, and what lies between gives all of it up.
-TEST(ToneCurve, takes_contrast_where_nothing_is) {
+// Two clusters of luminances far apart keep their contrast; the range between them gives up all of it.
+TEST(ToneCurve, takes_contrast_from_empty_ranges) {
     const ToneCurve curve = encode::tone_curve_of(histograms()[1], 1.8).value();
     for (std::size_t i = 0; i < slopes(curve).size(); ++i) {
         const double decade = std::log10(curve.point(i));
@@ -77,7 +78,7 @@ TEST(ToneCurve, takes_contrast_where_nothing_is) {
     }
 }
 
-TEST(ToneCurve, is_none_where_luminances_span_no_more) {
+TEST(ToneCurve, does_not_exist_for_luminances_that_span_no_more) {
     LuminanceHistogram histogram;
     EXPECT_FALSE(encode::tone_curve_of(histogram, 2));
     for (const float value : {0.0f, 1e-42f, std::numeric_limits<float>::infinity(), std::nanf("")})
@@ -88,8 +89,8 @@ TEST(ToneCurve, is_none_where_luminances_span_no_more) {
     EXPECT_TRUE(encode::tone_curve_of(histogram, 1.2));
 }
 
-// There and back is the same to rounding, which a slope s makes 1/s times as much; the mapped values are in order.
-TEST(ToneCurve, comes_back) {
+// To rounding, which a slope s multiplies by 1/s; mapped values keep their order.
+TEST(ToneCurve, is_inverted) {
     for (const LuminanceHistogram& histogram : histograms())
         for (const double decades : {0.3, 2.0}) {
             const ToneCurve curve = encode::tone_curve_of(histogram, decades).value();
@@ -106,13 +107,13 @@ TEST(ToneCurve, comes_back) {
                 EXPECT_GE(mapped, before * (1 - 1e-6f));
                 before = mapped;
                 EXPECT_EQ(-value * curve.factor(-value), -mapped);
-                if (value < 1e-37f) continue;  // less than normal numbers has fewer digits
+                if (value < 1e-37f) continue;  // subnormal numbers have fewer digits
                 EXPECT_NEAR(mapped * curve.inverse_factor(mapped), value, most * value);
             }
         }
 }
 
-TEST(ToneCurve, that_is_none_is_refused) {
+TEST(ToneCurve, impossible_ones_are_refused) {
     const auto refused = [](std::uint32_t first, std::vector<float> values) {
         try {
             ToneCurve(first, std::move(values));

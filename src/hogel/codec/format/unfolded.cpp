@@ -13,32 +13,32 @@ namespace {
 const LightFieldGrid& face_of(std::span<const LightFieldGrid> faces, Face face) {
     const auto found = std::ranges::find(faces, face, &LightFieldGrid::face);
     if (found == faces.end())
-        throw Error(ErrorCode::usage, "only a hemicube of five faces can be unfolded; others are coded face by face");
+        throw Error(ErrorCode::usage, "only a hemicube of five faces can be unfolded; expected the layout faces");
     return *found;
 }
 
-// How much of a strip is left at sample k of it: a cubic from 1 at its beginning to 0 at its end.
-double fade(std::size_t k, std::size_t strip) {
-    if (k >= strip) return 0;
-    const double x = (static_cast<double>(k) + 0.5) / static_cast<double>(strip);
+// The weight of a band at its sample k: a cubic from 1 at its beginning to 0 at its end.
+double fade(std::size_t k, std::size_t band) {
+    if (k >= band) return 0;
+    const double x = (static_cast<double>(k) + 0.5) / static_cast<double>(band);
     return 1 - x * x * (3 - 2 * x);
 }
 
 // The place among n samples that corresponds to place k among m.
 std::size_t scaled(std::size_t k, std::size_t m, std::size_t n) { return (2 * k + 1) * n / (2 * m); }
 
-// Along one axis, what lies on one side of the front: places counted from the front's edge, outwards and inwards.
-struct Reach {
+// One side of the front along one axis, with places counted from the front's edge outwards and inwards.
+struct Side {
     std::size_t begin, end;  // of the front
-    bool before;             // the side with smaller indices
-    std::size_t length;      // outside the front
+    bool before;             // on the side of smaller indices
+    std::size_t length;      // of the array outside the front
 
     std::size_t outwards(std::size_t k) const { return before ? begin - 1 - k : end + k; }
     std::size_t inwards(std::size_t k) const { return before ? begin + k : end - 1 - k; }
     std::size_t inner() const { return end - begin; }
 };
 
-void fill_corner(View<float, 2> array, const Reach& across, const Reach& down) {
+void fill_corner(View<float, 2> array, const Side& across, const Side& down) {
     if (across.length == 0 || down.length == 0) return;
     double sum = 0;
     const std::size_t half_u = (across.inner() + 1) / 2, half_v = (down.inner() + 1) / 2;
@@ -49,39 +49,39 @@ void fill_corner(View<float, 2> array, const Reach& across, const Reach& down) {
     for (std::size_t b = 0; b < down.length; ++b)
         for (std::size_t a = 0; a < half_u; ++a) sum += array(down.outwards(b), across.inwards(a));
     const double mean = sum / static_cast<double>(half_v * (half_u + across.length) + down.length * half_u);
-    const std::size_t strip_u = std::min({Unfolding::strip, across.length, across.inner()});
-    const std::size_t strip_v = std::min({Unfolding::strip, down.length, down.inner()});
+    const std::size_t band_u = std::min({Unfolding::band, across.length, across.inner()});
+    const std::size_t band_v = std::min({Unfolding::band, down.length, down.inner()});
     for (std::size_t b = 0; b < down.length; ++b)
         for (std::size_t a = 0; a < across.length; ++a) {
-            const double of_side = fade(a, strip_u), of_end = fade(b, strip_v);
+            const double of_side = fade(a, band_u), of_end = fade(b, band_v);
             float& sample = array(down.outwards(b), across.outwards(a));
             sample = static_cast<float>(mean);
             if (of_side + of_end == 0) continue;
-            // Beside the top or the bottom goes on what the left or the right shows around the edge; and the reverse.
-            double strips = 0;
+            // The left or right side continues around the cube's edge beside the top or bottom, and the reverse.
+            double bands = 0;
             if (of_side > 0)
-                strips += of_side * array(down.inwards(std::min(scaled(a, across.inner(), down.inner()), half_v - 1)),
-                                          across.outwards(scaled(b, down.length, across.length)));
+                bands += of_side * array(down.inwards(std::min(scaled(a, across.inner(), down.inner()), half_v - 1)),
+                                         across.outwards(scaled(b, down.length, across.length)));
             if (of_end > 0)
-                strips += of_end * array(down.outwards(scaled(a, across.length, down.length)),
-                                         across.inwards(std::min(scaled(b, down.inner(), across.inner()), half_u - 1)));
-            strips /= of_side + of_end;
-            sample = static_cast<float>(mean + (1 - (1 - of_side) * (1 - of_end)) * (strips - mean));
+                bands += of_end * array(down.outwards(scaled(a, across.length, down.length)),
+                                        across.inwards(std::min(scaled(b, down.inner(), across.inner()), half_u - 1)));
+            bands /= of_side + of_end;
+            sample = static_cast<float>(mean + (1 - (1 - of_side) * (1 - of_end)) * (bands - mean));
         }
 }
 
 class UnfoldedSource final : public LightFieldSource {
   public:
-    UnfoldedSource(std::span<const LightFieldSource* const> faces, std::span<const LightFieldGrid> grids)
-        : faces_(faces.begin(), faces.end()), unfolding_(grids) {}
+    explicit UnfoldedSource(const LightField& light_field)
+        : light_field_(light_field), unfolding_(light_field.grids()) {}
 
     const LightFieldGrid& grid() const override { return unfolding_.grid(); }
-    HogelRange preferred_tile() const override { return faces_.front()->preferred_tile(); }
+    HogelRange preferred_tile() const override { return light_field_.front().preferred_tile(); }
 
     void read(LightFieldTile& tile) const override {
         validate(tile, grid());
         const HogelRange& range = tile.range;
-        for (const LightFieldSource* face : faces_) {
+        for (const LightField::Source& face : light_field_.faces()) {
             LightFieldTile part(face->grid(), range, false);
             face->read(part);
             const auto [u, v] = unfolding_.place(face->grid().face());
@@ -100,7 +100,7 @@ class UnfoldedSource final : public LightFieldSource {
     }
 
   private:
-    std::vector<const LightFieldSource*> faces_;
+    LightField light_field_;
     Unfolding unfolding_;
 };
 
@@ -115,8 +115,8 @@ Unfolding::Unfolding(std::span<const LightFieldGrid> faces) {
             faces.size() != all_faces.size() || !same_hogels(*side, front) ||
             (beside ? side->directions_v != front.directions_v : side->directions_u != front.directions_u))
             throw Error(ErrorCode::usage,
-                        "only a hemicube whose sides are as long as the edges of its front can be unfolded; others are "
-                        "coded face by face");
+                        "only a hemicube whose sides are as long as the edges of its front can be unfolded; expected "
+                        "the layout faces");
     cross_ = {left.directions_u, left.directions_u + front.directions_u, top.directions_v,
               top.directions_v + front.directions_v};
     grid_ = front;
@@ -164,10 +164,6 @@ double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded,
     return sum;
 }
 
-std::unique_ptr<LightFieldSource> unfold(std::span<const LightFieldSource* const> faces) {
-    std::vector<LightFieldGrid> grids;
-    for (const LightFieldSource* face : faces) grids.push_back(face->grid());
-    return std::make_unique<UnfoldedSource>(faces, grids);
-}
+LightField::Source unfold(const LightField& light_field) { return std::make_shared<UnfoldedSource>(light_field); }
 
 }  // namespace hogel::codec::format

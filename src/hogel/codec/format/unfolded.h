@@ -10,14 +10,15 @@
 
 namespace hogel::codec::format {
 
-/// A hemicube unfolded into one array of directions ([K] 4.2.3): the sides around the front, their pictures continuing
-/// each other, and corners that are nobody's.
+/// A hemicube unfolded into one array of directions ([K] 4.2.3): the sides stand around the front and continue its
+/// picture; the corners of the array belong to no face.
 class Unfolding {
   public:
-    /// Throws Error(usage) unless the faces are five, as long along the front's edges as the front itself.
+    /// Throws Error(usage) unless there are five faces and the sides have as many directions along the front's edges as
+    /// the front.
     explicit Unfolding(std::span<const LightFieldGrid> faces);
 
-    /// Of the whole array, with the front's steps of direction; its U and V mean something on the front alone.
+    /// The whole array, with the front's ΔU and ΔV; its U and V are those of directions on the front only.
     const LightFieldGrid& grid() const { return grid_; }
     const DirectionCross& cross() const { return cross_; }
     /// The row and column of the array where a face begins.
@@ -25,21 +26,21 @@ class Unfolding {
         std::size_t u, v;
     };
     Place place(Face face) const;
-    /// Fills the corners of an array [n_V][n_U] whose faces are there. Strips of `strip` samples along their edges
-    /// continue one side by what its neighbour shows around the cube's edge; from there they fade, by a cubic, into the
-    /// mean of the faces' samples in the same quarter of the array.
+    /// Fills the corners of an array [n_V][n_U] whose faces are there. Bands of `band` samples along their edges
+    /// continue a side by what its neighbour shows around the cube's edge, and fade, by a cubic, into the mean of the
+    /// faces' samples in the same quarter of the array.
     void fill_corners(View<float, 2> array) const;
-    static constexpr std::size_t strip = 8;
+    static constexpr std::size_t band = 8;
 
   private:
     LightFieldGrid grid_;
     DirectionCross cross_;
 };
 
-/// Σ (f − f')² over the directions that count, without what is not finite.
+/// Σ (f − f')² over the directions that count, without samples that are not finite.
 double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded, const DirectionCross& counted);
 
-/// The faces of a hemicube, unfolded where they are read. They must outlive it.
-std::unique_ptr<LightFieldSource> unfold(std::span<const LightFieldSource* const> faces);
+/// Unfolds the faces of a hemicube where they are read. Throws Error(usage) as Unfolding does.
+LightField::Source unfold(const LightField& light_field);
 
 }  // namespace hogel::codec::format

@@ -30,20 +30,20 @@ std::vector<LightFieldBuffer> smooth_hemicube(std::size_t hogels, std::size_t di
     return faces;
 }
 
-std::vector<const LightFieldSource*> sources(const std::vector<LightFieldBuffer>& faces) {
+LightField light_field(const std::vector<LightFieldBuffer>& faces) {
     std::vector<const LightFieldSource*> result;
     for (const LightFieldBuffer& face : faces) result.push_back(&face);
-    return result;
+    return borrow(result);
 }
 
 LightFieldBuffer unfolded(const std::vector<LightFieldBuffer>& faces) {
-    const auto source = unfold(sources(faces));
+    const auto source = unfold(light_field(faces));
     LightFieldBuffer whole(source->grid());
     copy(*source, whole);
     return whole;
 }
 
-TEST(Unfolding, has_the_faces_in_their_places) {
+TEST(Unfolding, places_each_face) {
     const std::vector<LightFieldBuffer> faces = smooth_hemicube(2, 40, 24);
     const LightFieldBuffer whole = unfolded(faces);
     ASSERT_EQ(whole.grid().directions_u, 80u);
@@ -56,9 +56,9 @@ TEST(Unfolding, has_the_faces_in_their_places) {
     EXPECT_EQ(whole.radiance(0, 1, 0, 36, 20), faces[4].radiance(0, 1, 0, 0, 0));  // bottom
 }
 
-// Around the edges of the cube a smooth sky goes on without a jump: no step in the array near the faces is much larger
-// than the largest between neighbours on a face. Farther out a corner is one value.
-TEST(Unfolding, corners_continue_what_the_sides_show) {
+// A smooth sky continues around the edges of the cube: no step in the array near the faces is much larger than the
+// largest step inside a face. Farther out a corner has a single value.
+TEST(Unfolding, corners_continue_the_sides) {
     for (const auto& [n_u, n_v] : {std::pair{64u, 64u}, {64u, 48u}}) {
         const std::vector<LightFieldBuffer> faces = smooth_hemicube(1, n_u, n_v);
         const LightFieldBuffer whole = unfolded(faces);
@@ -80,7 +80,7 @@ TEST(Unfolding, corners_continue_what_the_sides_show) {
                 EXPECT_LT(std::abs(view(v0 - 1, u) - view(v0, u)), 3 * largest) << u;
                 EXPECT_LT(std::abs(view(v1, u) - view(v1 - 1, u)), 3 * largest) << u;
             }
-        EXPECT_EQ(view(0, 0), view(v0 - 1 - Unfolding::strip, u0 - 1 - Unfolding::strip));
+        EXPECT_EQ(view(0, 0), view(v0 - 1 - Unfolding::band, u0 - 1 - Unfolding::band));
         double sum = 0;  // of the quarter at the top left, its faces alone
         for (std::size_t v = 0; v < n_v; ++v)
             for (std::size_t u = 0; u < n_u; ++u)
@@ -89,7 +89,7 @@ TEST(Unfolding, corners_continue_what_the_sides_show) {
     }
 }
 
-TEST(Unfolding, needs_five_faces_that_fit) {
+TEST(Unfolding, refuses_faces_that_do_not_fit) {
     std::vector<LightFieldGrid> grids = hemicube({2, 2, 1e-3, 16, 12, Perspective{1, 1}, 3});
     EXPECT_NO_THROW(Unfolding{grids});
     const std::vector<LightFieldGrid> four(grids.begin(), grids.begin() + 4);
@@ -98,8 +98,8 @@ TEST(Unfolding, needs_five_faces_that_fit) {
     EXPECT_THROW(Unfolding{grids}, Error);
 }
 
-// All faces come back with the SQNR that was asked for, over all of them and without the corners.
-TEST(Hemicube, comes_back_in_either_layout) {
+// The SQNR that was asked for is that of all faces together, without the corners.
+TEST(Hemicube, has_the_sqnr_asked_for_in_both_layouts) {
     const TestFolder folder;
     const std::vector<LightFieldBuffer> faces = smooth_hemicube(5, 24, 16);
     for (const StreamLayout layout : {StreamLayout::faces, StreamLayout::unfolded})
@@ -109,14 +109,14 @@ TEST(Hemicube, comes_back_in_either_layout) {
             options.target = Sqnr{30};
             options.layout = layout;
             options.tile = HogelRange{0, 0, 3, 3};
-            const CompressionResult result = compress(sources(faces), folder / "a.hgl", options);
-            const auto decoded = open_faces(folder / "a.hgl", {.memory = 1});
-            ASSERT_EQ(decoded.size(), 5u);
+            const CompressionResult result = compress(light_field(faces), folder / "a.hgl", options);
+            const LightField opened = open_stream(folder / "a.hgl", {.memory = 1});
+            ASSERT_EQ(opened.faces().size(), 5u);
             double signal = 0, error = 0;
             for (std::size_t i = 0; i < 5; ++i) {
-                ASSERT_EQ(decoded[i]->grid(), faces[i].grid());
+                ASSERT_EQ(opened.faces()[i]->grid(), faces[i].grid());
                 LightFieldBuffer other(faces[i].grid());
-                copy(*decoded[i], other);
+                copy(*opened.faces()[i], other);
                 for (std::size_t k = 0; k < other.radiance.size(); ++k) {
                     const double f = faces[i].radiance.data()[k], e = f - other.radiance.data()[k];
                     signal += f * f;
@@ -131,14 +131,14 @@ TEST(Hemicube, comes_back_in_either_layout) {
         }
 }
 
-// Whatever a file of faces is cut to or has changed in, reading it is an error.
 TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
     const std::vector<LightFieldBuffer> faces = smooth_hemicube(2, 4, 4);
     const auto fails = [&](const std::vector<std::uint8_t>& bytes) {
         write_bytes(folder / "b.hgl", bytes);
         try {
-            for (const auto& face : open_faces(folder / "b.hgl")) {
+            const LightField opened = open_stream(folder / "b.hgl");
+            for (const LightField::Source& face : opened.faces()) {
                 LightFieldBuffer field(face->grid());
                 copy(*face, field);
             }
@@ -152,7 +152,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
         CompressionOptions options;
         options.target = Step{0.02};
         options.layout = layout;
-        compress(sources(faces), folder / "a.hgl", options);
+        compress(light_field(faces), folder / "a.hgl", options);
         const std::vector<std::uint8_t> good = bytes_of_file(folder / "a.hgl");
         ASSERT_FALSE(fails(good));
         for (std::size_t length = 0; length < good.size(); length += 17)
@@ -161,7 +161,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
             std::vector<std::uint8_t> bad = good;
             bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
             ASSERT_TRUE(fails(bad)) << at;
-            // A header that lies, with the right checksum, may read as something else, but does no harm.
+            // A forged header with the right checksum may be read differently, but does no harm.
             const std::size_t length = good[12] | std::size_t{good[13]} << 8;
             if (at < 16 || at >= 16 + length) continue;
             const std::uint32_t sum = core::checksum(std::span(std::as_const(bad)).first(16 + length));

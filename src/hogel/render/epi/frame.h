@@ -50,15 +50,16 @@ class EpipolarFrame {
         const double i = static_cast<double>(hogel), k = static_cast<double>(direction);
         // Exact multiples of a half.
         const double row = axes_.transposed() ? i + 0.5 - 0.5 * static_cast<double>(grid_.hogels_s)
-                                          : 0.5 * static_cast<double>(grid_.hogels_t) - i - 0.5;
+                                              : 0.5 * static_cast<double>(grid_.hogels_t) - i - 0.5;
         const double middle_k = axes_.transposed() ? k + 0.5 - 0.5 * static_cast<double>(grid_.directions_u)
-                                               : 0.5 * static_cast<double>(grid_.directions_v) - k - 0.5;
+                                                   : 0.5 * static_cast<double>(grid_.directions_v) - k - 0.5;
         const double slope = middle_k * step_ratio_ + middle_slow_;
         if (grid_.face() == Face::front) return {row, slope, 0, 0, 1};
         const Vec3 here = axes_.transposed() ? Vec3{row, 0, 0} : Vec3{0, row, 0};
         const double z0 = axes_.seen(here, 0).forward * step_;
         const double slow_direction = axes_.slow_direction(direction);
-        const Vec3 ray = axes_.transposed() ? grid_.direction_of(slow_direction, 0) : grid_.direction_of(0, slow_direction);
+        const Vec3 ray =
+            axes_.transposed() ? grid_.direction_of(slow_direction, 0) : grid_.direction_of(0, slow_direction);
         return {-slope * z0, slope, z0, middle_fast_ * z0, ray.z};
     }
 

@@ -16,8 +16,8 @@ using Knot = ShadedSpans::Knot;
 constexpr float pending_depth = std::numeric_limits<float>::quiet_NaN();
 
 shading::RadianceCache::Corners corners_of(const SpanOnGrid& grid, const shading::LightGrid::Place& row,
-                                        const shading::LightGrid::Place& column, std::size_t span,
-                                        const RadianceSource& source) {
+                                           const shading::LightGrid::Place& column, std::size_t span,
+                                           const RadianceSource& source) {
     const std::uint32_t* first =
         grid.points + std::uint64_t{row.node} * grid.down + std::uint64_t{column.node} * grid.right;
     const std::array points{first, first + grid.right, first + grid.down, first + grid.down + grid.right};

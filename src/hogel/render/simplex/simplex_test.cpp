@@ -16,7 +16,8 @@ namespace {
 
 using namespace literals;
 
-// The determinant of the edges from the first corner, over the first N coordinates: N! times the volume, with a sign.
+// The determinant of the edges from the first corner, over the first N coordinates except `skip`: N! times the signed
+// volume.
 template <std::size_t N>
 double determinant(const std::array<ProjectedPoint, N + 1>& corners, std::size_t skip = 5) {
     std::array<std::array<double, N>, N> m;
@@ -50,7 +51,7 @@ double size(const std::array<ProjectedPoint, N + 1>& corners, std::size_t skip =
     return std::abs(determinant<N>(corners, skip));
 }
 
-// By Cramer's rule: replacing a corner by the point gives the corner's weight.
+// Whether a simplex contains a point, by Cramer's rule: replacing a corner by the point gives the corner's weight.
 template <std::size_t N>
 bool contains(const std::array<ProjectedPoint, N + 1>& corners, const ProjectedPoint& p, std::size_t skip = 5) {
     const double whole = determinant<N>(corners, skip);
@@ -62,7 +63,7 @@ bool contains(const std::array<ProjectedPoint, N + 1>& corners, const ProjectedP
     return true;
 }
 
-// A point of a simplex, evenly distributed, or of a product of simplices if drawn for each.
+// Weights of a point of a simplex, uniformly distributed.
 std::vector<double> random_weights(std::mt19937& random, std::size_t n) {
     std::exponential_distribution<double> draw;
     std::vector<double> weights(n);
@@ -73,10 +74,10 @@ std::vector<double> random_weights(std::mt19937& random, std::size_t n) {
 }
 
 Simplex<4> random_simplex(std::mt19937& random) {
-    std::uniform_real_distribution<double> place(0, 10);
+    std::uniform_real_distribution<double> coordinate(0, 10);
     Simplex<4> simplex;
     for (ProjectedPoint& p : simplex) {
-        for (double& x : p) x = place(random);
+        for (double& x : p) x = coordinate(random);
         p[axis::q] = 1 + 0.1 * p[axis::u];
     }
     return simplex;
@@ -90,7 +91,7 @@ ProjectedPoint random_point(std::mt19937& random, const Simplex<4>& simplex) {
     return p;
 }
 
-TEST(ProductPaths, count_as_the_tables_of_the_thesis) {
+TEST(ProductPaths, have_the_numbers_of_the_tables_in_the_thesis) {
     EXPECT_EQ(product_paths<5>(2).size(), 6u);  // a (2,2)-simploid
     EXPECT_EQ(product_paths<4>(2).size(), 3u);  // a (2,1)-simploid
     EXPECT_EQ(product_paths<3>(1).size(), 2u);  // a quadrilateral
@@ -99,7 +100,7 @@ TEST(ProductPaths, count_as_the_tables_of_the_thesis) {
 }
 
 // The product of two triangles of area 1/2 has the volume 1/4 = 6/4!: six simplices of determinant one.
-TEST(ProductPaths, fill_the_product_of_two_triangles_once) {
+TEST(ProductPaths, fill_the_product_of_two_triangles_without_overlap) {
     const std::array<std::array<double, 2>, 3> corner{{{0, 0}, {1, 0}, {0, 1}}};
     std::vector<Simplex<4>> simplices;
     for (const auto& path : product_paths<5>(2)) {
@@ -120,8 +121,8 @@ TEST(ProductPaths, fill_the_product_of_two_triangles_once) {
     }
 }
 
-// [K] 5.7.1: a triangle seen from a triangle, a rectangle, a pentagon.
-TEST(ProjectedVolume, has_6_12_or_18_simplices_that_fill_it_once) {
+// [K] 5.7.1: a triangle seen from a triangle, a quadrilateral, a pentagon of camera points.
+TEST(ProjectedVolume, is_filled_by_6_12_or_18_simplices_without_overlap) {
     const LightFieldGrid grid{8, 6, 1_mm, 32, 24, Perspective{0.5, 0.4}, 1};
     const HogelRange range{2, 1, 4, 3};
     const DeepTriangle triangle{{{-2e-3, 1e-3, 5e-3}, {3e-3, 0, 9e-3}, {0, 4e-3, 6e-3}}};
@@ -173,21 +174,21 @@ double area(const std::vector<CameraPoint>& polygon) {
     return 0.5 * twice;
 }
 
-// [K] fig. 5.22: on the side of the front face nothing, a triangle, a quadrilateral, a pentagon, everything.
-TEST(BackFace, cuts_the_region_in_one_of_five_ways) {
+// [K] fig. 5.22: from nothing, a triangle, a quadrilateral, a pentagon or everything of the region the front is seen.
+TEST(BackFace, divides_the_region_in_one_of_five_ways) {
     const LightFieldGrid grid{8, 8, 1_mm, 32, 32, Perspective{0.5, 0.5}, 1};
     const HogelRange range{2, 2, 4, 4};
     std::mt19937 random(3);
-    std::uniform_real_distribution<double> place(-3e-3, 3e-3), deep(1e-3, 9e-3);
+    std::uniform_real_distribution<double> coordinate(-3e-3, 3e-3), deep(1e-3, 9e-3);
     std::set<std::size_t> cases;
     for (int i = 0; i < 500; ++i) {
         DeepTriangle triangle;
-        for (auto& p : triangle) p = {place(random), place(random), deep(random)};
+        for (auto& p : triangle) p = {coordinate(random), coordinate(random), deep(random)};
         const RegionSides sides = split_at_back_face(triangle, grid, range);
         EXPECT_NEAR(area(sides.front) + area(sides.back), 3.002 * 3.002, 1e-9);
         cases.insert(sides.front.size());
-        // The triangle's turn in the picture is the same from everywhere on one side, and the opposite on the other.
-        double turns[2] = {0, 0};
+        // The triangle's orientation in the picture is the same from all points of one side, and opposite on the other.
+        double orientations[2] = {0, 0};
         for (int side = 0; side < 2; ++side) {
             const std::vector<CameraPoint>& region = side == 0 ? sides.front : sides.back;
             if (region.size() < 3 || std::abs(area(region)) < 1e-6) continue;
@@ -199,28 +200,28 @@ TEST(BackFace, cuts_the_region_in_one_of_five_ways) {
                     p.t += weights[j] * region[j].t;
                 }
                 const auto [a, b, c] = project(triangle, p, grid, range);
-                const double turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-                if (turns[side] != 0) {
-                    ASSERT_GT(turn * turns[side], 0);
+                const double orientation = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+                if (orientations[side] != 0) {
+                    ASSERT_GT(orientation * orientations[side], 0);
                 }
-                turns[side] = turn;
+                orientations[side] = orientation;
             }
         }
-        EXPECT_LE(turns[0] * turns[1], 0);
+        EXPECT_LE(orientations[0] * orientations[1], 0);
     }
     EXPECT_EQ(cases, (std::set<std::size_t>{0, 3, 4, 5}));  // 4: a quadrilateral, or everything
 }
 
-// Where both faces are seen the volume folds through itself; the lobes of the two sides still fill it once.
-TEST(ProjectedVolume, with_two_lobes_is_filled_once) {
+// Where both faces are seen the volume folds through itself; the parts of the two sides still fill it without overlap.
+TEST(ProjectedVolume, is_filled_without_overlap_where_it_folds) {
     const LightFieldGrid grid{8, 8, 1_mm, 32, 32, Perspective{0.5, 0.5}, 1};
     const HogelRange range{2, 2, 4, 4};
     std::mt19937 random(7);
-    std::uniform_real_distribution<double> place(-3e-3, 3e-3), deep(1e-3, 9e-3), column(0, 3);
+    std::uniform_real_distribution<double> coordinate(-3e-3, 3e-3), deep(1e-3, 9e-3), column(0, 3);
     int folded = 0, folded_rows = 0;
     for (int round = 0; round < 300; ++round) {
         DeepTriangle triangle;
-        for (auto& p : triangle) p = {place(random), place(random), deep(random)};
+        for (auto& p : triangle) p = {coordinate(random), coordinate(random), deep(random)};
         std::vector<Simplex<4>> simplices;
         const RegionSides sides = split_at_back_face(triangle, grid, range);
         append_projected_volume(triangle, sides.front, grid, range, simplices);
@@ -267,7 +268,7 @@ TEST(NearPlane, keeps_what_lies_behind_it) {
         for (const DeepTriangle& t : kept) sum += height_along_depth(t);
         EXPECT_NEAR(sum, expected[i], 1e-12);
     }
-    // The other way round a quadrilateral is left: 8 − 2.
+    // Upside down a quadrilateral remains: 8 − 2.
     double sum = 0;
     const std::vector<DeepTriangle> kept = clip_to_near_plane({{{0, 0, 3}, {4, 0, 3}, {0, 4, 1}}}, 2);
     ASSERT_EQ(kept.size(), 2u);
@@ -278,8 +279,7 @@ TEST(NearPlane, keeps_what_lies_behind_it) {
     EXPECT_NEAR(sum, 6, 1e-12);
 }
 
-// The part above a plane and the part below it make up the whole and have no point in common.
-TEST(Clip, divides_a_simplex_without_loss_or_overlap) {
+TEST(Clip, divides_a_simplex_without_gap_or_overlap) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> value(1, 9);
     std::set<std::size_t> pieces;
@@ -307,18 +307,18 @@ TEST(Clip, divides_a_simplex_without_loss_or_overlap) {
     EXPECT_EQ(pieces, (std::set<std::size_t>{0, 1, 4, 6}));
 }
 
-// A point of the slice lies in one tetrahedron of it exactly if it lies in the simplex, and in one triangle of the
-// slice of the slice.
-TEST(Slice, is_the_simplex_where_the_plane_meets_it) {
+// A point of the plane lies in one tetrahedron of the slice exactly if it lies in the simplex, and in one triangle of
+// the slice of the slice.
+TEST(Slice, is_the_intersection_of_simplex_and_plane) {
     std::mt19937 random(5);
     std::set<std::size_t> tetrahedra, triangles;
-    std::uniform_real_distribution<double> place(0, 10);
+    std::uniform_real_distribution<double> coordinate(0, 10);
     int inside_both = 0;
     for (int i = 0; i < 2000; ++i) {
         Simplex<4> simplex = random_simplex(random);
-        const ProjectedPoint p = i % 2 == 0
-                                     ? random_point(random, simplex)
-                                     : ProjectedPoint{place(random), place(random), place(random), place(random), 0};
+        const ProjectedPoint p = i % 2 == 0 ? random_point(random, simplex)
+                                            : ProjectedPoint{coordinate(random), coordinate(random), coordinate(random),
+                                                             coordinate(random), 0};
         const int inside = contains<4>(simplex, p) ? 1 : 0;
         int in_tetrahedra = 0, in_triangles = 0;
         std::size_t tetrahedra_here = 0;
@@ -347,8 +347,8 @@ TEST(Slice, is_the_simplex_where_the_plane_meets_it) {
     EXPECT_EQ(triangles, (std::set<std::size_t>{0, 1, 2}));
 }
 
-// The slice of a simplex at whole values: each once, also where a corner has a whole value itself.
-TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_cut_there_once) {
+// A simplex is sliced at whole values, also where a corner has one.
+TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_sliced_there_once) {
     const auto at = [](double v) { return ProjectedPoint{0, v, 0, 0, 1}; };
     std::vector<double> values;
     const auto collect = [&](double value, const auto&) { values.push_back(value); };
@@ -357,16 +357,16 @@ TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_cut_there_once) {
     EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4}));
 }
 
-// (s, t) = (S, T)/Q: the row crosses an edge where [K] 5.7.4 says, and all of a slice's points are within its spans.
+// (s, t) = (S, T)/Q: the spans of rows, from the crossings of [K] 5.7.4, hold all samples of a slice and no others.
 TEST(Scan, finds_the_samples_between_the_edges_of_a_slice) {
     std::mt19937 random(6);
-    std::uniform_real_distribution<double> place(-2, 12), q(0.5, 3);
+    std::uniform_real_distribution<double> coordinate(-2, 12), q(0.5, 3);
     std::size_t samples = 0;
     for (int round = 0; round < 500; ++round) {
         Simplex<2> slice{};
         std::array<std::array<double, 2>, 3> corner;
         for (std::size_t i = 0; i < 3; ++i) {
-            corner[i] = {place(random), place(random)};
+            corner[i] = {coordinate(random), coordinate(random)};
             const double w = q(random);
             slice[i] = {0, 0, corner[i][0] * w, corner[i][1] * w, w};
         }
@@ -378,9 +378,9 @@ TEST(Scan, finds_the_samples_between_the_edges_of_a_slice) {
                 bool left = true, right = true;
                 for (std::size_t i = 0; i < 3; ++i) {
                     const auto &a = corner[i], &b = corner[(i + 1) % 3];
-                    const double turn = (b[0] - a[0]) * (double(t) - a[1]) - (b[1] - a[1]) * (double(s) - a[0]);
-                    left = left && turn > 0;
-                    right = right && turn < 0;
+                    const double side = (b[0] - a[0]) * (double(t) - a[1]) - (b[1] - a[1]) * (double(s) - a[0]);
+                    left = left && side > 0;
+                    right = right && side < 0;
                 }
                 ASSERT_EQ(left || right, s >= columns.first && s < columns.end) << round;
                 samples += left || right ? 1 : 0;

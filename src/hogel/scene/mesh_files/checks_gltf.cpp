@@ -11,10 +11,10 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-constexpr std::size_t deepest = 1000;
+constexpr std::size_t max_depth = 1000;
 
-/// The JSON part of a .gltf or .glb file; the chunks of a .glb file must lie inside it, or assimp makes room for what
-/// they claim.
+/// The JSON part of a .gltf or .glb file. The chunks of a .glb file must lie inside it, because assimp allocates the
+/// sizes that they state.
 std::string_view json_part(const std::string& file, std::string_view bytes) {
     if (!bytes.starts_with("glTF")) return bytes;
     std::string_view json;
@@ -29,7 +29,7 @@ std::string_view json_part(const std::string& file, std::string_view bytes) {
     return json;
 }
 
-// An accessor without data stands for zeros: a few bytes for any number of them.
+// An accessor without data stands for zeros, so that a few bytes could demand any number of elements.
 void check_accessors(const std::string& file, const nlohmann::json& document, std::size_t file_size) {
     const auto accessors = document.find("accessors");
     if (accessors == document.end() || !accessors->is_array()) return;
@@ -48,7 +48,7 @@ void check_accessors(const std::string& file, const nlohmann::json& document, st
 // walks the trees recursively.
 void check_gltf(const std::string& file, std::string_view bytes) {
     const auto document = nlohmann::json::parse(json_part(file, bytes), nullptr, false);
-    if (!document.is_object()) return;  // assimp says what is wrong
+    if (!document.is_object()) return;  // assimp reports what is wrong
     check_accessors(file, document, bytes.size());
     const auto nodes = document.find("nodes");
     if (nodes == document.end() || !nodes->is_array()) return;
@@ -68,12 +68,13 @@ void check_gltf(const std::string& file, std::string_view bytes) {
             known = i;
         }
     }
-    // With one parent each, a node is too deep or on a cycle exactly if the way up does not end soon.
+    // As each node has one parent, a node is too deep or on a cycle exactly if the path upwards does not end soon.
     for (std::size_t i = 0; i < parent.size(); ++i) {
         std::size_t depth = 0;
         for (std::size_t at = i; at != none; at = parent[at])
-            if (++depth > deepest)
-                reject_file(file, fmt::format("node {} lies below more than {} others", i, deepest), "a flatter tree");
+            if (++depth > max_depth)
+                reject_file(file, fmt::format("node {} lies below more than {} others", i, max_depth),
+                            "a flatter tree");
     }
 }
 

@@ -17,7 +17,7 @@ namespace {
 struct Type {
     std::string_view name, other_name;
     std::size_t size;
-    bool whole;  ///< an integer
+    bool is_integer;
 };
 
 constexpr std::array types{Type{"char", "int8", 1, true},      Type{"uchar", "uint8", 1, true},
@@ -27,7 +27,7 @@ constexpr std::array types{Type{"char", "int8", 1, true},      Type{"uchar", "ui
 
 struct Property {
     Type type;
-    std::optional<Type> count;  ///< of a list's length
+    std::optional<Type> count;  ///< type of a list's length; none for a single value
 };
 
 struct Element {
@@ -72,19 +72,33 @@ void parse_property(const std::string& file, std::string_view line, const std::v
         properties.push_back({parse_type(file, line, words[1]), std::nullopt});
     } else if (words.size() == 5 && words[1] == "list") {
         const Type count = parse_type(file, line, words[2]);
-        if (!count.whole) reject(file, line, "a list length of integer type");
+        if (!count.is_integer) reject(file, line, "a list length of integer type");
         properties.push_back({parse_type(file, line, words[3]), count});
     } else {
         reject(file, line, "'property TYPE NAME' or 'property list TYPE TYPE NAME'");
     }
 }
 
+Format parse_format(const std::string& file, std::string_view line, std::string_view name) {
+    if (name == "ascii") return Format::ascii;
+    if (name == "binary_little_endian") return Format::little_endian;
+    if (name == "binary_big_endian") return Format::big_endian;
+    reject(file, line, "ascii, binary_little_endian or binary_big_endian");
+}
+
+Element parse_element(const std::string& file, std::string_view line, const std::vector<std::string_view>& words) {
+    Element element{words[1], 0, {}};
+    const auto [rest, status] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
+    if (status != std::errc{} || rest != words[2].data() + words[2].size()) reject(file, line, "a number of elements");
+    return element;
+}
+
 Header parse_header(const std::string& file, std::string_view bytes) {
-    constexpr std::size_t longest = std::size_t{1} << 20;
+    constexpr std::size_t max_size = std::size_t{1} << 20;
     Header header;
     bool has_format = false;
     std::size_t at = 0;
-    while (at < std::min(bytes.size(), longest)) {
+    while (at < std::min(bytes.size(), max_size)) {
         const std::size_t end = bytes.find_first_of("\r\n", at);
         if (end == bytes.npos) break;
         const std::string_view line = bytes.substr(at, end - at);
@@ -98,21 +112,9 @@ Header parse_header(const std::string& file, std::string_view bytes) {
         }
         if (words[0] == "format" && words.size() == 3) {
             has_format = true;
-            if (words[1] == "ascii")
-                header.format = Format::ascii;
-            else if (words[1] == "binary_little_endian")
-                header.format = Format::little_endian;
-            else if (words[1] == "binary_big_endian")
-                header.format = Format::big_endian;
-            else
-                reject(file, line, "ascii, binary_little_endian or binary_big_endian");
+            header.format = parse_format(file, line, words[1]);
         } else if (words[0] == "element" && words.size() == 3) {
-            Element element{words[1], 0, {}};
-            const auto [rest, status] =
-                std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
-            if (status != std::errc{} || rest != words[2].data() + words[2].size())
-                reject(file, line, "a number of elements");
-            header.elements.push_back(std::move(element));
+            header.elements.push_back(parse_element(file, line, words));
         } else if (words[0] == "property") {
             parse_property(file, line, words, header);
         } else {
@@ -128,16 +130,16 @@ std::uint64_t read_count(std::string_view bytes, const Type& type, Format format
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < type.size; ++i)
         value = value << 8 | raw[format == Format::big_endian ? i : type.size - 1 - i];
-    return value;  // a negative length reads as a huge one, and is found to be too long
+    return value;  // a negative length becomes a huge one, which is refused as too long
 }
 
-/// Walks over binary data; every element must lie inside the file.
-void walk(const std::string& file, const Header& header, std::string_view data) {
+/// Every element of binary data must lie inside the file.
+void check_binary(const std::string& file, const Header& header, std::string_view data) {
     for (const Element& element : header.elements) {
         std::size_t fixed = 0;
-        bool lists = false;
+        bool has_lists = false;
         for (const Property& property : element.properties) {
-            lists = lists || property.count;
+            has_lists = has_lists || property.count;
             fixed += property.count ? property.count->size : property.type.size;
         }
         const auto truncated = [&](std::size_t done) {
@@ -145,7 +147,7 @@ void walk(const std::string& file, const Header& header, std::string_view data) 
                         "the data that the header promises");
         };
         if (fixed > 0 && element.count > data.size() / fixed) truncated(data.size() / fixed);
-        if (!lists) {
+        if (!has_lists) {
             data.remove_prefix(element.count * fixed);
             continue;
         }
@@ -165,8 +167,8 @@ void walk(const std::string& file, const Header& header, std::string_view data) 
     }
 }
 
-/// Text has one line an element.
-void count_lines(const std::string& file, const Header& header, std::string_view data) {
+/// Text has one line for each element.
+void check_lines(const std::string& file, const Header& header, std::string_view data) {
     std::size_t lines = 0;
     for (std::size_t at = 0; (at = data.find_first_not_of(" \t\r\n", at)) != data.npos; ++lines)
         at = std::min(data.find_first_of("\r\n", at), data.size());
@@ -185,9 +187,9 @@ void check_ply(const std::string& file, std::string_view bytes) {
     const Header header = parse_header(file, bytes);
     const std::string_view data = bytes.substr(header.size);
     if (header.format == Format::ascii)
-        count_lines(file, header, data);
+        check_lines(file, header, data);
     else
-        walk(file, header, data);
+        check_binary(file, header, data);
 }
 
 }  // namespace hogel::scene::mesh_files

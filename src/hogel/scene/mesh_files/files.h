@@ -7,7 +7,7 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Lets assimp open regular files in one folder and below, and nothing else: what a mesh file names is not trusted.
+/// Lets assimp open regular files in one folder and below, and nothing else: paths in a mesh file are not trusted.
 class FolderFiles final : public Assimp::DefaultIOSystem {
   public:
     explicit FolderFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}

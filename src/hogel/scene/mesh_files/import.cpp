@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t max_triangles = std::size_t{1} << 28;
 constexpr std::size_t max_instances = std::size_t{1} << 20;
-constexpr unsigned max_corners = 4096;  // of a polygon: cutting it into triangles takes the square of that
-constexpr double crease = 60 * std::numbers::pi / 180;  // normals that a file lacks are smooth up to this angle
+constexpr unsigned max_corners = 4096;                  // of a polygon, whose triangulation takes quadratic time
+constexpr double crease = 60 * std::numbers::pi / 180;  // missing normals are smooth up to this angle
 
 struct Placed {
     const aiMesh* mesh;
@@ -33,8 +33,8 @@ struct Placed {
 
 bool has_faces(const aiMesh& mesh) { return mesh.mNumFaces > 0 && mesh.HasPositions(); }
 
-/// Every mesh of the node hierarchy with its transform; counted before anything is copied, because a small file can
-/// ask for billions of copies.
+/// Every mesh of the node hierarchy with its transform. Triangles are counted before anything is copied, because a
+/// small file can demand billions of copies.
 std::vector<Placed> place_meshes(const aiScene& source, const std::string& file) {
     struct Visit {
         const aiNode* node;
@@ -68,14 +68,14 @@ std::vector<Placed> place_meshes(const aiScene& source, const std::string& file)
     return placed;
 }
 
-// In double precision: the file's floats times a hierarchy of matrices.
+// In double precision, as matrices are products over the hierarchy.
 Vec3 transform_point(const aiMatrix4x4& m, const aiVector3D& p) {
     const double x = p.x, y = p.y, z = p.z;
     return {m.a1 * x + m.a2 * y + m.a3 * z + m.a4, m.b1 * x + m.b2 * y + m.b3 * z + m.b4,
             m.c1 * x + m.c2 * y + m.c3 * z + m.c4};
 }
 
-/// The columns of the cofactor matrix: what normals transform by, times the determinant, finite for any scale.
+/// The columns of the cofactor matrix, by which normals transform up to the determinant. Finite for any scale.
 struct NormalTransform {
     Vec3 x, y, z;
     double determinant;
@@ -91,7 +91,7 @@ struct NormalTransform {
     }
 };
 
-/// False if the file's normals are no directions; then new ones are made.
+/// False if a normal of the file has no direction; then new ones are made.
 bool import_normals(const aiMesh& source, const NormalTransform& transform, Mesh& mesh) {
     mesh.normals.reserve(source.mNumVertices);
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
@@ -103,7 +103,7 @@ bool import_normals(const aiMesh& source, const NormalTransform& transform, Mesh
     return true;
 }
 
-/// Colours of PLY, OBJ and the like are display values; glTF's are linear.
+/// Colours of PLY, OBJ and similar files are display values; those of glTF are linear.
 Rgb import_color(const aiColor4D& c, bool linear) {
     return linear ? Rgb{c.r, c.g, c.b} : Rgb{srgb_decode(c.r), srgb_decode(c.g), srgb_decode(c.b)};
 }
@@ -201,7 +201,7 @@ Scene import_scene(const std::filesystem::path& path) {
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
-        reject_file(file, "asks for more memory than there is", "a smaller or undamaged mesh");
+        reject_file(file, "needs more memory than available", "a smaller or undamaged mesh");
     } catch (const std::exception& error) {
         reject_file(file, one_line(error.what()), "a mesh file that assimp can read");
     }

@@ -33,7 +33,7 @@ class Import : public testing::Test {
         std::ofstream(path, std::ios::binary) << bytes;
         return path;
     }
-    /// The message of the error that importing must end with: one line that begins with the file's name.
+    /// The message with which an import must fail: one line that begins with the file's name.
     static std::string refusal(const fs::path& path) {
         try {
             import_scene(path);
@@ -56,7 +56,7 @@ class Import : public testing::Test {
     fs::path folder_;
 };
 
-/// How a list of n vertices begins in a PLY file.
+/// The first byte of a list of n vertices in a PLY file.
 std::string face_of(int n) { return std::string(1, static_cast<char>(n)); }
 
 std::string base64(const std::string& bytes) {
@@ -92,7 +92,7 @@ std::string gltf(const std::string& nodes, const std::string& roots, const std::
         roots, nodes, material, base64(bytes));
 }
 
-TEST_F(Import, obj_polygons_become_triangles_with_the_same_area_and_side) {
+TEST_F(Import, obj_polygons_become_triangles_of_the_same_area_and_orientation) {
     const Scene scene = import_scene(write("l.obj",
                                            "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
                                            "f 1 2 3 4 5 6\n"));
@@ -108,7 +108,7 @@ TEST_F(Import, obj_polygons_become_triangles_with_the_same_area_and_side) {
     for (const Vec3 normal : scene.meshes[0].normals) EXPECT_NEAR(normal.z, 1, 1e-6);
 }
 
-TEST_F(Import, ply_colours_are_display_values_and_become_linear) {
+TEST_F(Import, ply_colours_are_converted_from_display_values) {
     const Scene scene =
         import_scene(write("c.ply",
                            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -136,7 +136,7 @@ TEST_F(Import, gltf_materials_are_glossy_and_others_matt) {
     EXPECT_EQ(matt.meshes[0].material.metallic, 0.0f);
 }
 
-TEST_F(Import, gltf_colours_are_linear_and_base_colours_multiply) {
+TEST_F(Import, gltf_colours_are_linear) {
     const Scene scene = import_scene(write(
         "c.gltf", gltf(R"([{"mesh":0}])", "[0]",
                        R"({"pbrMetallicRoughness":{"baseColorFactor":[0.25,0.5,1,1]},"emissiveFactor":[0,0.5,0]})")));
@@ -145,7 +145,7 @@ TEST_F(Import, gltf_colours_are_linear_and_base_colours_multiply) {
     EXPECT_EQ(scene.meshes[0].material.emission, (Rgb{0, 0.5f, 0}));
 }
 
-TEST_F(Import, node_transforms_are_applied_and_mirrored_instances_keep_their_outside) {
+TEST_F(Import, node_transforms_are_applied_and_mirrored_instances_keep_their_front) {
     const Scene scene =
         import_scene(write("n.gltf", gltf(R"([{"children":[1,2],"translation":[10,0,0]},{"mesh":0,"scale":[2,3,1]},
                            {"mesh":0,"scale":[-1,1,1],"translation":[0,0,5]}])",
@@ -156,11 +156,11 @@ TEST_F(Import, node_transforms_are_applied_and_mirrored_instances_keep_their_out
     EXPECT_NEAR(box.high.x, 12, 1e-6);
     EXPECT_NEAR(box.high.y, 3, 1e-6);
     EXPECT_NEAR(box.high.z, 5, 1e-6);
-    // A mirror in x leaves the front of a triangle that faces z in front.
+    // A triangle that faces z still does after mirroring in x.
     for (const Mesh& mesh : scene.meshes) EXPECT_NEAR(mesh.normals[mesh.triangles[0][0]].z, 1, 1e-6);
 }
 
-TEST_F(Import, normals_follow_uneven_scaling_as_normals_do) {
+TEST_F(Import, normals_are_perpendicular_after_uneven_scaling) {
     // A facet with normal (1, 1, 0)/√2, squeezed in y by 2, has the normal (1, 2, 0)/√5.
     const std::string bytes =
         raw<float>({1, 0, 0, 0, 1, 0, 0, 1, 1}) +
@@ -177,7 +177,7 @@ TEST_F(Import, normals_follow_uneven_scaling_as_normals_do) {
     EXPECT_NEAR(scene.meshes[0].normals[0].y, 2 / std::sqrt(5), 1e-6);
 }
 
-TEST_F(Import, missing_files_folders_and_empty_files_are_named) {
+TEST_F(Import, missing_files_folders_and_empty_files_are_refused) {
     EXPECT_NE(refusal(folder_ / "nothing.obj").find("no such file"), std::string::npos);
     EXPECT_NE(refusal(folder_ / "meshes").find("folder"), std::string::npos);
     expect_refusal("empty.obj", "", "empty");
@@ -190,7 +190,7 @@ TEST_F(Import, meshes_without_a_surface_are_refused) {
     expect_refusal("index.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 9\n", "");
 }
 
-TEST_F(Import, coordinates_that_are_no_numbers_are_refused) {
+TEST_F(Import, coordinates_that_are_not_finite_are_refused) {
     const std::string header =
         "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
@@ -202,7 +202,7 @@ TEST_F(Import, coordinates_that_are_no_numbers_are_refused) {
               2u);
 }
 
-// Sizes that a header promises and the file does not hold; all of these bring assimp 5.2 down.
+// Sizes in a header that the file does not have; assimp 5.2 crashes on all of these.
 TEST_F(Import, ply_headers_are_not_trusted) {
     const std::string start = "ply\nformat binary_little_endian 1.0\n";
     const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
@@ -236,7 +236,7 @@ TEST_F(Import, ply_headers_are_not_trusted) {
                                      .substr(0, 150 + kept)));
 }
 
-TEST_F(Import, instance_bombs_and_cycles_are_refused_before_they_unfold) {
+TEST_F(Import, instance_bombs_and_cycles_are_refused_before_they_expand) {
     std::string nodes = "[";
     for (int i = 1; i <= 40; ++i) nodes += fmt::format(R"({{"children":[{0},{0}]}},)", i);
     expect_refusal("bomb.gltf", gltf(nodes + R"({"mesh":0}])", "[0]"), "two parents");
@@ -247,7 +247,7 @@ TEST_F(Import, instance_bombs_and_cycles_are_refused_before_they_unfold) {
     expect_refusal("deep.gltf", gltf(chain + R"({"mesh":0}])", "[0]"), "flatter");
 }
 
-TEST_F(Import, sizes_that_a_gltf_file_cannot_hold_are_refused) {
+TEST_F(Import, sizes_larger_than_a_gltf_file_are_refused) {
     std::string json = gltf(R"([{"mesh":0}])", "[0]");
     json.append(3 - (json.size() + 3) % 4, ' ');  // chunks are whole words
     const auto size = static_cast<std::uint32_t>(json.size());
@@ -276,7 +276,7 @@ TEST_F(Import, a_giant_polygon_is_refused) {
     expect_refusal("giant.obj", obj + face + "\n", "5000 corners");
 }
 
-TEST_F(Import, a_missing_texture_is_named_and_so_is_one_outside_the_folder) {
+TEST_F(Import, textures_that_are_missing_or_outside_the_folder_are_refused) {
     std::ofstream(folder_ / "secret.png") << "not for you";
     const std::string obj =
         "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";

@@ -16,7 +16,7 @@ float reflectance(float value) { return std::isfinite(value) ? std::clamp(value,
 float unit(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 1.0f; }
 float radiance(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1e6f) : 0.0f; }
 
-/// "my%20wood.png" is what a URI calls "my wood.png".
+/// Decodes a URI: "my%20wood.png" is "my wood.png".
 std::string percent_decoded(const std::string& text) {
     std::string decoded;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -66,7 +66,7 @@ Material MaterialImport::read(const aiMaterial& source) {
          source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS))
         material.base_color = {reflectance(color.r), reflectance(color.g), reflectance(color.b)};
 
-    // glTF's materials; others stay matt. Where a texture says what is metal and what is rough, nothing is metal.
+    // Only glTF's materials are glossy. Metallic-roughness textures are not supported: such materials are not metallic.
     float metallic = 1;
     if (source.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS) {
         material.reflectance = 0.04f;
@@ -75,7 +75,7 @@ Material MaterialImport::read(const aiMaterial& source) {
         if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == AI_SUCCESS) material.roughness = unit(roughness);
     }
 
-    // With an emission texture the factor is only its scale: a whole surface that glows would be wrong.
+    // With an emission texture, which is not supported, the factor is its scale and would light the whole surface.
     aiColor3D emission;
     if (source.GetTextureCount(aiTextureType_EMISSIVE) == 0 &&
         source.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == AI_SUCCESS)

@@ -14,13 +14,14 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Turns assimp's materials into ours. A texture is read once, however many materials use it.
+/// Converts assimp's materials. A texture that several materials use is read once.
 class MaterialImport {
   public:
-    /// @param folder  of the mesh, canonical; @param file  the mesh as the caller named it, for messages
+    /// @param folder  of the mesh, canonical
+    /// @param file    name of the mesh for messages, as the caller gave it
     MaterialImport(const aiScene& source, const std::filesystem::path& folder, std::string file);
     const Material& operator[](unsigned index);
-    /// Whether the material is to be shown as it is, whatever the lights (glTF: KHR_materials_unlit).
+    /// Whether the material's colour is its radiance, independent of lights (glTF: KHR_materials_unlit).
     bool is_unlit(unsigned index) const;
 
   private:

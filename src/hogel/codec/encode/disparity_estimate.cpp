@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/codec/encode/disparity_estimate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "hogel/codec/encode/blocks.h"
+#include "hogel/codec/format/pictures.h"
+
+namespace hogel::codec::encode {
+
+using namespace format;
+
+namespace {
+
+// In squared steps of the first layer, for each neighbour that counts: with less error than this the disparity of a
+// neighbouring block is taken as it is.
+constexpr float well_estimated = 1;
+// In squared finest steps, for each neighbour that counts: with this error or more neighbours do not show the same.
+constexpr float max_shared_error = 6.4f;
+constexpr float unknown = std::numeric_limits<float>::infinity();
+
+// Compares the blocks of a hogel with its neighbours at distances of 1, 2 and 4 hogels.
+class Estimation {
+  public:
+    Estimation(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel)
+        : setup_(setup), picture_(picture_at(tile, hogel.s, hogel.t)) {
+        for (const int apart : {-4, 4, -2, 2, -1, 1}) {  // the most significant first
+            const std::size_t s = hogel.s + static_cast<std::size_t>(apart);
+            const std::size_t t = hogel.t + static_cast<std::size_t>(apart);
+            if (s < tile.range.ns) neighbours_[0].push_back({{0, apart, 0}, picture_at(tile, s, hogel.t)});
+            if (t < tile.range.nt) neighbours_[1].push_back({{0, 0, apart}, picture_at(tile, hogel.s, t)});
+        }
+    }
+
+    Estimate run() {
+        std::size_t counted = 0;
+        for (const auto& axis : neighbours_) counted += (axis.size() + 1) / 2;
+        const float well_known = well_estimated * static_cast<float>(counted) * setup_.step[0] * setup_.step[0];
+        const float not_shared =
+            max_shared_error * static_cast<float>(counted) * setup_.step.back() * setup_.step.back();
+        Estimate estimate;
+        estimate.disparities.resize(setup_.grid.count());
+        for (std::size_t k = 0; k < setup_.grid.count(); ++k) {
+            search_block(k, estimate.disparities, well_known);
+            estimate.disparities[k] = static_cast<std::int16_t>(best_);
+            if (least_ < not_shared)
+                estimate.shared += (1 - least_ / not_shared) / static_cast<float>(estimate.disparities.size());
+        }
+        return estimate;
+    }
+
+  private:
+    struct Neighbour {
+        HogelOrder::Reference place;
+        Picture picture;
+    };
+
+    Picture picture_at(LightFieldTile& tile, std::size_t s, std::size_t t) const {
+        const bool in_tile = setup_.grid.channels == 1 && setup_.whole_blocks();
+        return in_tile ? as_in_tile(tile, setup_, s, t) : picture_of(tile, setup_, s, t);
+    }
+
+    // The error of a neighbour's block, with the shift rounded to whole directions or as it is.
+    float error(const Neighbour& neighbour, int disparity, bool whole_directions) const {
+        const Plane& plane = neighbour.picture[0];
+        const Shift shift = shift_of(disparity, neighbour.place, setup_.aspect);
+        if (whole_directions) {
+            const PlaneWindow window(plane, x_ + ((shift.u + 32) >> 6), y_ + ((shift.v + 32) >> 6), block_side,
+                                     block_side);
+            return squared_difference(window.rows(), window.stride(), block_);
+        }
+        BlockSamples other;
+        fetch_warped(plane, x_, y_, shift, other);
+        return squared_difference(other, block_);
+    }
+
+    // The sum of the errors of the better half of the neighbours along each axis: what one side hides the other may
+    // show. A sum of `most` or more need not be exact.
+    float cost(int disparity, bool whole_directions, float most) const {
+        float sum = 0;
+        for (const auto& axis : neighbours_) {
+            std::array<float, 6> smallest;  // errors in rising order
+            const std::size_t better = (axis.size() + 1) / 2;
+            for (std::size_t n = 0; n < axis.size(); ++n) {
+                const float here = error(axis[n], disparity, whole_directions);
+                std::size_t at = n;
+                for (; at > 0 && here < smallest[at - 1]; --at) smallest[at] = smallest[at - 1];
+                smallest[at] = here;
+                // Each neighbour left may replace one of the smallest errors.
+                const std::size_t left = axis.size() - 1 - n;
+                float at_least = sum;
+                for (std::size_t i = 0; i + left < better; ++i) at_least += smallest[i];
+                if (!(at_least < most)) return at_least;
+            }
+            for (std::size_t i = 0; i < better; ++i) sum += smallest[i];
+        }
+        return sum;
+    }
+
+    void try_one(int disparity, bool whole_directions) {
+        const float here = cost(disparity, whole_directions, std::min(least_, bound_));
+        if (here < least_) {
+            least_ = here;
+            best_ = disparity;
+        }
+    }
+
+    void search_block(std::size_t k, const std::vector<std::int16_t>& known, float well_known) {
+        const std::size_t column = k % setup_.grid.columns, row = k / setup_.grid.columns;
+        x_ = static_cast<int>(column * block_side);
+        y_ = static_cast<int>(row * block_side);
+        block_ = block_of(picture_[0], column * block_side, row * block_side);
+        best_ = 0;
+        least_ = bound_ = unknown;
+        // Most blocks continue the surface on their left or above.
+        if (column > 0) try_one(known[k - 1], false);
+        if (row > 0 && !(least_ < well_known)) try_one(known[k - setup_.grid.columns], false);
+        int part = 4;
+        if (!(least_ < well_known)) {
+            search_all();
+            part = 16;
+        }
+        for (; part >= 2; part /= 2)
+            for (const int middle = best_; const int sign : {-1, 1}) try_one(middle + sign * part, false);
+    }
+
+    // Quarters of a direction up to four, whole directions up to 16.
+    void search_all() {
+        const int continued = best_;
+        const float of_continued = least_;
+        const int quarter = shift_unit / 4, unit = std::abs(best_) <= 4 * shift_unit ? quarter : shift_unit;
+        const int nearest = (best_ + unit / 2) / unit * unit;
+        if (std::abs(nearest) <= 16 * shift_unit) bound_ = std::nextafter(cost(nearest, true, unknown), unknown);
+        best_ = 0;
+        least_ = cost(0, true, bound_);
+        for (int disparity = quarter; disparity <= 4 * shift_unit; disparity += quarter)
+            for (const int sign : {-1, 1}) try_one(sign * disparity, true);
+        for (int disparity = 5 * shift_unit; disparity <= 16 * shift_unit; disparity += shift_unit)
+            for (const int sign : {-1, 1}) try_one(sign * disparity, true);
+        bound_ = unknown;
+        least_ = cost(best_, false, unknown);
+        if (of_continued < least_) {
+            least_ = of_continued;
+            best_ = continued;
+        }
+    }
+
+    const TileSetup& setup_;
+    Picture picture_;
+    std::array<std::vector<Neighbour>, 2> neighbours_;  // along s, along t
+    // The block that is searched:
+    int x_ = 0, y_ = 0;
+    BlockSamples block_;
+    int best_ = 0;           // disparity
+    float least_ = unknown;  // its cost
+    float bound_ = unknown;  // a cost that will be reached; more need not be known exactly
+};
+
+}  // namespace
+
+Estimate estimate_disparities(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel) {
+    return Estimation(setup, tile, hogel).run();
+}
+
+}  // namespace hogel::codec::encode

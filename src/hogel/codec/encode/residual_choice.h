@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hogel/codec/format/block_syntax.h"
+
+namespace hogel::codec::encode {
+
+// A channel of a block: its prediction, and the levels of its residual.
+struct CodedChannel {
+    format::BlockSamples prediction;
+    bool any_levels = false;
+    std::uint8_t basis = 0;
+    format::Levels levels;
+    float cost = 0;  // squared error, and the bits of the levels times their weight
+};
+
+// Chooses basis and levels of the residual of a channel's prediction; no levels where they cost more than they gain.
+// @param error   Σ (truth − prediction)²
+void quantise(const format::BlockSamples& truth, float error, float step, bool intra, float reconstruction_offset,
+              CodedChannel& channel);
+
+}  // namespace hogel::codec::encode
