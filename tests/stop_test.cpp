@@ -16,6 +16,7 @@
 #include "hogel/photograph.h"
 #include "hogel/propagate.h"
 #include "hogel/ray_photograph.h"
+#include "hogel/renderer.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/scenes.h"
 #include "hogel/shading.h"
@@ -146,8 +147,30 @@ std::vector<Verb> verbs() {
     };
 }
 
+// Takes values and forgets them.
+class NullSink final : public LightFieldSink {
+  public:
+    void write(const LightFieldTile&) override {}
+};
+
+// Of a scene that takes seconds for each tile.
+std::vector<Verb> renderings() {
+    static const auto scene =
+        std::make_shared<const ShadedScene>(shade_scene(make_scene("pumpkin", 16_mm), {.model = "vertex"}));
+    std::vector<Verb> all;
+    for (const RendererInfo& renderer : renderers().rows())
+        all.push_back({renderer.name, [name = renderer.name](const Progress& progress) {
+                           const LightFieldGrid grid{256, 256, 62.5_um, 256, 256, field_of_view(30_deg), 3};
+                           NullSink sink;
+                           copy(*make_renderer(name, scene, grid), sink, progress);
+                       }});
+    return all;
+}
+
 class Stop : public testing::TestWithParam<Verb> {};
 INSTANTIATE_TEST_SUITE_P(Verbs, Stop, testing::ValuesIn(verbs()), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Renderers, Stop, testing::ValuesIn(renderings()),
+                         [](const auto& test) { return test.param.name; });
 
 TEST_P(Stop, ends_the_work_within_a_second) {
     std::stop_source source;

@@ -104,6 +104,7 @@ SampleComparison result_of(const Difference& sum) { return {sum.sqnr(), sum.psnr
 }  // namespace
 
 SampleComparison compare(const LightField& a, const LightField& b, const Progress& progress) {
+    const core::StopScope scope(progress);
     if (a.grids() != b.grids()) sampled_differently("light fields");
     Difference sum;
     for (std::size_t i = 0; i < a.faces().size(); ++i)
@@ -113,6 +114,7 @@ SampleComparison compare(const LightField& a, const LightField& b, const Progres
 
 SampleComparison compare(std::span<const std::shared_ptr<const FieldSource>> a,
                          std::span<const std::shared_ptr<const FieldSource>> b, const Progress& progress) {
+    const core::StopScope scope(progress);
     const auto grid = [](const std::shared_ptr<const FieldSource>& field) { return field->grid(); };
     if (!std::ranges::equal(a, b, {}, grid, grid)) sampled_differently("holograms");
     Difference sum;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
 #include "hogel/pipeline.h"
@@ -62,6 +63,7 @@ std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField&
 std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
                                       std::span<const Camera> cameras,
                                       const std::optional<PlaneWaveCameraOptions>& full, const Progress& progress) {
+    const core::StopScope scope(progress);
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
     for (std::size_t c = 0; c < colours; ++c) {
@@ -79,6 +81,7 @@ std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const Fiel
 
 void write_holograms(const std::filesystem::path& path, std::span<const std::shared_ptr<const FieldSource>> holograms,
                      const HologramFileOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     std::vector<FieldGrid> grids;
     for (const auto& hologram : holograms) grids.push_back(hologram->grid());
     const auto sinks = create_hologram(path, grids, options);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
 #include "hogel/render/cache_spacing.h"
@@ -53,6 +54,7 @@ InputKind input_kind(const std::string& name) {
 }
 
 Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {
+    const core::StopScope scope(progress);
     if (scenes().look_up(name) != nullptr) return make_scene(name, request.grid.width(), progress);
     require_file(name);
     Scene scene = import_scene(name);
@@ -64,6 +66,7 @@ Scene load_scene(const std::string& name, const LightFieldRequest& request, cons
 
 std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFieldRequest& request,
                                                const Progress& progress) {
+    const core::StopScope scope(progress);
     auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, request.shading, progress));
     shaded->fronts_only = request.cull_back_faces;
     if (request.cache_spacing > 0)
@@ -85,6 +88,7 @@ LightField render_light_field(const Scene& scene, const LightFieldRequest& reque
 
 LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
                                const Progress& progress) {
+    const core::StopScope scope(progress);
     const double values = light_field.samples() * (with_depth ? 4.0 / 3 : 1);
     if (times <= 1 || values * sizeof(float) > max_kept_bytes)
         return cached_tiles(light_field, max_cached_tile_bytes, with_depth);
@@ -99,6 +103,7 @@ LightField prepare_for_reading(const LightField& light_field, std::size_t times,
 
 void write_light_field(const std::filesystem::path& path, const LightField& light_field,
                        const LightFieldFileOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     const auto sinks = create_light_field(path, light_field.grids(), options);
     for (std::size_t i = 0; i < sinks.size(); ++i)
         copy(*light_field.faces()[i], *sinks[i], progress.part(i, sinks.size()));

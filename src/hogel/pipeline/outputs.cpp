@@ -27,6 +27,7 @@ void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::si
 std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder,
                                                         const LightField& light_field,
                                                         const PrinterImageOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
     if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure: a positive number was expected");
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hogel/core/parallel.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/row_axes.h"
 #include "hogel/render/row_tile.h"
@@ -61,6 +62,7 @@ class MvrRenderer final : public Renderer {
             for (std::vector<Slice>& table : tables) table.clear();
             for (std::uint32_t index : triangles_) slice_triangle(index, slow_hogel, tables);
             for (std::size_t slow = 0; slow < tables.size(); ++slow) {
+                core::throw_if_stopped();
                 std::ranges::fill(picture.elements(), NearestTriangle{});
                 for (const Slice& slice : tables[slow]) scan_convert(slice, slow, row, tile.range, picture);
                 for (std::size_t i = 0; i < hogels; ++i)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hogel/core/parallel.h"
 #include "hogel/render/baselines/oblique.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
@@ -64,6 +65,7 @@ class ObliqueRenderer final : public Renderer {
         Array<NearestTriangle, 2> picture(oblique_buffer(tile.range));
         for (std::size_t v = 0; v < grid_.directions_v; ++v)
             for (std::size_t u = 0; u < grid_.directions_u; ++u) {
+                core::throw_if_stopped();
                 std::ranges::fill(picture.elements(), NearestTriangle{});
                 for (std::uint32_t index : triangles_)
                     scan_convert(ObliqueTriangle(*scene_, index, grid_, static_cast<double>(u), static_cast<double>(v)),

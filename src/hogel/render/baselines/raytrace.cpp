@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/core/parallel.h"
 #include "hogel/render/baselines/raytrace.h"
 #include "hogel/render/sample_store.h"
 #include "hogel/shading/triangles.h"
@@ -42,9 +43,11 @@ class RaytraceRenderer final : public Renderer {
 
     void read(LightFieldTile& tile) const override {
         for (std::size_t t = 0; t < tile.range.nt; ++t)
-            for (std::size_t s = 0; s < tile.range.ns; ++s)
+            for (std::size_t s = 0; s < tile.range.ns; ++s) {
+                core::throw_if_stopped();
                 for (std::size_t v0 = 0; v0 < grid_.directions_v; v0 += bundle)
                     for (std::size_t u0 = 0; u0 < grid_.directions_u; u0 += bundle) trace(tile, t, s, v0, u0);
+            }
     }
 
   private:

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "hogel/core/parallel.h"
 #include "hogel/render/baselines/zbuffer.h"
 #include "hogel/render/sample_store.h"
 
@@ -65,6 +66,7 @@ class ZbufferRenderer final : public Renderer {
         std::vector<VisiblePoint> picture(grid_.directions());
         for (std::size_t t = 0; t < tile.range.nt; ++t)
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
+                core::throw_if_stopped();
                 project(tile.range.s0 + s, tile.range.t0 + t, vertices);
                 std::fill(picture.begin(), picture.end(), VisiblePoint{});
                 for (std::size_t i = 0; i < scene_->triangles.size(); ++i) scan_convert(i, vertices, picture);

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <random>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/render/epi/setup.h"
 #include "hogel/render/epi/test_triangles.h"
 
 namespace hogel::render::epi {
 namespace {
 
-class CrossedOnEveryTarget : public KernelTargetTest {};
-INSTANTIATE_TEST_SUITE_P(CrossedTriangles, CrossedOnEveryTarget, ::testing::ValuesIn(kernel_targets()));
+HOGEL_TEST_ON_EVERY_TARGET(CrossedKernels);
 
 // Light fields of the front, with directions to one side, with more directions than RowPlanes has planes, and of sides
 // of a hemicube.
@@ -168,7 +168,7 @@ TEST(CrossedTriangles, are_nearly_exact_behind_the_hologram) {
     EXPECT_LT(in_vain, found / 200);
 }
 
-TEST_P(CrossedOnEveryTarget, vector_and_plain_twins_agree) {
+TEST_P(CrossedKernels, vector_and_plain_twins_agree) {
     for (const LightFieldGrid& grid : grids())
         for (const double size : {0.02e-3, 0.4e-3, 3e-3}) {
             const EpipolarFrame frame(grid);

@@ -248,12 +248,5 @@ void draw_spans(std::span<const EpiSpan> spans, std::size_t first, const Epipola
     HWY_DYNAMIC_DISPATCH(DrawSpans)(spans, first, plane);
 }
 
-std::vector<std::int64_t> kernel_targets() { return hwy::SupportedAndGeneratedTargets(); }
-
-void use_kernel_target(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 }  // namespace hogel::render::epi
 #endif

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hogel/array.h"
+#include "hogel/core/parallel.h"
 #include "hogel/render/epi/clusters.h"
 #include "hogel/render/epi/crossed.h"
 #include "hogel/render/epi/frame.h"
@@ -74,6 +75,7 @@ class EpiRenderer final : public LightFieldSource {
                 const EpipolarFrame::Plane any = frame_.plane(row, 0);
                 drawer.begin_row(plane, any.shift, any.z0);
                 for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
+                    core::throw_if_stopped();
                     const std::size_t i = slow % RowPlanes::max_planes;
                     if (i == 0) find_crossed(clusters_, planes_from(plane, row, slow), crossed);
                     drawer.draw(plane, cut_plane(row, slow), crossed[i]);

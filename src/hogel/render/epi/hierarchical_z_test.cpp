@@ -6,6 +6,7 @@
 #include <cstring>
 #include <random>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/render/epi/test_plane.h"
 
 namespace hogel::render::epi {
@@ -57,9 +58,11 @@ TEST(HierarchicalZ, occludes_only_what_cannot_be_seen) {
     EXPECT_GT(visible, 1000u);
 }
 
+HOGEL_TEST_ON_EVERY_TARGET(HierarchicalZKernels);
+
 // Boxes stand before, in and behind the hologram, near it and far to the side; planes have whole CellColumns and
 // others.
-TEST(HierarchicalZ, vector_and_plain_twins_agree) {
+TEST_P(HierarchicalZKernels, vector_and_plain_twins_agree) {
     std::mt19937 random(3);
     const auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -76,24 +79,20 @@ TEST(HierarchicalZ, vector_and_plain_twins_agree) {
         const double shift = uniform(-3, 3), z0 = round % 2 == 0 ? 0 : uniform(-1, 1);
         const std::size_t needed = CellColumns::needed(drawn.plane.directions);
         BoxFootprints fast;
-        for (const std::int64_t target : kernel_targets()) {
-            use_kernel_target(target);
-            fast.begin_row(boxes, drawn.plane, shift, z0);
-            for (std::size_t i = 0; i < boxes.size(); ++i) {
-                std::vector<CellColumns, CacheLineAllocator<CellColumns>> columns(needed);
-                const FootprintBounds plain = find_footprint_plain(boxes[i], drawn.plane, shift, z0, columns.data());
-                ASSERT_EQ(std::memcmp(fast[i].columns, columns.data(), needed * sizeof(CellColumns)), 0)
-                    << target << " " << round << " " << i;
-                ASSERT_EQ(fast[i].bounds.min_depth, plain.min_depth);
-                ASSERT_EQ(fast[i].bounds.max_columns, plain.max_columns);
-                wide += plain.max_columns > 16;
-                // At random depths, so that about half of them are occluded.
-                const BoxFootprint some{columns.data(), {std::uint32_t(1500 + random() % 1500), plain.max_columns}};
-                const bool occludes = cells_occlude_plain(drawn.plane, some);
-                (occludes ? occluded : visible) += 1;
-                EXPECT_EQ(cells_occlude(drawn.plane, some), occludes) << target << " " << round << " " << i;
-            }
-            use_kernel_target(0);
+        fast.begin_row(boxes, drawn.plane, shift, z0);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            std::vector<CellColumns, CacheLineAllocator<CellColumns>> columns(needed);
+            const FootprintBounds plain = find_footprint_plain(boxes[i], drawn.plane, shift, z0, columns.data());
+            ASSERT_EQ(std::memcmp(fast[i].columns, columns.data(), needed * sizeof(CellColumns)), 0)
+                << round << " " << i;
+            ASSERT_EQ(fast[i].bounds.min_depth, plain.min_depth);
+            ASSERT_EQ(fast[i].bounds.max_columns, plain.max_columns);
+            wide += plain.max_columns > 16;
+            // At random depths, so that about half of them are occluded.
+            const BoxFootprint some{columns.data(), {std::uint32_t(1500 + random() % 1500), plain.max_columns}};
+            const bool occludes = cells_occlude_plain(drawn.plane, some);
+            (occludes ? occluded : visible) += 1;
+            EXPECT_EQ(cells_occlude(drawn.plane, some), occludes) << round << " " << i;
         }
     }
     EXPECT_GT(occluded, 500u);
@@ -112,7 +111,7 @@ TEST(HierarchicalZ, an_empty_plane_occludes_nothing) {
     EXPECT_FALSE(depths.occludes(footprints, 0, drawn.plane));
 }
 
-TEST(HierarchicalZ, cells_hold_the_farthest_depth) {
+TEST_P(HierarchicalZKernels, cells_hold_the_farthest_depth) {
     std::mt19937 random(2);
     for (std::size_t columns : {1, 3, 4, 5, 24})
         for (std::size_t directions = 1; directions < 70; ++directions) {
@@ -121,13 +120,9 @@ TEST(HierarchicalZ, cells_hold_the_farthest_depth) {
                 if (random() % 200 != 0) word = std::uint64_t{random() % 1000} << 32 | random();
             find_max_depths_plain(drawn.plane);
             const std::vector<std::uint32_t> plain = drawn.cells.max_depth;
-            for (const std::int64_t target : kernel_targets()) {
-                drawn.cells.clear(columns, directions);
-                use_kernel_target(target);
-                find_max_depths(drawn.plane);
-                use_kernel_target(0);
-                ASSERT_EQ(drawn.cells.max_depth, plain) << target << " " << columns << " " << directions;
-            }
+            drawn.cells.clear(columns, directions);
+            find_max_depths(drawn.plane);
+            ASSERT_EQ(drawn.cells.max_depth, plain) << columns << " " << directions;
             std::vector<std::uint32_t> expected((directions + 15) / 16 * columns);
             for (std::size_t i = 0; i < columns * directions; ++i) {
                 std::uint32_t& cell = expected[i % directions / 16 * columns + i / directions];

@@ -100,11 +100,6 @@ void find_max_depths(const EpipolarPlane& plane);
 void shade_between_ends_plain(const EpipolarPlane& plane, std::span<const SpanValues> spans, const PlaneOutput& out);
 void shade_between_ends(const EpipolarPlane& plane, std::span<const SpanValues> spans, const PlaneOutput& out);
 
-/// For tests: the instruction sets of this processor for which the vector kernels are built, and a way to use one of
-/// them alone, or with 0 the best again. Not while kernels run.
-std::vector<std::int64_t> kernel_targets();
-void use_kernel_target(std::int64_t target);
-
 /// Where along a span column n sees it in direction K, from 0 at end 0 to 1 at end 1.
 inline float position_on_span(const SpanValues& span, float n, float K) {
     const float position = ((n - span.x0) + K * span.z0) / (span.dx - K * span.dz);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hogel/array.h"
+#include "hogel/core/test_targets.h"
 #include "hogel/render/epi/kernels.h"
 #include "hogel/render/epi/test_plane.h"
 #include "hogel/render/epi/test_triangles.h"
@@ -48,8 +49,7 @@ class Coordinates {
     std::mt19937 random_;
 };
 
-class EveryTarget : public KernelTargetTest {};
-INSTANTIATE_TEST_SUITE_P(EpipolarKernels, EveryTarget, ::testing::ValuesIn(kernel_targets()));
+HOGEL_TEST_ON_EVERY_TARGET(PlaneKernels);
 
 TEST(EpipolarKernels, ordered_bits_compare_like_floats) {
     const float infinity = std::numeric_limits<float>::infinity();
@@ -57,7 +57,7 @@ TEST(EpipolarKernels, ordered_bits_compare_like_floats) {
     for (std::size_t i = 1; i < std::size(values); ++i) EXPECT_LT(ordered_bits(values[i - 1]), ordered_bits(values[i]));
 }
 
-TEST_P(EveryTarget, vector_and_plain_twins_draw_the_same) {
+TEST_P(PlaneKernels, vector_and_plain_twins_draw_the_same) {
     Coordinates random(2);
     std::size_t covered = 0;
     for (int round = 0; round < 1500; ++round) {
@@ -84,7 +84,7 @@ TEST_P(EveryTarget, vector_and_plain_twins_draw_the_same) {
 
 // Rounds alternate between spans close to the hologram, which the columns of one vector see in more directions than the
 // queue of candidates holds, and many thin spans, some of which no sample sees.
-TEST_P(EveryTarget, full_queues_change_nothing) {
+TEST_P(PlaneKernels, full_queues_change_nothing) {
     Coordinates random(9);
     std::size_t covered = 0, in_a_column = 0;
     for (int round = 0; round < 40; ++round) {
@@ -115,7 +115,7 @@ TEST_P(EveryTarget, full_queues_change_nothing) {
 }
 
 // Spans in layers, behind and across each other, as wide as cells and wider.
-TEST_P(EveryTarget, hierarchical_z_changes_nothing) {
+TEST_P(PlaneKernels, hierarchical_z_changes_nothing) {
     Coordinates random(7);
     std::size_t occluded = 0;
     for (int round = 0; round < 150; ++round) {
@@ -297,7 +297,7 @@ void see_spans(Coordinates& random, std::size_t count, TestPlane& test) {
     if (directions % 3 == 0) std::fill_n(test.words.begin(), directions, EpipolarPlane::empty);
 }
 
-TEST_P(EveryTarget, vector_and_plain_twins_shade_the_same) {
+TEST_P(PlaneKernels, vector_and_plain_twins_shade_the_same) {
     Coordinates random(5);
     const std::vector<SpanValues> spans = random_values(random);
     for (std::size_t directions = 1; directions < 150; directions = directions < 40 ? directions + 1 : directions + 8) {

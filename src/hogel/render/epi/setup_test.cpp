@@ -8,13 +8,13 @@
 #include <memory>
 #include <random>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/render/epi/test_triangles.h"
 
 namespace hogel::render::epi {
 namespace {
 
-class SetUpOnEveryTarget : public KernelTargetTest {};
-INSTANTIATE_TEST_SUITE_P(SetUp, SetUpOnEveryTarget, ::testing::ValuesIn(kernel_targets()));
+HOGEL_TEST_ON_EVERY_TARGET(SetUpKernels);
 
 const LightFieldGrid grid{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
 
@@ -42,7 +42,7 @@ EpiSpan span_of(double a, double b, double c) {
     return fast;
 }
 
-TEST_P(SetUpOnEveryTarget, triangles_with_corners_on_both_sides_are_crossed_and_corners_in_the_plane_are_above) {
+TEST_P(SetUpKernels, triangles_with_corners_on_both_sides_are_crossed_and_corners_in_the_plane_are_above) {
     const auto crossed = [](double a, double b, double c) { return span_of(a, b, c).x0 != empty_span.x0; };
     EXPECT_TRUE(crossed(-1, 0, 1));
     EXPECT_TRUE(crossed(0, 0, -1));
@@ -53,7 +53,7 @@ TEST_P(SetUpOnEveryTarget, triangles_with_corners_on_both_sides_are_crossed_and_
     EXPECT_FALSE(crossed(0, 0, 0));
 }
 
-TEST_P(SetUpOnEveryTarget, vector_and_plain_twins_agree) {
+TEST_P(SetUpKernels, vector_and_plain_twins_agree) {
     const EpipolarFrame frame(grid);
     const TriangleClusters clusters(scattered_triangles(700, 0.4e-3), frame, 3);
     std::size_t spans = 0;

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "hogel/core/test_targets.h"
 #include "hogel/render/epi/test_triangles.h"
 #include "hogel/render/sample_store.h"
 
@@ -113,8 +114,7 @@ struct OutputRows {
     }
 };
 
-class KnotsOnEveryTarget : public KernelTargetTest {};
-INSTANTIATE_TEST_SUITE_P(ShadedSpans, KnotsOnEveryTarget, ::testing::ValuesIn(kernel_targets()));
+HOGEL_TEST_ON_EVERY_TARGET(KnotKernels);
 
 // Words of a plane that show random spans, with runs of one span.
 std::vector<std::uint64_t> random_words(std::mt19937& random, std::size_t size) {
@@ -149,7 +149,7 @@ void expect_values(const EpipolarPlane& plane, const TestSpans& spans, bool line
     }
 }
 
-TEST_P(KnotsOnEveryTarget, twins_agree_and_reproduce_the_cache) {
+TEST_P(KnotKernels, twins_agree_and_reproduce_the_cache) {
     std::mt19937 random(1);
     ShadedSpans shaded;
     std::size_t points_filled = 0;

@@ -29,11 +29,4 @@ inline ShadedScene scattered_triangles(std::size_t count, double max_distance) {
     return scene;
 }
 
-/// Tests of the vector kernels built for one instruction set of this processor (kernel_targets).
-class KernelTargetTest : public ::testing::TestWithParam<std::int64_t> {
-  protected:
-    void SetUp() override { use_kernel_target(GetParam()); }
-    void TearDown() override { use_kernel_target(0); }
-};
-
 }  // namespace hogel::render::epi

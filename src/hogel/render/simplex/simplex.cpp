@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/render/simplex/simplex.h"
 
+#include "hogel/core/parallel.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/simplex/scan.h"
@@ -32,6 +33,7 @@ class SimplexRenderer final : public Renderer {
         Array<NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
         std::vector<Simplex<4>> simplices;
         for (std::uint32_t index : triangles_) {
+            core::throw_if_stopped();
             // Clipped at half the depth of the near plane, so that the clip itself decides about no ray: see() does.
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
@@ -44,10 +46,12 @@ class SimplexRenderer final : public Renderer {
             }
         }
         for (std::size_t t = 0; t < tile.range.nt; ++t)
-            for (std::size_t s = 0; s < tile.range.ns; ++s)
+            for (std::size_t s = 0; s < tile.range.ns; ++s) {
+                core::throw_if_stopped();
                 for (std::size_t v = 0; v < grid_.directions_v; ++v)
                     for (std::size_t u = 0; u < grid_.directions_u; ++u)
                         store(tile, *scene_, grid_, buffer(v, u, t, s), t, s, v, u);
+            }
     }
 
   private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "hogel/core/parallel.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/row_tile.h"
@@ -36,7 +37,8 @@ class Simplex3dRenderer final : public Renderer {
         std::vector<Simplex<3>> simplices;
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
             std::ranges::fill(buffer.elements(), NearestTriangle{});
-            for (std::uint32_t index : triangles_)
+            for (std::uint32_t index : triangles_) {
+                core::throw_if_stopped();
                 for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                     simplices.clear();
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
@@ -45,6 +47,7 @@ class Simplex3dRenderer final : public Renderer {
                     clip_to_view(simplices, grid_);
                     for (const Simplex<3>& simplex : simplices) scan_convert(index, simplex, t, tile.range, buffer);
                 }
+            }
             for (std::size_t s = 0; s < tile.range.ns; ++s)
                 for (std::size_t v = 0; v < grid_.directions_v; ++v)
                     for (std::size_t u = 0; u < grid_.directions_u; ++u)

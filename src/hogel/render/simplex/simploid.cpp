@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "hogel/core/parallel.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/row_axes.h"
@@ -74,6 +75,7 @@ class SimploidRenderer final : public Renderer {
         // One V at a time, so that neighbouring triangles write to memory that is close together.
         Array<NearestTriangle, 3> buffer(simploid_buffer(axes_, tile.range));
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
+            core::throw_if_stopped();
             std::ranges::fill(buffer.elements(), NearestTriangle{});
             const Slab slab(*this, tile.range, slow);
             for (std::uint32_t index : triangles_) slab.scan_convert(index, buffer);
