@@ -19,7 +19,7 @@ bool is_external(const std::string& name, const FieldOptions& options);
 
 /// A hologram, or another program's field with the --pitch and the one --wavelength that `command` was given. Throws
 /// Error(usage) where they are missing, or given for a hologram, which has its own.
-HologramFile open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
-                         const std::vector<double>& wavelengths);
+Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
+                   const std::vector<double>& wavelengths);
 
 }  // namespace hogel::cli

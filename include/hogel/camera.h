@@ -15,6 +15,8 @@ struct Camera {
     double focus_slope_x = 0, focus_slope_y = 0;  ///< dζ/dx and dζ/dy of that plane, as by a tilted film
     double pupil = 5e-3;  ///< diameter of the lens opening, a disc parallel to the hologram, metres
     Grid picture;         ///< pixels laid over the hologram plane
+
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// Along the line of sight through the hologram's point (x, y): the distance from the eye to the plane in focus, ζ =

@@ -16,6 +16,8 @@
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
+#include "hogel/provenance.h"
+
 namespace hogel {
 
 /// The sides of a hemicube around a hogel ([K] 4.1): each looks at a part of the directions in a perspective of its
@@ -246,7 +248,7 @@ class HOGEL_API LightField {
     LightField(std::unique_ptr<S> front) : LightField(std::vector<Source>{Source(std::move(front))}) {}
     /// All faces. Throws Error(usage) unless the first is a front, no face stands twice, and all have the same hogels
     /// and channels.
-    explicit LightField(std::vector<Source> faces);
+    explicit LightField(std::vector<Source> faces, Provenance provenance = {});
 
     const LightFieldSource& front() const { return *faces_.front(); }
     std::span<const Source> faces() const { return faces_; }
@@ -259,16 +261,21 @@ class HOGEL_API LightField {
     bool has_depth() const;
     /// Of all faces.
     double samples() const;
+    /// Where it comes from: what its file or its renderer says.
+    const Provenance& provenance() const { return provenance_; }
+    /// The same light field with another provenance.
+    LightField with(Provenance provenance) const { return LightField(faces_, std::move(provenance)); }
     /// The light field whose faces are make(face), a LightFieldSource each: the same light field wrapped.
     template <std::invocable<const Source&> Make>
     LightField wrapped(const Make& make) const {
         std::vector<Source> wrapped;
         for (const Source& face : faces_) wrapped.push_back(make(face));
-        return LightField(std::move(wrapped));
+        return LightField(std::move(wrapped), provenance_);
     }
 
   private:
     std::vector<Source> faces_;
+    Provenance provenance_;
 };
 
 /// A light field of a source that somebody else owns, and that must outlive all that is made of it.

@@ -136,8 +136,7 @@ HOGEL_API void write_light_field(const std::filesystem::path& path, const LightF
                                  const LightFieldFileOptions& options, const Progress& progress = {});
 
 /// Writes one look of holograms into one HDF5 file, likewise. Errors as create_hologram().
-HOGEL_API void write_holograms(const std::filesystem::path& path,
-                               std::span<const std::shared_ptr<const FieldSource>> holograms,
+HOGEL_API void write_holograms(const std::filesystem::path& path, const Fields& holograms,
                                const HologramFileOptions& options, const Progress& progress = {});
 
 /// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
@@ -150,13 +149,11 @@ HOGEL_API void require_holograms(std::span<const LightFieldGrid> faces, const Ho
 HOGEL_API std::string warning_about(const LightField& light_field, const HologramRequest& request);
 
 /// One hologram a channel, made from the light field where it is read.
-HOGEL_API std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField& light_field,
-                                                                         const HologramRequest& request);
+HOGEL_API Fields make_holograms(const LightField& light_field, const HologramRequest& request);
 
 /// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With options for it by the
 /// full chain of plane waves, otherwise by the narrow-band camera.
-HOGEL_API std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
-                                                std::span<const Camera> cameras,
+HOGEL_API std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
                                                 const std::optional<PlaneWaveCameraOptions>& full = {},
                                                 const Progress& progress = {});
 
@@ -177,16 +174,14 @@ struct SampleComparison {
 /// Compares all faces of two light fields, or all fields of two holograms (their first look). Throws Error(usage) where
 /// they are sampled differently.
 HOGEL_API SampleComparison compare(const LightField& a, const LightField& b, const Progress& progress = {});
-HOGEL_API SampleComparison compare(std::span<const std::shared_ptr<const FieldSource>> a,
-                                   std::span<const std::shared_ptr<const FieldSource>> b,
-                                   const Progress& progress = {});
+HOGEL_API SampleComparison compare(const Fields& a, const Fields& b, const Progress& progress = {});
 
 /// How a light field becomes pictures for a hologram printer.
 struct PrinterImageOptions {
     bool rows = false;       ///< one picture a row of hogels, side by side, rather than one a hogel
     bool serpentine = true;  ///< whether every second row runs from the right, as a head does that goes back and forth
     double exposure = 1;     ///< what linear values are multiplied by, the same in all pictures
-    Metadata provenance = {};  ///< kept in the pictures of rows; those of hogels are small and many
+    Metadata metadata = {};  ///< beside the light field's provenance; in pictures of rows alone: hogels are many
 };
 
 /// Writes the directions of each hogel of the front as PNG files in a folder, numbered in the order of printing
