@@ -34,7 +34,7 @@ LightFieldBuffer load(const LightFieldSource& source, bool grey) {
 }
 
 // A dense light field, or any other.
-std::unique_ptr<LightFieldSource> open(const Session& session, const CodecOptions& options) {
+std::shared_ptr<const LightFieldSource> open(const Session& session, const CodecOptions& options) {
     for (const auto& [name, brightness] : dense_fields)
         if (options.input == name) return make_dense_field(options.light_field.grid(), brightness);
     return open_or_render(session, options.input, options.light_field);
