@@ -217,6 +217,7 @@ std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, 
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
     if (const auto* overlap = std::get_if<OverlapAdd>(&options.method))
         return windows::make_overlap_add(light_field, grid, options, overlap->phases);
+    if (const auto* own = std::get_if<OwnMethod>(&options.method)) return own->make(light_field, grid, options);
     return std::make_shared<Stereogram>(light_field, grid, options, RayValues::radiance);
 }
 
