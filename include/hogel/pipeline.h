@@ -20,6 +20,7 @@
 #include "hogel/light_field.h"
 #include "hogel/photograph.h"
 #include "hogel/progress.h"
+#include "hogel/propagate.h"
 #include "hogel/ray_photograph.h"
 #include "hogel/renderer.h"
 #include "hogel/scenes.h"
@@ -222,6 +223,12 @@ HOGEL_API Plan plan_holograms(std::span<const LightFieldGrid> faces, const Holog
 /// What it takes to photograph holograms that are not stored, by the narrow-band camera.
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
+
+/// What it takes to compress a light field, reading it aside. Disk is a bound: a coder that predicts nothing takes that
+/// much for an SQNR.
+HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
+/// What it takes to propagate fields one after the other and write them to a file.
+HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options = {});
 
 /// Throws Error(usage) with the numbers where `what` needs more memory than the machine has left, or more disk than is
 /// free where `file` will stand.
