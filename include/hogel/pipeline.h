@@ -126,7 +126,8 @@ HOGEL_API LightField render_light_field(const Scene& scene, const LightFieldRequ
                                         const Progress& progress = {});
 
 /// Prepares a light field for readers that read it several times and in tiles of their own, as holograms do once per
-/// channel. It is copied into memory if it takes only a modest part of the memory, otherwise wrapped by cached_tiles().
+/// channel. If it is read more than once and is small enough, it is copied into memory; otherwise it is wrapped by
+/// cached_tiles(). If `with_depth`, depths are kept too.
 HOGEL_API LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
                                          const Progress& progress = {});
 
