@@ -73,7 +73,7 @@ class PlaneTransform {
     math::Fft2 fft_;
 };
 
-// Half the width and height of a scene around the hologram's middle.
+// The largest distances of a scene's vertices from the hologram's middle: in x, in y, and radially.
 struct Reach {
     double x = 0, y = 0, corner = 0;
 };
@@ -108,7 +108,7 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
     const SliceDrawing drawing(scene);
     for (std::size_t i = 0; i < slices.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(slices.size()));
-        // A plane exactly on the hologram cannot be propagated by this method, so it is moved a little.
+        // The method needs a distance over which to propagate.
         const double depth = slices[i].depth();
         if (std::abs(depth) < nearest_depth(grid))
             throw Error(ErrorCode::usage,
