@@ -55,7 +55,7 @@ double one_dimension(const Line& line, double depth, const Fan& fan, const math:
     }
     fft.forward(sum);
     if (lit == 0) return 0;
-    // Normalises by the share of the window's frequencies that the fan lights, lit/2 on either side of its middle.
+    // The fan covers up to lit/2 of the window's frequencies on either side of its middle, where the weight is largest.
     middle *= static_cast<double>(length) / (lit * static_cast<double>(side));
     const double half = 0.5 * lit * static_cast<double>(length) / static_cast<double>(side);
     double energy = 0, expected = 0;
