@@ -46,7 +46,7 @@ HWY_INLINE void load_pairs(const double* const* bases, std::size_t offset, Doubl
         } else if constexpr (max_lanes == 4) {
             return hn::OddEvenBlocks(hn::LoadDup128(d, bases[i + 2] + offset), hn::LoadDup128(d, bases[i] + offset));
         } else {
-            // Half by half, because of the compiler error described at load_floats().
+            // Half by half, because of the compiler error described at load_blocks().
             const hn::Half<Tag> dh;
             const auto half = [&](std::size_t k) HWY_ATTR {
                 return hn::OddEvenBlocks(hn::LoadDup128(dh, bases[k + 2] + offset),
