@@ -153,7 +153,7 @@ TEST(ShadowMap, handles_a_light_on_a_surface_or_inside_a_body) {
     const ShadowMap on = map_of(scene, lamp({0.2, 0.1, 0}, 1), 32);
     EXPECT_TRUE(std::isfinite(on.visibility({0.2, 0.1, 0}, {0, 0, 1})));
     EXPECT_TRUE(std::isfinite(on.visibility({0.5, 0.1, 0}, {0, 0, 1})));
-    // A plate between the light and the surface.
+    // A lamp between two plates lights the nearer sides of both; the third plate is in shadow.
     add_square(scene, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
     add_square(scene, {0, 0, 3}, {1, 0, 0}, {0, 1, 0});
     const ShadowMap between = map_of(scene, lamp({0, 0, 0.5}, 1), 64);

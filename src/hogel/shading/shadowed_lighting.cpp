@@ -45,7 +45,7 @@ class ShadowedLighting final : public SampleLighting {
         constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < intensities_.size(); first += block) {
-            std::array<std::uint32_t, block> shining;  // lamps that contribute; then their reflected light
+            std::array<std::uint32_t, block> shining;  // lamps that contribute; `lights`: their reflected light
             std::array<Rgb, block> lights;
             std::size_t count = 0;
             for (std::size_t k = first; k < std::min(first + block, intensities_.size()); ++k) {
