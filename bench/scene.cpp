@@ -27,7 +27,7 @@ LightFieldGrid LightFieldOptions::grid() const {
 Scene load_scene(const std::string& name, const LightFieldOptions& options) {
     std::error_code none;
     if (scenes().look_up(name) || !std::filesystem::exists(name, none))
-        return make_scene(name, options.size, until_interrupted());  // throws for a name that no scene has
+        return make_scene(name, options.size, until_interrupted());  // throws for an unknown name
     Scene scene = import_scene(name);
     Fit fit;
     fit.width = options.size;

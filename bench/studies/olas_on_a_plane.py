@@ -33,7 +33,7 @@ def write_light_field(path, plane, depth, views):
     radiance = np.empty((1, SAMPLES, SAMPLES, views, views), "f4")
     for l in range(views):
         for k in range(views):
-            # Row 0 of the directions is the highest V, and rows of the picture run down.
+            # Row 0 of the directions is the highest V, and rows of the picture are counted downwards.
             at = [rows - u[views - 1 - l] * depth / PITCH, columns + u[k] * depth / PITCH]
             radiance[0, :, :, l, k] = map_coordinates(plane, at, order=1)
     with h5py.File(path, "w", libver="v108") as file:
