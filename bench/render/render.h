@@ -17,7 +17,7 @@ struct RenderDefaults {
     std::size_t few_hogels = 64;  ///< along a side: --scaling, and the first table row of a scene with --peers
     std::size_t stream_hogels = 512;
     std::size_t many_directions = 256;  ///< --peers, --stream
-    double seconds = 8;                 ///< that a region may take
+    double seconds = 8;                 ///< limit for a region
     double peer_seconds = 1;            ///< limit for a peer in a round
 };
 inline constexpr RenderDefaults render_defaults;
@@ -33,7 +33,7 @@ struct RenderOptions {
     double size = 20_mm;
     Angles field_of_view{40_deg, 40_deg};
     std::size_t max_side = 128;  ///< of a region, in hogels
-    double gigabytes = 6;        ///< that a region may take, see RegionLimits
+    double gigabytes = 6;        ///< limit for a region, see RegionLimits
     std::size_t rounds = 5;
 
     /// @param hogels, directions  along a side, where they are not given

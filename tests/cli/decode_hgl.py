@@ -213,7 +213,7 @@ COSINES = np.array([[f32(np.rint((math.sqrt(1 / 8) if k == 0 else 0.5) * math.co
                                  * 2**20) / 2**20) for j in range(8)] for k in range(8)], f32)
 
 
-# Whether a basis has samples along u, and along v.
+# For each basis, whether it has samples (not cosines) along u, and along v.
 BASES = (False, False), (True, True), (False, True), (True, False)
 
 

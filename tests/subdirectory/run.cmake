@@ -1,4 +1,4 @@
-# Configures the project beside this file; with BUILD=ON builds it without optimisation, too, and runs it.
+# Configures the project beside this file; with BUILD=ON it also builds it without optimisation and runs it.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
