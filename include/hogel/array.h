@@ -11,6 +11,7 @@
 
 namespace hogel {
 
+/// The extents of an array, first axis first.
 template <std::size_t Rank>
 using Shape = std::array<std::size_t, Rank>;
 
@@ -25,6 +26,7 @@ constexpr std::size_t count(const Shape<Rank>& shape) {
 /// Allocates memory aligned to a cache line. Large blocks use huge pages where the system grants them, which saves
 /// page-table look-ups. Throws std::bad_alloc.
 HOGEL_API void* allocate_lines(std::size_t bytes);
+/// Frees memory from allocate_lines().
 HOGEL_API void free_lines(void* memory);
 
 /// A standard allocator whose memory is aligned to a cache line, as vector code and FFT plans require.

@@ -64,13 +64,14 @@ struct Lossless {};
 /// The quality or size to be met by compression.
 using CompressionTarget = std::variant<Sqnr, PixelsPerBit, Step, MaxError, Lossless>;
 
+/// The coder, target and contents of a stream that compress() writes.
 struct CompressionOptions {
     CodingMethod method;
     CompressionTarget target;
-    std::optional<HogelRange> tile;      ///< size of the tiles (s0 = t0 = 0); by default what suits the coder
-    Metadata metadata;                   ///< must not hold a name `filler`
+    std::optional<HogelRange> tile;      ///< size of the tiles (s0 = t0 = 0); by default the coder's preferred tile
+    Metadata metadata;                   ///< must not contain the name "filler"
     std::optional<StreamLayout> layout;  ///< by default the smaller of `stacked` (coder hogel only) and `faces`
-    bool with_depth = false;             ///< whether depth is stored, too
+    bool with_depth = false;             ///< whether depth is also stored
     double depth_error = 0;              ///< bound on each depth, metres; 0: a 1,000th of the range of depths
     /// Decades of luminance to which histogram tone mapping compresses the light field before coding (docs/codec.md),
     /// 0.1 to 20. A light field that spans no more than this is coded without tone mapping.
@@ -78,6 +79,7 @@ struct CompressionOptions {
     double chrominance = 1;  ///< steps of chrominance relative to those of luminance, 1 to 1024; three channels only
 };
 
+/// What compress() achieved.
 struct CompressionResult {
     std::uint64_t bytes = 0;        ///< of the file
     double sqnr = 0;                ///< decibels; with tone mapping or coarser chrominance, that of the mapped samples
@@ -120,11 +122,11 @@ struct HOGEL_API StreamInfo {
 
     std::uint64_t filler = 0;                    ///< bytes without meaning that pad the file to a requested size
     std::vector<std::uint64_t> layer_ends = {};  ///< for each layer, the end in the file of its data for all tiles
-    std::size_t layers_there = 0;                ///< complete layers in the file; fewer where it was cut off
+    std::size_t layers_there = 0;  ///< complete layers in the file; fewer than `layer_ends` if it is truncated
 
     /// The stream of depths behind the layers.
     struct Depth {
-        std::uint64_t bytes = 0;  ///< 0: there is none
+        std::uint64_t bytes = 0;  ///< 0: the stream has no depth
         double error = 0;         ///< bound on each depth, metres
         double beyond = 0;        ///< decoded depths of this value or more mean infinity, metres
     };
@@ -142,6 +144,7 @@ HOGEL_API bool is_stream(const std::filesystem::path& path);
 /// Error(bad_input) for any other damage.
 HOGEL_API StreamInfo read_stream_info(const std::filesystem::path& path);
 
+/// Options of open_stream().
 struct StreamOptions {
     std::size_t memory = std::size_t{1} << 29;  ///< bytes for decoded tiles
     std::size_t layers = 0;                     ///< layers to decode; 0: all, and depth

@@ -30,6 +30,7 @@ enum class SampleType { half, single };
 /// another kind.
 HOGEL_API LightField open_light_field(const std::filesystem::path& path);
 
+/// Options of create_light_field().
 struct LightFieldFileOptions {
     SampleType type = SampleType::half;
     bool with_depth = false;
@@ -61,6 +62,7 @@ struct HologramFile {
 /// Opens a hologram. Throws Error(bad_input) as open_light_field() does.
 HOGEL_API HologramFile open_hologram(const std::filesystem::path& path);
 
+/// Options of create_hologram().
 struct HologramFileOptions {
     /// Half floats keep 11 significant bits of numbers from 6·10⁻⁵ to 65504 and take half the space.
     SampleType type = SampleType::single;
@@ -74,6 +76,7 @@ HOGEL_API std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::fil
                                                                   std::span<const FieldGrid> grids,
                                                                   const HologramFileOptions& options = {});
 
+/// The kinds of files that hogel distinguishes.
 enum class FileKind { light_field, hologram, picture, mesh, unknown };
 
 /// The kind of a file: by its contents for HDF5 and compressed light fields, otherwise by its extension

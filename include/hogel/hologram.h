@@ -117,6 +117,7 @@ struct HologramMethodInfo {
 /// All methods by name: fourier, lines, basis, phase-added, phase-added-exact, olas, and those that a program adds.
 HOGEL_API Table<HologramMethodInfo>& hologram_methods();
 
+/// Options of a hologram of one wavelength.
 struct HologramOptions {
     Channel channel;
     double pitch = 1e-6;  ///< Δ, metres; rounded so that a hogel has a whole number of samples

@@ -83,7 +83,8 @@ struct Perspective : DirectionRange {
 };
 
 /// Directions uniform in the sines U/√(1 + U² + V²) and V/√(1 + U² + V²), like the frequencies of the plane waves of
-/// one wavelength ([K] 4.1). In such a grid, the members called U and V hold these sines. For the front face only.
+/// one wavelength ([K] 4.1). In a grid with these directions, U and V stand for these sines everywhere. For the front
+/// face only.
 struct Frequencies : DirectionRange {
     friend bool operator==(const Frequencies&, const Frequencies&) = default;
 };
@@ -92,6 +93,7 @@ struct Frequencies : DirectionRange {
 /// perpendicular by `toward_right` and `toward_up` (radians). Throws Error(usage) for an angle outside 0 … π, and for a
 /// tilted range that reaches π/2 from the perpendicular.
 HOGEL_API Perspective field_of_view(double across, double down, double toward_right = 0, double toward_up = 0);
+/// As above, for the same full angle (radians) across and down.
 inline Perspective field_of_view(double angle) { return field_of_view(angle, angle); }
 
 /// The sampling of a light field L[c][t][s][v][u] (docs/notation.md, section 1). A ray crosses the hologram plane at
@@ -106,6 +108,7 @@ struct HOGEL_API LightFieldGrid {
 
     double width() const { return static_cast<double>(hogels_s) * pitch; }   ///< of the hologram, metres
     double height() const { return static_cast<double>(hogels_t) * pitch; }  ///< likewise
+    /// The centre of a hogel on the hologram, metres: s of column i, t of row j. Columns run to the right, rows down.
     double s(double i) const { return (i + 0.5 - 0.5 * static_cast<double>(hogels_s)) * pitch; }
     double t(double j) const { return (0.5 * static_cast<double>(hogels_t) - j - 0.5) * pitch; }
 
@@ -123,6 +126,7 @@ struct HOGEL_API LightFieldGrid {
     double center_v() const { return range().center_v; }
     double step_u() const { return 2 * half_u() / static_cast<double>(directions_u); }  ///< ΔU
     double step_v() const { return 2 * half_v() / static_cast<double>(directions_v); }  ///< ΔV
+    /// The direction of column k or row l of directions. Columns run to the right, rows down.
     double u(double k) const { return center_u() + (k + 0.5 - 0.5 * static_cast<double>(directions_u)) * step_u(); }
     double v(double l) const { return center_v() + (0.5 * static_cast<double>(directions_v) - l - 0.5) * step_v(); }
     /// The inverse of u and v: the column of directions at U, the row at V, whole numbers at samples.
@@ -178,10 +182,10 @@ struct HOGEL_API LightFieldTile {
     LightFieldTile(const LightFieldGrid& grid, const HogelRange& r, bool with_depth);
 };
 
-/// Throws Error(usage) when a tile's range is empty or leaves the grid, or its arrays do not have the range's shapes.
+/// Throws Error(usage) if a tile's range is empty or leaves the grid, or if its arrays do not have the range's shapes.
 HOGEL_API void validate(const LightFieldTile& tile, const LightFieldGrid& grid);
 
-/// The size of tile that suits most sources: as many hogels as about 16 MiB of samples hold, 1×1 at least.
+/// The size of tile that suits most sources: about 16 MiB of samples, at least one hogel.
 HOGEL_API HogelRange default_tile(const LightFieldGrid& grid);
 
 /// Copies the hogels that two tiles have in common, with depth if both have it. `to` receives as many directions as it

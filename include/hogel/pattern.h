@@ -38,8 +38,10 @@ enum class Encoding {
     binary,      ///< amplitude: 1 where Re(F R*) > 0, 0 elsewhere
 };
 
+/// Whether an encoding is for modulators of phase; the others are for modulators of amplitude.
 HOGEL_API bool is_phase_only(Encoding encoding);
 
+/// A row of encodings().
 struct EncodingInfo {
     std::string name;
     std::string text;  ///< one line
@@ -50,6 +52,7 @@ struct EncodingInfo {
 /// All encodings by name: phase, double-phase, gerchberg-saxton, gradient, intensity, bipolar, burckhardt, lee, binary.
 HOGEL_API Table<EncodingInfo>& encodings();
 
+/// Options of encode_pattern().
 struct PatternOptions {
     Encoding encoding = Encoding::phase;
     Modulator modulator;

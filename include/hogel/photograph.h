@@ -15,6 +15,7 @@
 
 namespace hogel {
 
+/// Options of photograph() of holograms.
 struct PhotographOptions {
     std::size_t memory = std::size_t{2} << 30;  ///< bytes that a photograph may use, without the pictures
 };

@@ -11,6 +11,7 @@
 
 namespace hogel {
 
+/// Options of propagate().
 struct PropagateOptions {
     std::size_t look = 0;                  ///< the look of the field to propagate
     ScratchOptions scratch{SIZE_MAX, {}};  ///< for work arrays; by default they are in memory

@@ -11,6 +11,7 @@
 
 namespace hogel {
 
+/// Options of photograph() of light fields.
 struct RayPhotographOptions {
     std::size_t pupil_samples = 64;  ///< points of the pupil, spread evenly over the disc
 };

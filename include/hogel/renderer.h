@@ -29,8 +29,8 @@ struct RendererInfo {
     std::string name;  ///< by which make_renderer() finds it
     std::string text;  ///< one line
     /// Makes a light field of the scene, which is shared, never copied. If the source is a Renderer, its set_scene()
-    /// receives later scenes; any other source is made anew for each scene. Throws Error(usage) for a scene that the
-    /// algorithm cannot render.
+    /// receives later scenes; any other source is replaced by a new one for each scene. Throws Error(usage) for a scene
+    /// that the algorithm cannot render.
     std::function<std::unique_ptr<LightFieldSource>(std::shared_ptr<const ShadedScene> scene,
                                                     const LightFieldGrid& grid)>
         make;

@@ -13,6 +13,7 @@
 
 namespace hogel {
 
+/// Options of SceneHologramMethod::make().
 struct SceneHologramOptions {
     std::size_t channel = 0;  ///< the channel of the scene's colours that this wavelength shows
     std::uint64_t seed = 1;   ///< of the random phases that make surfaces diffuse

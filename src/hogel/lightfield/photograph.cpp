@@ -175,9 +175,9 @@ struct FaceBlock {
     Block block;
 };
 
-// The size of blocks: rows of hogels as long as possible, which suits the fastest renderer and files, and so many that
-// the hogels shared by neighbouring blocks are a small part. It depends on the sampling alone, so that sums have the
-// same order for every source.
+// The size of blocks: rows of hogels as long as possible, which suits the fastest renderer and files, and enough rows
+// for the hogels shared by neighbouring blocks to be a small part. It depends on the sampling alone, so that sums have
+// the same order for every source.
 HogelRange block_size(const LightFieldGrid& grid) {
     constexpr std::size_t rows = 16, max_bytes = std::size_t{64} << 20;
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);

@@ -125,7 +125,7 @@ bool RayCaster::Device::is_front(Vec3 direction, std::uint32_t index) const {
     return dot(cross(p[b] - p[a], p[c] - p[a]), direction) < 0;
 }
 
-// Rejects hits on the backs of triangles, so that these rays go on.
+// Rejects hits on the backs of triangles, so that these rays continue.
 void RayCaster::Device::skip_backs(const RTCFilterFunctionNArguments* hits) {
     const auto& device = *static_cast<const Device*>(hits->geometryUserPtr);
     for (unsigned i = 0; i < hits->N; ++i) {

@@ -40,7 +40,8 @@ inline double pupil_step(double wavelength, std::size_t size, double sine_step) 
 /// A camera's lens at the frequencies of the transform. Around the direction n, light that enters the pupil at δ has
 /// the frequency (δ − ∇_n Q)/λ in the sines, with Q the path without the term linear in δ; so the disc is slightly
 /// distorted in the plane of frequencies, more so for oblique light. The defocus phase depends slowly on the direction;
-/// the film is divided among nodes, each with its own phase, so many that the phase varies by at most half a radian.
+/// the film is divided among nodes, each with its own phase, enough of them for the phase to vary by at most half a
+/// radian within one.
 class FilmLens {
   public:
     FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)
