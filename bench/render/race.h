@@ -20,7 +20,7 @@ struct RaceLimits {
 /// The speed of a renderer over all rounds. A sample is a ray with all its channels.
 struct Racer {
     std::string name;
-    double median = 0, min = 0, max = 0;  ///< million samples a second of wall time
+    double median = 0, min = 0, max = 0;  ///< million samples per second of wall time
     double per_processor_second = 0;      ///< million samples, median
     double bytes = 0;                     ///< maximum memory without the scene: samples, trees, buffers
     std::size_t hogels = 0;               ///< in each round

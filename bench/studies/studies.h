@@ -47,7 +47,7 @@ struct StereogramStudy {
     std::size_t rounds = 5;
 };
 /// Speed of plain stereograms, on one thread, beside the bare Fourier transforms that they need. For each size of hogel
-/// prints million samples a second of processor time, the best of the rounds: of the stereogram with random phases,
+/// prints million samples per second of processor time, the best of the rounds: of the stereogram with random phases,
 /// from a light field of noise in memory to a field in memory, whose directions fill what the pitch diffracts to; and
 /// of the transforms of as many squares of that size, one after the other over a whole hologram, in place.
 void study_stereogram(const StereogramStudy& study);

@@ -72,7 +72,7 @@ TEST(FourierHologram, one_direction_is_one_plane_wave_with_the_frequency_of_its_
 TEST(FourierHologram, carries_the_energy_of_its_light_field) {
     const LightFieldBuffer light_field = uniform(small, 0.7f);
     HologramOptions options;
-    options.pitch = 1.6_um;  // 40 samples a hogel
+    options.pitch = 1.6_um;  // 40 samples per hogel
     const auto hologram = make_hologram(borrow(light_field), options);
     const double step = options.channel.wavelength / small.pitch;
     double expected = 0;
