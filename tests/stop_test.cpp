@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stop ends every function that takes a Progress within a second, wherever in the library the time is spent.
+// A stop ends every function that takes a Progress within a second, wherever in the library it is working.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -29,7 +29,7 @@ using namespace literals;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// A minute's work on all threads.
+// Work that takes a minute on all threads.
 void work_for_a_minute() {
     core::parallel_for(60000 * thread_count(), [](std::size_t) { std::this_thread::sleep_for(milliseconds(1)); });
 }
@@ -60,7 +60,7 @@ Camera camera_of(const Grid& plane) {
     return camera;
 }
 
-// A ball, under so many lamps that shading takes minutes.
+// A ball with so many lamps that shading takes minutes.
 Scene lit_ball() {
     Scene scene = make_scene("sphere", 16_mm);
     Light lamp;
@@ -147,7 +147,7 @@ std::vector<Verb> verbs() {
     };
 }
 
-// Takes values and forgets them.
+// Discards all values.
 class NullSink final : public LightFieldSink {
   public:
     void write(const LightFieldTile&) override {}

@@ -22,7 +22,7 @@ SampleComparison compare_samples(const Options& options, FileKind kind, const Se
     return compare(a, b, stage.progress());
 }
 
-// Exit status 1 where a bound was given and is missed; a bound on what was not measured is a usage error.
+// Whether a bound was given and is missed (exit status 1). A bound on a value that was not measured is a usage error.
 bool misses(const Session& session, const char* name, std::optional<double> bound, std::optional<double> value) {
     if (!bound) return false;
     if (!value) throw Error(ErrorCode::usage, fmt::format("--min-{}: pictures have no {}; use --min-psnr", name, name));

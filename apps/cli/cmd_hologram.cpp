@@ -34,7 +34,7 @@ void say_what_was_made(const Options& options, const std::vector<FieldGrid>& gri
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
 }
 
-// The field of a scene by a method that knows no light fields.
+// Computes the field of a scene by a method without a light field.
 int straight_from_scene(const Options& options, const SceneHologramMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
     if (options.render.fronts_only)
@@ -53,7 +53,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
                          wavelength});
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
     RenderOptions render = options.render;
-    render.cache_spacing = 0;  // in parts of a ray's width, and there are no rays
+    render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     const auto scene = light_scene(session, load_scene(session, options.input, render), render);
     const auto sinks = create_hologram(options.output, grids, options.file(session));
     SceneHologramOptions how;

@@ -65,14 +65,14 @@ FileSummary summarize_any(const std::string& path) {
                 fmt::format("{}: is neither a light field, a hologram, a picture nor a mesh", path));
 }
 
-// A fact that a file holds as text: true or false where it is one of these.
+// The value of a fact that a file stores as text; "true" and "false" become booleans.
 ResultValue value_of(const std::string& text) {
     if (text == "yes" || text == "no") return text == "yes";
     return text;
 }
 
 ResultValue value_of(double number) {
-    constexpr double exact = 9007199254740992;  // 2⁵³: up to here a double holds every whole number
+    constexpr double exact = 9007199254740992;  // 2⁵³: doubles represent all whole numbers up to this
     if (std::abs(number) <= exact && number == std::trunc(number)) return static_cast<std::int64_t>(number);
     return number;
 }

@@ -29,7 +29,7 @@ struct Options {
 
     double film_distance = 0;
 
-    // The full camera may put beside the picture what does not fit into memory.
+    // Options of the full camera, whose scratch files are in the picture's folder.
     std::optional<PlaneWaveCameraOptions> full() const {
         if (camera != "full") return {};
         return PlaneWaveCameraOptions{
@@ -45,7 +45,7 @@ double parse_exposure(const std::string& text) {
     return *exposure;
 }
 
-// What the film shows of the light: its intensity, or its phase.
+// Photographs the intensity of the light or its phase.
 std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
                            const Options& options) {
     if (options.display != "phase") return photograph_colours(fields, cameras, options.full(), stage.progress());
@@ -73,7 +73,7 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
     const auto black = [](const Image& picture) {
         return std::ranges::all_of(picture.pixels.elements(), [](float value) { return value == 0; });
     };
-    // Even a hologram's edge sends a little light everywhere: nothing at all comes from nothing.
+    // The edge of a hologram sends a little light everywhere, so completely black pictures mean an empty hologram.
     if (std::ranges::all_of(pictures, black))
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is empty; no light comes from it to the eye", options.input));
@@ -118,7 +118,7 @@ int photo(const Options& options, const Session& session) {
     std::vector<Image> pictures = kind == InputKind::hologram
                                       ? photographs_of_hologram(options, session)
                                       : photographs_of_light_field(options, session, kind, geometric);
-    // One exposure for all, so that a film does not flicker.
+    // One exposure for all frames, so that a movie does not flicker.
     double exposure = given;
     if (options.display == "log")
         for (Image& picture : pictures) picture = logarithmic(picture);

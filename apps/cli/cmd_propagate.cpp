@@ -39,7 +39,7 @@ void require_one_wavelength(const Fields& fields, const std::string& what) {
                     fmt::format("{}: is made of one wavelength, but the hologram has {}", what, fields.size()));
 }
 
-// What one colour's picture shows.
+// The picture of one colour.
 Image shown(const Field& field, const std::string& display) {
     if (display == "phase") return phases(field.samples);
     Image picture(field.samples.extent(1), field.samples.extent(0), 1);
@@ -60,7 +60,7 @@ int propagate_fields(const Options& options, const Session& session) {
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a picture takes one or three", options.input, fields.size()));
-    // What does not fit into memory lies beside the output.
+    // Scratch files are in the output's folder.
     const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
     Metadata metadata = with_history(describe_run(session), to_metadata(fields.front()->provenance()));
     std::vector<FieldGrid> grids;

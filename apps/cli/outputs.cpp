@@ -62,7 +62,7 @@ OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
 
 OutputFolder::~OutputFolder() {
     std::error_code ignored;
-    if (created_) fs::remove(path_, ignored);  // succeeds for an empty folder alone
+    if (created_) fs::remove(path_, ignored);  // succeeds only for an empty folder
 }
 
 }  // namespace hogel::cli

@@ -15,14 +15,14 @@ void add_force_flag(Command& command, bool& force);
 
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
-/// One line on a compressed light field, and one on its depth.
+/// Prints a line about a compressed light field, and one about its depth.
 void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result);
 
-/// A folder for the outputs of `hogel make` or `hogel print`. Creates it and those above it, and removes it again when
-/// the work failed before anything was put into it.
+/// A folder for the outputs of `hogel make` or `hogel print`. Creates it with its parents, and removes it if the work
+/// fails before anything is written to it.
 class OutputFolder {
   public:
-    /// Throws Error(cannot_write) where the folder cannot be created, or, without `force`, holds outputs of another
+    /// Throws Error(cannot_write) if the folder cannot be created or, without `force`, if it holds outputs of another
     /// run.
     OutputFolder(std::filesystem::path path, bool force);
     ~OutputFolder();

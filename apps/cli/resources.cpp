@@ -11,7 +11,7 @@
 namespace hogel::cli {
 namespace {
 
-// A line "name:  number kB" of a file that Linux makes up.
+// The value of a line "name: number kB" of a file in /proc.
 double kilobytes(const char* path, const std::string& name) {
     std::ifstream file(path);
     for (std::string word; file >> word;)

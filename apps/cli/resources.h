@@ -3,17 +3,16 @@
 
 namespace hogel::cli {
 
-/// How much memory the program holds at present, and has held at most since it began or was last asked to forget; in
-/// bytes.
+/// The memory that the program holds at present, and its maximum since the start or the last reset, bytes.
 double memory_held();
 double max_memory_held();
-/// Counts the most anew from now on, and returns what is held. Memory that is free goes back to the system first.
+/// Returns free memory to the system, resets the maximum, and returns the memory held.
 double forget_most_memory();
 
-/// How much memory the machine could still give.
+/// The memory that the system can still provide, bytes.
 double memory_available();
 
-/// Processor time of all threads until now, in seconds.
+/// Processor time of all threads so far, seconds.
 double processor_seconds();
 
 }  // namespace hogel::cli

@@ -68,8 +68,8 @@ void plane_to_plane(std::size_t rounds) {
                 whole.wall, whole.processor, bare.wall, bare.processor);
 }
 
-// A full photograph, and its transforms alone: those of the hologram's rows in its window and of the band's columns,
-// from them to the lens, from its opening to plane waves, and from these to the plane in focus.
+// Measures a photograph by the full camera and its transforms alone: of the hologram's rows in its window and of the
+// band's columns, from there to the lens, from its opening to plane waves, and from these to the plane in focus.
 void full_camera(std::size_t rounds) {
     const Field field = noise(4096);
     const Grid& plane = field.grid().plane;

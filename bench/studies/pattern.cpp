@@ -39,7 +39,7 @@ LightFieldBuffer wavy_picture(std::size_t samples) {
     return light_field;
 }
 
-// Divides by the mean, so that pictures of any efficiency compare.
+// Divides by the mean, so that pictures of different efficiency can be compared.
 Image normalised(Image image) {
     double mean = 0;
     for (const float value : image.pixels.elements()) mean += value / double(image.pixels.size());
@@ -72,7 +72,7 @@ void add(Image& sum, const Image& image) {
     for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels.data()[i] += image.pixels.data()[i];
 }
 
-// The light behind the modulator, its order turned straight ahead.
+// The field behind the modulator, with its order rotated to straight ahead.
 Field light_of(const Pattern& pattern, const Encoding& encoding, Field field) {
     field.samples = transmission(pattern, encoding);
     const double frequency = std::sin(pattern.reference_angle) * pitch / wavelength;

@@ -14,7 +14,7 @@
 namespace hogel::bench {
 namespace {
 
-// Prints a table row. The two measurements take turns in every round.
+// Prints a table row. The two measurements alternate in every round.
 void measure(std::size_t side, std::size_t directions, std::size_t across, std::size_t rounds) {
     const std::size_t hogels = across / side;
     HologramOptions options;

@@ -42,7 +42,7 @@ HOGEL_API void write_image(const std::filesystem::path& path, const Image& image
 /// Throws Error(usage) for a name whose extension write_image() would refuse.
 HOGEL_API void require_picture_name(const std::filesystem::path& path);
 
-/// The bytes of an 8-bit sRGB PNG file, for pages that carry their pictures inside.
+/// The bytes of an 8-bit sRGB PNG file, for HTML pages with embedded pictures.
 HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
 /// Reads any picture that OpenImageIO reads into linear light, with one or three channels: integers of 8 and 16 bits
@@ -54,24 +54,26 @@ HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pi
 HOGEL_API Image decode_image(std::span<const unsigned char> bytes, const std::string& name,
                              std::size_t max_pixels = std::size_t{1} << 28);
 
-/// The pixels of a picture as plain numbers rather than light: values[y][x] as they stand in the file.
+/// The pixels of a picture as plain numbers instead of light: values[y][x] as stored in the file.
 struct RawPixels {
     Array<float, 2> values;
-    std::size_t levels = 0;  ///< 256 or 65536 for whole numbers below it, 0 for floating point numbers
+    std::size_t levels =
+        0;  ///< 256 or 65536: the values are whole numbers below this; 0: they are floating-point numbers
 };
-/// Throws Error(bad_input) as read_image() does, and for a picture whose colour channels differ.
+/// Reads the pixels of a picture without a transfer curve. Throws Error(bad_input) as read_image() does, and for a
+/// picture whose colour channels differ.
 HOGEL_API RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
-/// The texts that a picture file carries, from write_image() or other programs; write_image() puts them into a TIFF
-/// file as lines of its "ImageDescription". Throws Error(bad_input) as read_image() does.
+/// Reads the texts stored in a picture file by write_image() or other programs. In a TIFF file write_image() stores
+/// them as lines of "ImageDescription". Throws Error(bad_input) as read_image() does.
 HOGEL_API Metadata read_metadata(const std::filesystem::path& path);
 
-/// The exposure that brings the brightest parts, the 99.5th percentile of each pixel's largest channel, to display
-/// white.
+/// The exposure that maps the brightest parts of a picture to display white: the 99.5th percentile of each pixel's
+/// largest channel.
 HOGEL_API double automatic_exposure(const Image& image);
 
 /// The difference of two pictures. PSNR, SSIM and the largest error are those of display values, sRGB of linear values
-/// times the exposure, clamped to 0..1, because an eye compares what a display shows.
+/// times the exposure, clamped to 0..1, because that is what an eye compares.
 struct ImageComparison {
     double psnr = 0;         ///< dB, peak 1; +infinity for equal pictures
     double ssim = 0;         ///< of luma; mean over all whole Gaussian windows of 11 pixels, σ 1.5 (Wang et al. 2004)
@@ -83,8 +85,8 @@ struct ImageComparison {
 /// positive and finite.
 HOGEL_API ImageComparison compare(const Image& a, const Image& b, double exposure = 1);
 
-/// Writes the drive levels of a display or modulator, levels[y][x][c], as they are, with no transfer curve: one channel
-/// or three of 8 bits, as .png, .bmp or .tif by the name. The file appears under its name when it is complete. Throws
+/// Writes the drive levels of a display or modulator, levels[y][x][c], unchanged and without a transfer curve, as a
+/// .png, .bmp or .tif of 8 bits with one or three channels. The file appears under its name when it is complete. Throws
 /// Error(cannot_write), or Error(usage) for another extension.
 HOGEL_API void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels,
                                 const Metadata& metadata = {});

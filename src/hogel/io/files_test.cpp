@@ -9,14 +9,14 @@
 #include "hogel/core/parallel.h"
 #include "hogel/io/test_files.h"
 
-// HDF5 1.10 leaks what it had begun to load when a checksum turns out wrong; builds with a leak checker ask here.
+// Suppressions for leak checkers: HDF5 1.10 leaks data when a checksum is wrong.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
 namespace hogel::io {
 namespace {
 
-// Writes by tiles of a size, in random order and from several threads.
+// Writes tiles of a given size in random order from several threads.
 void write_tiles(const LightFieldBuffer& from, LightFieldSink& sink, std::size_t ns, std::size_t nt) {
     const LightFieldGrid& g = from.grid();
     std::vector<HogelRange> ranges;
@@ -227,7 +227,7 @@ TEST_F(Files, say_what_they_are) {
     }
     EXPECT_THROW(file_kind(directory_ / "missing.h5"), Error);
     EXPECT_THROW(file_kind(directory_), Error);
-    // A hologram is no light field, nor the other way round.
+    // A hologram is refused as a light field, and the reverse.
     EXPECT_SAYS(refusal(hologram), "'hogel hologram', but a 'hogel light field'");
     EXPECT_THROW(open_hologram(path_), Error);
 }
@@ -265,7 +265,7 @@ TEST_F(Files, many_threads_open_read_and_write_at_once) {
         LightFieldBuffer back(grid, true);
         copy(open_light_field(path).front(), back);
         good += same_bits(back.radiance, field.radiance) && same_bits(back.depth, field.depth);
-        // All threads write the same file: it ends up whole.
+        // All threads write the same file, which must be complete in the end.
         copy(field, *create_front(path_, grid));
     });
     EXPECT_EQ(good, 40);

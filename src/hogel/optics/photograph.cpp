@@ -19,7 +19,7 @@ using namespace optics;
 
 namespace {
 
-// A part of a field, as a field.
+// A part of a field, as a source.
 class Window final : public FieldSource {
   public:
     Window(const FieldSource& whole, const Region& region)
@@ -38,7 +38,7 @@ class Window final : public FieldSource {
     FieldGrid grid_;
 };
 
-// One pass of cameras over one window: adds to their pictures what the window shows.
+// One pass of cameras over one window: adds the window's light to their pictures.
 void photograph_window(const FieldSource& window, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes,
                        const Rectangle& shown, std::size_t looks_at_once, std::span<Image> images,
                        const Progress& progress) {

@@ -16,7 +16,7 @@ struct PupilPoint {
     Complex field;
 };
 
-// The points of a square grid that lie in the pupil's disc.
+// The points of a square grid that are inside the pupil's disc.
 std::vector<PupilPoint> pupil_grid(const Camera& camera, std::size_t across) {
     std::vector<PupilPoint> points;
     const double step = camera.pupil / static_cast<double>(across);
@@ -58,7 +58,7 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
                 }
             pupil[i].field = sum * plane.pitch_x * plane.pitch_y / Complex(0, grid.wavelength);
         });
-        // A perfect lens: waves from the point p of the plane in focus arrive at p's place on the film in step.
+        // A perfect lens: waves from a point p of the plane in focus arrive in phase at the image of p on the film.
         const double points_a_pixel = static_cast<double>(subpixels * subpixels);
         core::parallel_for(camera.picture.height, [&](std::size_t row) {
             for (std::size_t column = 0; column < camera.picture.width; ++column)

@@ -40,7 +40,7 @@ struct Difference {
     }
 };
 
-// A range of hogels or samples cut into blocks of at most `width` × `height`: block i.
+// Divides a range of hogels or samples into blocks of at most `width` × `height`.
 struct Blocks {
     std::size_t columns, rows, width, height;
 

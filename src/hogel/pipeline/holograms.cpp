@@ -15,7 +15,8 @@ namespace hogel {
 void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                        std::span<const Camera> cameras) {
     if (request.channels.empty()) throw Error(ErrorCode::usage, "a hologram needs a wavelength; there is none");
-    // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
+    // The shortest wavelength is the most critical: it is diffracted least and has the finest detail in the light that
+    // enters a lens.
     const Channel& shortest = *std::ranges::min_element(request.channels, {}, &Channel::wavelength);
     const FieldGrid hologram = hologram_grid(faces, request.options(shortest));
     require_photographs(hologram, cameras);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the name of a scene to a light field that is rendered where it is read.
+// From the name of a scene to a light field that is rendered when it is read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,17 +14,18 @@
 namespace hogel {
 namespace {
 
-// A light field up to this size, in bytes, is kept in memory rather than rendered again each time that it is read.
+// Light fields up to this size, in bytes, are kept in memory instead of being rendered each time they are read.
 constexpr double max_kept_bytes = 2e9;
-// Of a larger one rows of hogels are kept up to this, while the tiles that they hold are read.
+// Maximum bytes of cached tiles for larger light fields.
 constexpr double max_cached_tile_bytes = 1e9;
 
-// The file that is named, or the failure to find it: what looks like a path was meant as one.
+// Throws unless a file of this name exists. A name that looks like a path is reported as a missing file, any other as
+// an unknown scene.
 void require_file(const std::string& name) {
     if (std::filesystem::exists(name)) return;
     if (name.find_first_of("./") != std::string::npos)
         throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
-    scenes().find(name);  // throws, with the nearest name
+    scenes().find(name);  // throws, naming the nearest scene
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What work will take, before it begins. Memory and disk follow from the sizes of arrays; times from rates that were
-// measured on one machine, so they are estimates.
+// Estimates of the resources of work. Memory and disk space follow from the sizes of arrays. Times are estimates from
+// rates measured on one machine.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +21,10 @@ namespace hogel {
 namespace {
 
 // Processor seconds, measured on two cores of an AMD EPYC (Zen 5) with g++ 12, 2026-11-22 (docs/performance.md).
-// A ray by epi takes this, and as much more for every million triangles; other renderers about ten times as much.
+// Seconds per ray with epi: a constant, and an addition per million triangles; other renderers take about ten times as
+// long.
 constexpr double seconds_a_ray = 1.9e-9, seconds_a_ray_and_million_triangles = 2.0e-9, other_renderers = 10;
-// A sample of a hologram to be synthesised, and to be brought into the narrow band of one eye.
+// Seconds per sample of a hologram for its synthesis, and for the narrow band of one eye.
 constexpr double seconds_a_sample = 5e-9, seconds_a_sample_and_eye = 1.8e-9;
 // A sample of a light field to be compressed by the coder hogel, searching for the step; other coders take about as
 // long.
@@ -35,7 +36,7 @@ double on_all_threads(double processor_seconds) {
     return processor_seconds / static_cast<double>(std::max<std::size_t>(thread_count(), 1));
 }
 
-// Bytes that the system can give to programs without swapping; infinity where it does not say.
+// Bytes that the system can give to programs without swapping; infinity if it does not say.
 double memory_available() {
     std::ifstream file("/proc/meminfo");
     for (std::string word; file >> word;)
@@ -54,8 +55,8 @@ double hologram_samples(std::span<const LightFieldGrid> faces, const HologramReq
     return samples;
 }
 
-// Bytes that one region of a renderer takes: its values, its depth buffer, and with several samples a ray those of the
-// finer light field, which is averaged block by block.
+// Bytes for one region of a renderer: its values, its depth buffer and, with several samples per ray, a block of the
+// finer light field.
 double region_bytes(const LightFieldSource& face, const LightFieldRequest& request, std::size_t values) {
     const LightFieldGrid& grid = face.grid();
     const HogelRange region = face.preferred_tile();
@@ -101,7 +102,7 @@ Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest
     Plan plan;
     plan.disk = samples * (file.type == SampleType::half ? 4 : 8);
     plan.seconds = on_all_threads(samples * seconds_a_sample);
-    // Tiles in work, of complex samples, with the rays that they are made of.
+    // Tiles of complex samples that are in progress, with their rays.
     const std::size_t hogel = hologram_grid(faces, request.options(request.channels.front())).plane.samples() /
                               std::max<std::size_t>(faces.front().hogels(), 1);
     plan.memory = static_cast<double>(4 * thread_count()) *

@@ -17,7 +17,7 @@ constexpr float max_half = 65504;
 
 std::string samples_name(std::size_t field) { return fmt::format("field{}/samples", field); }
 
-// How real and imaginary parts are stored: as members of compounds, or along an axis of their own.
+// How real and imaginary parts are stored: as members of compounds, or along an additional axis.
 enum class Parts { members, axis };
 
 Box box_of(const Region& region, Parts parts) {
@@ -59,7 +59,7 @@ class FieldReader final : public FieldSource {
     DatasetReader samples_;
 };
 
-// The file that several sinks write to; the last to finish gives it its name.
+// The file that several sinks share; the last one to finish gives it its name.
 struct SharedFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
@@ -100,7 +100,7 @@ class FieldWriter final : public FieldSink {
   private:
     core::Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
 
-    // A single infinite sample would outshine everything else in a photograph.
+    // Throws for samples beyond half floats, because one infinite sample would spoil a whole photograph.
     void require_halves(std::span<const float> numbers) const {
         float largest = 0;
         for (const float number : numbers) largest = std::max(largest, std::abs(number));
