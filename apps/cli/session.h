@@ -23,6 +23,7 @@ struct Session {
     std::uint64_t seed = 1;
 
     const Command* command = nullptr;
+    std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
     std::stop_source stop;  ///< asks all work to end
 
     /// A line of words on stderr, unless -q; and one that only -v shows.
@@ -32,11 +33,13 @@ struct Session {
     /// What the command found out or made, on the standard output: with --json as a JSON object, otherwise `words`,
     /// which may be empty where say() speaks of it.
     void result(const Result& result, const std::string& words = "") const;
+    /// Since the program began.
+    double seconds() const;
 };
 
 /// The options that every command has: -q, -v, --threads, --seed.
 void add_common_options(Command& command, Session& session);
-/// --json, for commands that have a result.
+/// --json; every command has a result.
 void add_json_flag(Command& command, Session& session);
 
 /// What outputs carry with them: the version, the command, and the value of each of its options.
