@@ -7,6 +7,7 @@
 #include "bench/arguments.h"
 #include "bench/session.h"
 #include "hogel/light_field.h"
+#include "hogel/pipeline.h"
 #include "hogel/scene.h"
 #include "hogel/shading.h"
 #include "hogel/units.h"
@@ -15,9 +16,9 @@ namespace hogel::bench {
 
 using namespace hogel::literals;
 
-inline constexpr const char* default_algorithm = "epi";
-inline constexpr const char* default_shading = "vertex";
-inline constexpr double default_cache_spacing = 0.25;
+// Those of `hogel render`.
+inline const std::string default_algorithm{defaults.renderer}, default_shading{defaults.shading};
+inline constexpr double default_cache_spacing = defaults.cache_spacing;
 
 /// The options of rendering a scene. The defaults are those of `hogel render`.
 struct LightFieldOptions {
@@ -40,8 +41,8 @@ Scene load_scene(const std::string& name, const LightFieldOptions& options);
 /// Shades the scene and adds a radiance cache for the rays of the options' light field, unless cache_spacing is 0.
 std::shared_ptr<const ShadedScene> shade(const Session& session, const Scene& scene, const LightFieldOptions& options);
 
-/// A light field file, or a scene's light field, which is rendered when it is read.
-std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
-                                                 const LightFieldOptions& options);
+/// A light field file, or a scene's light field, which is rendered where it is read.
+std::shared_ptr<const LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                       const LightFieldOptions& options);
 
 }  // namespace hogel::bench

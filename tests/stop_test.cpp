@@ -153,10 +153,17 @@ class NullSink final : public LightFieldSink {
     void write(const LightFieldTile&) override {}
 };
 
-// A light field of a scene that takes seconds for each tile.
+// A scene that takes seconds for each tile, behind the hologram, where every renderer can draw it.
+std::shared_ptr<const ShadedScene> pumpkin_behind() {
+    Scene scene = make_scene("pumpkin", 16_mm);
+    const double front = bounds(scene).high.z + 1_mm;
+    for (Mesh& mesh : scene.meshes)
+        for (Vec3& position : mesh.positions) position.z -= front;
+    return std::make_shared<const ShadedScene>(shade_scene(scene, {.model = "vertex"}));
+}
+
 std::vector<Verb> renderings() {
-    static const auto scene =
-        std::make_shared<const ShadedScene>(shade_scene(make_scene("pumpkin", 16_mm), {.model = "vertex"}));
+    static const auto scene = pumpkin_behind();
     std::vector<Verb> all;
     for (const RendererInfo& renderer : renderers().rows())
         all.push_back({renderer.name, [name = renderer.name](const Progress& progress) {

@@ -33,8 +33,8 @@ LightFieldBuffer load(const LightFieldSource& source, bool grey) {
     return mean;
 }
 
-// Opens the input: a dense light field, a file or a scene.
-std::unique_ptr<LightFieldSource> open(const Session& session, const CodecOptions& options) {
+// A dense light field, or any other.
+std::shared_ptr<const LightFieldSource> open(const Session& session, const CodecOptions& options) {
     for (const auto& [name, brightness] : dense_fields)
         if (options.input == name) return make_dense_field(options.light_field.grid(), brightness);
     return open_or_render(session, options.input, options.light_field);

@@ -78,7 +78,7 @@ void full_camera(std::size_t rounds) {
     camera.pupil = 6_mm;
     camera.focus_depth = -3_mm;
     camera.picture = {400, 400, plane.size_x() / 400, plane.size_y() / 400, 0, 0};
-    const Times whole = best_time_of([&] { photograph_fully(field, {&camera, 1}); }, rounds);
+    const Times whole = best_time_of([&] { photograph_by_plane_waves(field, {&camera, 1}); }, rounds);
 
     const double pupil = room * camera.pupil;
     const Grid window = optics::padded(plane, plane.size_x() + pupil, plane.size_y() + pupil);

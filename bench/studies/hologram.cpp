@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/measure.h"
@@ -124,23 +125,20 @@ struct MeasuredMethod {
 
 std::vector<MeasuredMethod> methods() {
     std::vector<MeasuredMethod> all;
-    const auto add = [&](const char* name, Method method, Phases phases) {
+    const auto add = [&](const std::string& name, const HologramMethod& method) {
         HologramOptions options;
-        options.wavelength = wavelength;
+        options.channel.wavelength = wavelength;
         options.pitch = pitch;
         options.method = method;
-        options.phases = phases;
         all.push_back({name, "", options});
     };
-    add("fourier", Method::fourier, Phases::random);
-    add("fourier, designed", Method::fourier, Phases::designed);
-    add("basis", Method::basis, Phases::fixed);
-    add("phase-added", Method::fourier, Phases::phase_added);
-    add("phase-added-exact", Method::fourier, Phases::phase_added_exact);
-    add("olas", Method::overlap_add, Phases::random);
-    for (const char* name : {"points", "points-visible", "points-tiled", "points-hpo", "edges", "lines", "fraunhofer",
-                             "fresnel", "planes", "polygons", "polygons-visible"})
-        all.push_back({name, name, {}});
+    for (const HologramMethodInfo& info : hologram_methods().rows()) {
+        if (std::holds_alternative<Lines>(info.method)) continue;  // horizontal parallax only: another light field
+        add(info.name, info.method);
+        if (std::holds_alternative<Fourier>(info.method))
+            add(info.name + ", designed", Fourier{.phases = Phases::designed});
+    }
+    for (const std::string& name : scene_hologram_methods().names()) all.push_back({name, name, {}});
     return all;
 }
 
@@ -150,12 +148,13 @@ Field make(const MeasuredMethod& method, const ShadedScene& scene, const LightFi
         SceneHologramOptions options;
         options.seed = seed;
         options.spacing = 20e-6;
-        return find_scene_method(method.scene_method)
-            ->make(scene, {{samples, samples, pitch, pitch, 0, 0}, wavelength}, options, {});
+        return scene_hologram_methods()
+            .find(method.scene_method)
+            .make(scene, {{samples, samples, pitch, pitch, 0, 0}, wavelength}, options, {});
     }
     HologramOptions options = method.stereogram;
     options.seed = seed;
-    const auto source = make_hologram(*light_field, options);
+    const auto source = make_hologram(borrow(*light_field), options);
     Field field(source->grid());
     copy(*source, field);
     return field;
@@ -164,7 +163,7 @@ Field make(const MeasuredMethod& method, const ShadedScene& scene, const LightFi
 // The light field for a method: as many directions as a hogel shows, limited to those to which the pitch diffracts.
 LightFieldBuffer light_field_for(const MeasuredMethod& method, const std::shared_ptr<const ShadedScene>& scene,
                                  std::size_t samples) {
-    const bool windows = method.stereogram.method == Method::overlap_add;
+    const bool windows = std::holds_alternative<OverlapAdd>(method.stereogram.method);
     const double tangent = 0.98 * std::tan(std::asin(wavelength / (2 * pitch)));
     const std::size_t n = windows ? samples / 2 : samples / hogel_side, d = windows ? 9 : hogel_side;
     const LightFieldGrid grid{n, n, double(samples) * pitch / double(n), d, d, Perspective{tangent, tangent}, 3};

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <complex>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "hogel/array.h"
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
+#include "hogel/provenance.h"
 
 namespace hogel {
 
@@ -35,13 +39,18 @@ class HOGEL_API FieldSource {
     virtual ~FieldSource() = default;
     virtual const FieldGrid& grid() const = 0;
     virtual std::size_t looks() const { return 1; }
-    /// Regions whose positions and sizes are multiples of this number of samples are read without repeated work.
+    /// Where it comes from: what its file says, or the light field that it shows.
+    virtual const Provenance& provenance() const;
+    /// Regions that start at multiples of this many samples and span multiples of it are read without repeated work.
     virtual std::size_t alignment() const { return 1; }
     /// Fills out[y][x] (shape: height × width of the region) with the region's samples in look number `look`.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
 };
 
-/// A destination of fields. write() may be called from several threads at once, once for each sample.
+/// The fields of a hologram, one for each wavelength; shared, so copies are cheap.
+using Fields = std::vector<std::shared_ptr<const FieldSource>>;
+
+/// A destination of fields. write() may be called from several threads at once, each sample once.
 class HOGEL_API FieldSink {
   public:
     virtual ~FieldSink() = default;
@@ -64,11 +73,14 @@ class HOGEL_API Field final : public FieldSource, public FieldSink {
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;
     void write(const Region& region, View<const std::complex<float>, 2> values) override;
     View<std::complex<float>, 2> in_memory() override { return samples; }
+    const Provenance& provenance() const override { return provenance_; }
+    void set_provenance(Provenance provenance) { provenance_ = std::move(provenance); }
 
     Array<std::complex<float>, 2> samples;  ///< [y][x]
 
   private:
     FieldGrid grid_;
+    Provenance provenance_;
 };
 
 /// Streams one look of a field from a source to a sink, region by region on all threads, then calls finish().

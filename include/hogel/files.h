@@ -51,16 +51,11 @@ HOGEL_API std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const 
                                                                           std::span<const LightFieldGrid> grids,
                                                                           const LightFieldFileOptions& options = {});
 
-/// A hologram in an HDF5 file: one field for each wavelength, for instance red, green and blue. Field number i is the
-/// dataset "field<i>/samples", [y][x] of compounds {r, i} (single floats), which h5py reads as complex64, or [y][x][2]
-/// of half floats, with its sampling and wavelength in attributes (docs/files.md).
-struct HologramFile {
-    std::vector<std::shared_ptr<const FieldSource>> fields;
-    Metadata metadata;
-};
-
-/// Opens a hologram. Throws Error(bad_input) as open_light_field() does.
-HOGEL_API HologramFile open_hologram(const std::filesystem::path& path);
+/// Opens a hologram in an HDF5 file: one field for each wavelength, for instance red, green and blue. Field number i is
+/// the dataset "field<i>/samples", [y][x] of compounds {r, i} (single floats), which h5py reads as complex64, or
+/// [y][x][2] of half floats, with its sampling and wavelength in attributes (docs/files.md). Throws Error(bad_input) as
+/// open_light_field() does.
+HOGEL_API Fields open_hologram(const std::filesystem::path& path);
 
 /// Options of create_hologram().
 struct HologramFileOptions {

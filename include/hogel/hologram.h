@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -100,8 +101,22 @@ struct OverlapAdd {
     friend bool operator==(const OverlapAdd&, const OverlapAdd&) = default;
 };
 
-/// The method that turns a light field into fringes; docs/holograms.md compares them.
-using HologramMethod = std::variant<Fourier, Lines, Basis, PhaseAdded, OverlapAdd>;
+struct HologramOptions;
+
+/// A method that a program brings along. As a row of hologram_methods() it is found by its name.
+struct OwnMethod {
+    std::string name;
+    bool needs_depth = false;
+    /// The hologram of a light field on a grid of hologram_grid(). Its read() follows the rules of FieldSource.
+    std::function<std::shared_ptr<const FieldSource>(const LightField& light_field, const FieldGrid& grid,
+                                                     const HologramOptions& options)>
+        make;
+
+    friend bool operator==(const OwnMethod& a, const OwnMethod& b) { return a.name == b.name; }
+};
+
+/// How a light field becomes fringes; docs/holograms.md compares the methods.
+using HologramMethod = std::variant<Fourier, Lines, Basis, PhaseAdded, OverlapAdd, OwnMethod>;
 
 /// Whether a method needs the depth of every ray.
 HOGEL_API bool needs_depth(const HologramMethod& method);

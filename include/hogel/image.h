@@ -6,35 +6,36 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hogel/array.h"
 #include "hogel/export.h"
+#include "hogel/provenance.h"
 
 namespace hogel {
 
 /// A picture in linear light: pixels[y][x][c], row 0 at the top, one or three channels (R, G, B).
-struct Image {
+struct HOGEL_API Image {
     Array<float, 3> pixels;
+    Provenance provenance;  ///< with the camera, if one took it
 
     Image() = default;
     Image(std::size_t width, std::size_t height, std::size_t channels) : pixels(Shape<3>{height, width, channels}) {}
+    /// Makes all pixels black and forgets the provenance. A picture of this shape keeps its memory.
+    void reset(std::size_t width, std::size_t height, std::size_t channels);
     std::size_t width() const { return pixels.extent(1); }
     std::size_t height() const { return pixels.extent(0); }
     std::size_t channels() const { return pixels.extent(2); }
 };
-
-/// Keys and texts stored inside a file: the version and the options that made it.
-using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 /// The sRGB transfer curve (IEC 61966-2-1) from linear light to display value and back; both clamp to 0..1.
 HOGEL_API float srgb_encode(float linear);
 HOGEL_API float srgb_decode(float display);
 
 /// Writes a picture in the format of the name's extension: .exr as linear half floats, .png and .tif as 8-bit sRGB of
-/// linear values times `exposure`. The file appears under its name when it is complete. Throws Error(cannot_write), or
-/// Error(usage) for an unknown extension or an exposure that is not positive and finite.
+/// linear values times `exposure`, with `metadata` and the picture's provenance. The file appears under its name when
+/// it is complete. Throws Error(cannot_write), or Error(usage) for an unknown extension or an exposure that is not
+/// positive and finite.
 HOGEL_API void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
                            const Metadata& metadata = {});
 
@@ -45,8 +46,8 @@ HOGEL_API void require_picture_name(const std::filesystem::path& path);
 HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
 /// Reads any picture that OpenImageIO reads into linear light, with one or three channels: integers of 8 and 16 bits
-/// are taken as sRGB, alpha is dropped, and the first of two channels is kept. Throws Error(bad_input), naming the
-/// file, for one that is missing, damaged or has more than `max_pixels`.
+/// are taken as sRGB, alpha is dropped, of two channels the first is kept. The texts in the file are its provenance.
+/// Throws Error(bad_input), naming the file, for one that is missing, damaged or has more than `max_pixels`.
 HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// As read_image(), from the bytes of a picture file in memory, such as a texture inside a glTF file.

@@ -16,6 +16,8 @@
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
+#include "hogel/provenance.h"
+
 namespace hogel {
 
 /// The faces of a hemicube around a hogel ([K] 4.1). Each is a perspective picture of a part of the directions: the
@@ -253,7 +255,7 @@ class HOGEL_API LightField {
     LightField(std::unique_ptr<S> front) : LightField(std::vector<Source>{Source(std::move(front))}) {}
     /// All faces. Throws Error(usage) unless the first is a front, no face occurs twice, and all have the same hogels
     /// and channels.
-    explicit LightField(std::vector<Source> faces);
+    explicit LightField(std::vector<Source> faces, Provenance provenance = {});
 
     const LightFieldSource& front() const { return *faces_.front(); }
     std::span<const Source> faces() const { return faces_; }
@@ -266,17 +268,21 @@ class HOGEL_API LightField {
     bool has_depth() const;
     /// The number of samples of all faces.
     double samples() const;
-    /// The light field whose faces are make(face), for each face of this one. make() returns a LightFieldSource,
-    /// usually one that wraps the face.
+    /// Where it comes from: what its file or its renderer says.
+    const Provenance& provenance() const { return provenance_; }
+    /// The same light field with another provenance.
+    LightField with(Provenance provenance) const { return LightField(faces_, std::move(provenance)); }
+    /// The light field whose faces are make(face), a LightFieldSource each: the same light field wrapped.
     template <std::invocable<const Source&> Make>
     LightField wrapped(const Make& make) const {
         std::vector<Source> wrapped;
         for (const Source& face : faces_) wrapped.push_back(make(face));
-        return LightField(std::move(wrapped));
+        return LightField(std::move(wrapped), provenance_);
     }
 
   private:
     std::vector<Source> faces_;
+    Provenance provenance_;
 };
 
 /// A light field of a source that the caller owns. The source must outlive the light field and everything made from it.

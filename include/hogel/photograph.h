@@ -33,8 +33,13 @@ struct PhotographOptions {
 HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
                                         const PhotographOptions& options = {}, const Progress& progress = {});
 
-/// Throws the errors that photograph() throws before it begins, given only the grid of the hologram, which need not
-/// exist yet.
+/// The same into `pictures`, one a camera, which keep their memory where they have the cameras' shapes. Throws
+/// Error(usage) for another number of pictures, too.
+HOGEL_API void photograph_into(const FieldSource& hologram, std::span<const Camera> cameras,
+                               const PhotographOptions& options, std::span<Image> pictures,
+                               const Progress& progress = {});
+
+/// Throws the errors that photograph() throws before it begins, from the grid of a hologram that need not exist yet.
 HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
                                    const PhotographOptions& options = {});
 

@@ -54,6 +54,7 @@ class Stereogram final : public FieldSource {
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return looks_; }
     std::size_t alignment() const override { return std::lcm(columns_, rows_); }
+    const Provenance& provenance() const override { return light_field_.provenance(); }
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
         if (region.samples() == 0) return;
@@ -216,7 +217,8 @@ std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, 
         throw Error(ErrorCode::usage,
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
     if (const auto* overlap = std::get_if<OverlapAdd>(&options.method))
-        return windows::make_overlap_add(light_field.faces().front(), grid, options, overlap->phases);
+        return windows::make_overlap_add(light_field, grid, options, overlap->phases);
+    if (const auto* own = std::get_if<OwnMethod>(&options.method)) return own->make(light_field, grid, options);
     return std::make_shared<Stereogram>(light_field, grid, options, RayValues::radiance);
 }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <system_error>
 
 #include "hogel/error.h"
@@ -148,6 +149,25 @@ OpenPicture open_file(const std::filesystem::path& path, std::uint64_t& file_byt
     return picture;
 }
 
+// The texts of a picture file. Names with a colon are OpenImageIO's own. write_image() puts the texts of a TIFF file
+// into its description, a line each.
+Metadata texts_of(const OIIO::ImageSpec& spec) {
+    Metadata texts;
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (attribute.type() != OIIO::TypeDesc::STRING || name.find(':') != std::string::npos) continue;
+        std::istringstream lines(attribute.get_string());
+        std::string line;
+        std::size_t colon = 0;
+        if (name == "ImageDescription" && lines.str().ends_with('\n'))
+            while (std::getline(lines, line) && (colon = line.find(": ")) != std::string::npos)
+                texts.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+        else
+            texts.emplace_back(name, lines.str());
+    }
+    return texts;
+}
+
 }  // namespace
 
 Image read_image(const std::filesystem::path& path, std::size_t max_pixels) {
@@ -156,7 +176,9 @@ Image read_image(const std::filesystem::path& path, std::size_t max_pixels) {
         std::uint64_t file_bytes = 0;
         const OpenPicture picture = open_file(path, file_bytes);
         check_size(picture.in->spec(), name, max_pixels, file_bytes);
-        return read_pixels(*picture.in, name);
+        Image image = read_pixels(*picture.in, name);
+        image.provenance = to_provenance(texts_of(picture.in->spec()));
+        return image;
     });
 }
 
@@ -203,12 +225,7 @@ RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pix
 Metadata read_metadata(const std::filesystem::path& path) {
     return guarded(path.string(), [&] {
         std::uint64_t file_bytes = 0;
-        const OpenPicture picture = open_file(path, file_bytes);
-        Metadata metadata;
-        for (const OIIO::ParamValue& attribute : picture.in->spec().extra_attribs)
-            if (attribute.type() == OIIO::TypeDesc::STRING)
-                metadata.emplace_back(attribute.name().string(), attribute.get_string());
-        return metadata;
+        return texts_of(open_file(path, file_bytes).in->spec());
     });
 }
 

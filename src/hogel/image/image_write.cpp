@@ -104,7 +104,8 @@ std::string format_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_image(const std::filesystem::path& path, const Image& image, double exposure, const Metadata& metadata) {
+void write_image(const std::filesystem::path& path, const Image& image, double exposure, const Metadata& options) {
+    const Metadata metadata = with_history(options, to_metadata(image.provenance));
     const std::string format = format_of(path);
     check_writable(image, exposure, path.string());
     core::OutputFile file(path);

@@ -191,10 +191,10 @@ TEST_F(DamagedFiles, a_hologram_damaged_in_any_byte_of_its_header_is_refused_or_
     std::vector<std::uint16_t> halves(2 * field.samples.size());
     core::to_half(reinterpret_cast<const float*>(field.samples.data()), halves.data(), halves.size());
     const auto read = [&] {
-        const HologramFile file = open_hologram(path_);
-        EXPECT_EQ(file.fields.at(0)->grid(), grid);
+        const Fields fields = open_hologram(path_);
+        EXPECT_EQ(fields.at(0)->grid(), grid);
         Field back(grid);
-        copy(*file.fields[0], back);
+        copy(*fields[0], back);
         EXPECT_TRUE(same_bits(back.samples, field.samples));
         summarize(path_);
     };

@@ -91,7 +91,7 @@ FileSummary summarize(const std::filesystem::path& path) {
 }
 
 LightField open_light_field(const std::filesystem::path& path) {
-    return is_stream(path) ? open_stream(path) : LightField(io::hdf5::open_faces(path));
+    return is_stream(path) ? open_stream(path) : io::hdf5::open_light_field(path);
 }
 
 }  // namespace hogel

@@ -146,19 +146,19 @@ TEST_F(Files, a_hologram_of_any_size_comes_back) {
         copy(first, *sinks[0]);
         EXPECT_TRUE(!fs::exists(path_) || width != 1 || height != 1) << "has its name before the last field";
         copy(second, *sinks[1]);
-        const HologramFile file = open_hologram(path_);
-        ASSERT_EQ(file.fields.size(), 2u);
-        EXPECT_EQ(file.fields[0]->grid(), grids[0]);
-        EXPECT_EQ(file.fields[1]->grid(), grids[1]);
-        EXPECT_EQ(file.metadata, (Metadata{{"hogel_command", "hologram a.h5"}}));
+        const Fields fields = open_hologram(path_);
+        ASSERT_EQ(fields.size(), 2u);
+        EXPECT_EQ(fields[0]->grid(), grids[0]);
+        EXPECT_EQ(fields[1]->grid(), grids[1]);
+        EXPECT_EQ(fields.front()->provenance().entries, (Metadata{{"hogel_command", "hologram a.h5"}}));
         Field back_first(grids[0]), back_second(grids[1]);
-        copy(*file.fields[0], back_first);
-        copy(*file.fields[1], back_second);
+        copy(*fields[0], back_first);
+        copy(*fields[1], back_second);
         EXPECT_TRUE(same_bits(first.samples, back_first.samples));
         EXPECT_TRUE(same_bits(second.samples, back_second.samples));
         Array<std::complex<float>, 2> one({1, 1});
-        EXPECT_THROW(file.fields[0]->read({width, 0, 1, 1}, 0, one), Error);
-        EXPECT_THROW(file.fields[0]->read({0, 0, 1, 1}, 1, one), Error);
+        EXPECT_THROW(fields[0]->read({width, 0, 1, 1}, 0, one), Error);
+        EXPECT_THROW(fields[0]->read({0, 0, 1, 1}, 1, one), Error);
     }
 }
 
@@ -167,12 +167,12 @@ TEST_F(Files, a_hologram_of_halves_comes_back_to_eleven_bits) {
     Field field = random_field(grid);
     for (auto& sample : field.samples.elements()) sample *= 1e-6f;
     copy(field, *create_hologram(path_, {&grid, 1}, {.type = SampleType::half})[0]);
-    const HologramFile file = open_hologram(path_);
-    EXPECT_EQ(file.fields.at(0)->grid(), grid);
+    const Fields fields = open_hologram(path_);
+    EXPECT_EQ(fields.at(0)->grid(), grid);
     EXPECT_LT(fs::file_size(path_), 4 * grid.plane.samples() + 8192);
     EXPECT_EQ(std::ranges::count(summarize(path_).text, std::pair<std::string, std::string>{"samples", "half"}), 1);
     Field back(grid);
-    copy(*file.fields[0], back);
+    copy(*fields[0], back);
     const auto same = [](float value, float kept) {
         return std::abs(kept - value) <= std::max(std::abs(value) * 0x1p-11f, 0x1p-25f);
     };
@@ -181,7 +181,7 @@ TEST_F(Files, a_hologram_of_halves_comes_back_to_eleven_bits) {
         ASSERT_TRUE(same(field.samples.data()[i].imag(), back.samples.data()[i].imag())) << i;
     }
     Array<std::complex<float>, 2> part({3, 5});
-    file.fields[0]->read({1290, 1020, 5, 3}, 0, part);
+    fields[0]->read({1290, 1020, 5, 3}, 0, part);
     EXPECT_EQ(part(2, 4), back.samples(1022, 1294));
 
     field.samples(700, 5) = {0, -65505};

@@ -221,11 +221,11 @@ TEST_F(H5py, writes_holograms_that_are_read) {
                 "d.attrs.update(wavelength_m=5e-7, pitch_x_m=1e-6, pitch_y_m=2e-6, center_x_m=0.25, center_y_m=-0.5, "
                 "z_m=0)\n",
             directory_ / "f.h5");
-        const HologramFile file = open_hologram(directory_ / "f.h5");
-        ASSERT_EQ(file.fields.size(), 1u);
-        EXPECT_EQ(file.fields[0]->grid(), plane);
+        const Fields fields = open_hologram(directory_ / "f.h5");
+        ASSERT_EQ(fields.size(), 1u);
+        EXPECT_EQ(fields[0]->grid(), plane);
         Field back(plane);
-        copy(*file.fields[0], back);
+        copy(*fields[0], back);
         EXPECT_TRUE(std::ranges::equal(back.samples.elements(), numbered(plane).samples.elements())) << storage;
     }
 }

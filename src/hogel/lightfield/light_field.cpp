@@ -275,7 +275,10 @@ void require_faces(std::span<const LightFieldGrid> faces) {
     }
 }
 
-LightField::LightField(std::vector<Source> faces) : faces_(std::move(faces)) { require_faces(grids()); }
+LightField::LightField(std::vector<Source> faces, Provenance provenance)
+    : faces_(std::move(faces)), provenance_(std::move(provenance)) {
+    require_faces(grids());
+}
 
 std::vector<LightFieldGrid> LightField::grids() const {
     std::vector<LightFieldGrid> grids;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/image/film.h"
 #include "hogel/ray_photograph.h"
 
 #include <algorithm>
@@ -65,12 +66,12 @@ struct Interpolation {
 // The film of one camera, to which the hogels of one face after the other are added.
 class Exposure {
   public:
-    Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count)
+    Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, Image& image)
         : faces_(std::move(faces)),
           grid_(faces_.front()),
           camera_(camera),
           points_(lens_points(camera.pupil, lens_count)),
-          image_(camera.picture.width, camera.picture.height, grid_.channels) {}
+          image_(image) {}
 
     // Adds all rays of a face that cross the hologram plane in a cell whose upper left hogel is in `cells`; the tile
     // holds these hogels and their right and lower neighbours.
@@ -89,10 +90,9 @@ class Exposure {
         }
     }
 
-    Image finish() {
+    void finish() {
         const float mean = 1 / static_cast<float>(points_.size());
         for (float& value : image_.pixels.elements()) value *= mean;
-        return std::move(image_);
     }
 
   private:
@@ -162,7 +162,7 @@ class Exposure {
     LightFieldGrid grid_;  // its hogels and channels are those of all faces
     Camera camera_;
     std::vector<LensPoint> points_;
-    Image image_;
+    Image& image_;
 };
 
 // A block of cells between hogels, and the hogels at the cells' corners.
@@ -205,17 +205,27 @@ std::vector<Block> blocks(const LightFieldGrid& grid) {
 
 std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
                               const RayPhotographOptions& options, const Progress& progress) {
+    std::vector<Image> pictures(cameras.size());
+    photograph_into(light_field, cameras, options, pictures, progress);
+    return pictures;
+}
+
+void photograph_into(const LightField& light_field, std::span<const Camera> cameras,
+                     const RayPhotographOptions& options, std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
+    image::require_a_picture_for_each(cameras, pictures);
     const std::vector<LightFieldGrid> grids = light_field.grids();
     const std::span<const LightField::Source> faces = light_field.faces();
     std::vector<Exposure> exposures;
-    for (const Camera& camera : cameras) {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const Camera& camera = cameras[i];
         validate(camera);
         if (camera.focus_slope_x != 0 || camera.focus_slope_y != 0)
             throw Error(ErrorCode::usage,
                         "rays are photographed on a film parallel to the hologram; it cannot be tilted");
-        exposures.emplace_back(grids, camera, std::max<std::size_t>(options.pupil_samples, 1));
+        exposures.emplace_back(grids, camera, std::max<std::size_t>(options.pupil_samples, 1), pictures[i]);
     }
+    image::load_film(cameras, light_field.grid().channels, light_field.provenance(), pictures);
     std::vector<FaceBlock> list;
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : blocks(grids[face])) list.push_back({face, block});
@@ -231,9 +241,7 @@ std::vector<Image> photograph(const LightField& light_field, std::span<const Cam
             for (Exposure& exposure : exposures) exposure.add(list[i].face, tile, list[i].block.cells);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(list.size()));
         });
-    std::vector<Image> images;
-    for (Exposure& exposure : exposures) images.push_back(exposure.finish());
-    return images;
+    for (Exposure& exposure : exposures) exposure.finish();
 }
 
 }  // namespace hogel

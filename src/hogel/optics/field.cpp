@@ -63,6 +63,11 @@ void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array
                                                   array[0], region.width, region.height));
 }
 
+const Provenance& FieldSource::provenance() const {
+    static const Provenance unknown;
+    return unknown;
+}
+
 Field::Field(const FieldGrid& grid) : grid_(grid) {
     validate(grid, ErrorCode::usage, "field");
     samples = Array<std::complex<float>, 2>({grid.plane.height, grid.plane.width});

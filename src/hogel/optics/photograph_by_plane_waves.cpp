@@ -10,6 +10,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/image/film.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/elements.h"
 #include "hogel/optics/film/interpolation.h"
@@ -276,8 +277,8 @@ std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::s
                                              const PlaneWaveCameraOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     require_photographable(hologram, cameras, options.film_distance);
-    std::vector<Image> images;
-    for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
+    std::vector<Image> images(cameras.size());
+    image::load_film(cameras, 1, hologram.provenance(), images);
     const auto looks = static_cast<double>(hologram.looks());
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         const auto tell = [&](double fraction) {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/image/film.h"
 #include "hogel/photograph.h"
 
 namespace hogel {
@@ -41,7 +42,8 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
     const double step = camera.pupil / static_cast<double>(pupil_points_across);
     const double pupil_area = static_cast<double>(pupil.size()) * step * step;
 
-    Image image(camera.picture.width, camera.picture.height, 1);
+    Image image;
+    image::load_film({&camera, 1}, 1, hologram.provenance(), {&image, 1});
     Array<std::complex<float>, 2> field({plane.height, plane.width});
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         hologram.read({0, 0, plane.width, plane.height}, look, field);

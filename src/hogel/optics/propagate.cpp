@@ -161,6 +161,7 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, cons
 
 Field propagate(const FieldSource& source, double distance, const PropagateOptions& options, const Progress& progress) {
     Field result(source.grid());
+    result.set_provenance(source.provenance());
     propagate(source, distance, result, options, progress);
     return result;
 }

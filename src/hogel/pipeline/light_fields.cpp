@@ -80,11 +80,12 @@ LightField render_light_field(std::shared_ptr<const ShadedScene> scene, const Li
     std::vector<LightField::Source> faces;
     for (const LightFieldGrid& grid : request.grids())
         faces.push_back(make_renderer(request.renderer, scene, grid, request.samples));
-    return LightField(std::move(faces));
+    return LightField(std::move(faces), {{{"renderer", request.renderer}, {"shading", request.shading.model}}, {}});
 }
 
 LightField render_light_field(const Scene& scene, const LightFieldRequest& request, const Progress& progress) {
-    return render_light_field(light_scene(scene, request, progress), request);
+    const LightField rendered = render_light_field(light_scene(scene, request, progress), request);
+    return rendered.with({with_history({{"scene", scene.name}}, rendered.provenance().entries), {}});
 }
 
 LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
@@ -105,7 +106,9 @@ LightField prepare_for_reading(const LightField& light_field, std::size_t times,
 void write_light_field(const std::filesystem::path& path, const LightField& light_field,
                        const LightFieldFileOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
-    const auto sinks = create_light_field(path, light_field.grids(), options);
+    LightFieldFileOptions file = options;
+    file.metadata = with_history(file.metadata, to_metadata(light_field.provenance()));
+    const auto sinks = create_light_field(path, light_field.grids(), file);
     for (std::size_t i = 0; i < sinks.size(); ++i)
         copy(*light_field.faces()[i], *sinks[i], progress.part(i, sinks.size()));
 }

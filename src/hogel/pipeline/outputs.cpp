@@ -46,7 +46,8 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
         if (options.rows) {
             Image picture(grid.hogels_s * grid.directions_u, grid.directions_v, grid.channels);
             for (std::size_t i = 0; i < grid.hogels_s; ++i) paste(row, hogel_at(i, t), picture, i * grid.directions_u);
-            write_image(names[t], picture, options.exposure, options.provenance);
+            write_image(names[t], picture, options.exposure,
+                        with_history(options.metadata, to_metadata(light_field.provenance())));
             continue;
         }
         core::parallel_for(grid.hogels_s, [&](std::size_t i) {

@@ -208,11 +208,12 @@ LightField open_stream(const std::filesystem::path& path, const StreamOptions& o
     for (std::size_t face = 0; face <= info.sides.size(); ++face)
         faces.push_back(std::make_shared<DecodedFace>(
             stream, face, depth ? std::make_unique<DecodedFace>(depth, face) : std::unique_ptr<DecodedFace>()));
-    return LightField(std::move(faces));
+    return LightField(std::move(faces), to_provenance(info.metadata));
 }
 
 LightField open_coefficients(const std::filesystem::path& path) {
-    return std::make_shared<const DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
+    const auto stream = std::make_shared<const DecodedStream>(path, StreamOptions{}, true);
+    return LightField({std::make_shared<const DecodedFace>(stream, 0)}, to_provenance(stream->info().metadata));
 }
 
 }  // namespace hogel

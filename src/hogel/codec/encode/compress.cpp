@@ -188,7 +188,7 @@ CompressionResult compress(const LightField& light_field, const std::filesystem:
     StreamHeader header;
     header.grid = grid;
     header.method = method_for(options);
-    header.metadata = options.metadata;
+    header.metadata = with_history(options.metadata, to_metadata(light_field.provenance()));
     require_perspective(grid, ErrorCode::usage, "a compressed light field");
     header.companding = companding_for(light_field, options, progress);
     const LightField coded = header.companding.changes() ? companded(light_field, header.companding) : light_field;

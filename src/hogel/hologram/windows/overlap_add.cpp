@@ -45,10 +45,10 @@ std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? 
 // stereograms", ACM TOG 38(6), 2019.
 class OverlapAddHologram final : public FieldSource {
   public:
-    OverlapAddHologram(LightField::Source light_field, const FieldGrid& grid, const HologramOptions& options,
+    OverlapAddHologram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options,
                        PointPhases phases, bool one_by_one)
-        : source_(std::move(light_field)),
-          light_field_(*source_),
+        : source_(light_field),
+          light_field_(source_.front()),
           phases_(phases),
           options_(options),
           grid_(grid),
@@ -68,6 +68,7 @@ class OverlapAddHologram final : public FieldSource {
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return options_.looks; }
     std::size_t alignment() const override { return hop_; }
+    const Provenance& provenance() const override { return source_.provenance(); }
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
         validate(region, grid_, out.shape());
@@ -289,7 +290,7 @@ class OverlapAddHologram final : public FieldSource {
         }
     }
 
-    LightField::Source source_;
+    LightField source_;
     const LightFieldSource& light_field_;
     PointPhases phases_;
     HologramOptions options_;
@@ -309,7 +310,7 @@ class OverlapAddHologram final : public FieldSource {
 
 }  // namespace
 
-std::shared_ptr<const FieldSource> make_overlap_add(const LightField::Source& light_field, const FieldGrid& grid,
+std::shared_ptr<const FieldSource> make_overlap_add(const LightField& light_field, const FieldGrid& grid,
                                                     const HologramOptions& options, PointPhases phases,
                                                     bool one_by_one) {
     return std::make_shared<OverlapAddHologram>(light_field, grid, options, phases, one_by_one);

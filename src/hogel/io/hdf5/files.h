@@ -20,6 +20,6 @@ FileKind kind_of(const std::filesystem::path& path);
 void summarize(const std::filesystem::path& path, FileSummary& summary);
 
 /// The faces of a light field, the front first. Throws Error(bad_input).
-std::vector<LightField::Source> open_faces(const std::filesystem::path& path);
+LightField open_light_field(const std::filesystem::path& path);
 
 }  // namespace hogel::io::hdf5

@@ -179,14 +179,14 @@ DatasetReader radiance_of_front(hid_t file, const LightFieldGrid& grid,
     return {file, "radiance", radiance_box(grid, {0, 0, grid.hogels_s, grid.hogels_t}).extent, false, raw};
 }
 
-std::vector<LightField::Source> open_faces(const std::filesystem::path& path) {
+LightField open_light_field(const std::filesystem::path& path) {
     std::vector<LightField::Source> faces;
     const hdf5::Session session;
     const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
     for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
         faces.push_back(std::make_shared<LightFieldReader>(file.id(), grid, path, raw));
-    return faces;
+    return LightField(std::move(faces), to_provenance(read_metadata(file.id(), path)));
 }
 
 }  // namespace hogel::io::hdf5
