@@ -41,7 +41,7 @@ Scene load_scene(const std::string& name, const LightFieldOptions& options);
 /// Shades the scene and adds a radiance cache for the rays of the options' light field, unless cache_spacing is 0.
 std::shared_ptr<const ShadedScene> shade(const Session& session, const Scene& scene, const LightFieldOptions& options);
 
-/// A light field file, or a scene's light field, which is rendered where it is read.
+/// A light field file, or a scene's light field, which is rendered when it is read.
 std::shared_ptr<const LightFieldSource> open_or_render(const Session& session, const std::string& name,
                                                        const LightFieldOptions& options);
 

@@ -45,7 +45,7 @@ double parse_exposure(const std::string& text) {
     return *exposure;
 }
 
-// What the film shows of the light: its intensity, or its phase.
+// Photographs the intensity of the light or its phase.
 std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
                            const Options& options) {
     if (options.display != "phase") return photograph_colours(fields, cameras, options.full(), stage.progress());

@@ -60,7 +60,7 @@ int propagate_fields(const Options& options, const Session& session) {
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a picture takes one or three", options.input, fields.size()));
-    // What does not fit into memory lies beside the output.
+    // Scratch files are in the output's folder.
     const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
     Metadata metadata = with_history(describe_run(session), to_metadata(fields.front()->provenance()));
     std::vector<FieldGrid> grids;

@@ -33,7 +33,7 @@ LightFieldBuffer load(const LightFieldSource& source, bool grey) {
     return mean;
 }
 
-// A dense light field, or any other.
+// Opens the input: a dense light field, a file or a scene.
 std::shared_ptr<const LightFieldSource> open(const Session& session, const CodecOptions& options) {
     for (const auto& [name, brightness] : dense_fields)
         if (options.input == name) return make_dense_field(options.light_field.grid(), brightness);

@@ -14,7 +14,7 @@ struct Camera {
     double focus_depth = 0;  ///< ζ of the plane in focus, metres: 0 on the hologram plane, positive behind it; > -eye.z
     double focus_slope_x = 0, focus_slope_y = 0;  ///< dζ/dx and dζ/dy of that plane; not zero with a tilted film
     double pupil = 5e-3;  ///< diameter of the lens opening, a disc parallel to the hologram, metres
-    Grid picture;         ///< pixels laid over the hologram plane
+    Grid picture;         ///< the pixels, projected from the eye onto the hologram plane
 
     friend bool operator==(const Camera&, const Camera&) = default;
 };

@@ -68,7 +68,7 @@ using CompressionTarget = std::variant<Sqnr, PixelsPerBit, Step, MaxError, Lossl
 struct CompressionOptions {
     CodingMethod method;
     CompressionTarget target;
-    std::optional<HogelRange> tile;      ///< size of the tiles (s0 = t0 = 0); by default what suits the coder
+    std::optional<HogelRange> tile;      ///< size of the tiles (s0 = t0 = 0); by default the coder's preferred tile
     Metadata metadata;                   ///< beside the light field's provenance; no name may be `filler`
     std::optional<StreamLayout> layout;  ///< by default the smaller of `stacked` (coder hogel only) and `faces`
     bool with_depth = false;             ///< whether depth is also stored

@@ -41,7 +41,7 @@ class HOGEL_API FieldSource {
     virtual std::size_t looks() const { return 1; }
     /// Where it comes from: what its file says, or the light field that it shows.
     virtual const Provenance& provenance() const;
-    /// Regions that start at multiples of this many samples and span multiples of it are read without repeated work.
+    /// Regions whose positions and sizes are multiples of this number of samples are read without repeated work.
     virtual std::size_t alignment() const { return 1; }
     /// Fills out[y][x] (shape: height × width of the region) with the region's samples in look number `look`.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
@@ -50,7 +50,7 @@ class HOGEL_API FieldSource {
 /// The fields of a hologram, one for each wavelength; shared, so copies are cheap.
 using Fields = std::vector<std::shared_ptr<const FieldSource>>;
 
-/// A destination of fields. write() may be called from several threads at once, each sample once.
+/// A destination of fields. write() may be called from several threads at once, once for each sample.
 class HOGEL_API FieldSink {
   public:
     virtual ~FieldSink() = default;

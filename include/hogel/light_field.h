@@ -272,7 +272,8 @@ class HOGEL_API LightField {
     const Provenance& provenance() const { return provenance_; }
     /// The same light field with another provenance.
     LightField with(Provenance provenance) const { return LightField(faces_, std::move(provenance)); }
-    /// The light field whose faces are make(face), a LightFieldSource each: the same light field wrapped.
+    /// The light field whose faces are make(face), for each face of this one. make() returns a LightFieldSource,
+    /// usually one that wraps the face.
     template <std::invocable<const Source&> Make>
     LightField wrapped(const Make& make) const {
         std::vector<Source> wrapped;

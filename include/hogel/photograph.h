@@ -39,7 +39,8 @@ HOGEL_API void photograph_into(const FieldSource& hologram, std::span<const Came
                                const PhotographOptions& options, std::span<Image> pictures,
                                const Progress& progress = {});
 
-/// Throws the errors that photograph() throws before it begins, from the grid of a hologram that need not exist yet.
+/// Throws the errors that photograph() throws before it begins, given only the grid of the hologram, which need not
+/// exist yet.
 HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
                                    const PhotographOptions& options = {});
 

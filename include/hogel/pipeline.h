@@ -136,7 +136,7 @@ HOGEL_API LightField prepare_for_reading(const LightField& light_field, std::siz
 HOGEL_API void write_light_field(const std::filesystem::path& path, const LightField& light_field,
                                  const LightFieldFileOptions& options, const Progress& progress = {});
 
-/// Writes one look of holograms into one HDF5 file, likewise. Errors as create_hologram().
+/// Writes one look of holograms into one HDF5 file, region by region on all threads. Throws as create_hologram().
 HOGEL_API void write_holograms(const std::filesystem::path& path, const Fields& holograms,
                                const HologramFileOptions& options, const Progress& progress = {});
 
@@ -149,11 +149,11 @@ HOGEL_API void require_holograms(std::span<const LightFieldGrid> faces, const Ho
 /// the method OverlapAdd it reads the light field's depths.
 HOGEL_API std::string warning_about(const LightField& light_field, const HologramRequest& request);
 
-/// One hologram a channel, made from the light field where it is read.
+/// One hologram per channel, computed from the light field when it is read.
 HOGEL_API Fields make_holograms(const LightField& light_field, const HologramRequest& request);
 
-/// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With options for it by the
-/// full chain of plane waves, otherwise by the narrow-band camera.
+/// Photographs holograms of one or three wavelengths by wave optics and combines the colours: by
+/// photograph_by_plane_waves() if `full` is given, otherwise by the narrow-band camera, photograph().
 HOGEL_API std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
                                                 const std::optional<PlaneWaveCameraOptions>& full = {},
                                                 const Progress& progress = {});
@@ -179,9 +179,9 @@ HOGEL_API SampleComparison compare(const Fields& a, const Fields& b, const Progr
 
 /// Options of pictures for a hologram printer.
 struct PrinterImageOptions {
-    bool rows = false;       ///< one picture a row of hogels, side by side, rather than one a hogel
-    bool serpentine = true;  ///< whether every second row runs from the right, as a head does that goes back and forth
-    double exposure = 1;     ///< what linear values are multiplied by, the same in all pictures
+    bool rows = false;       ///< true: one picture per row of hogels, side by side; false: one per hogel
+    bool serpentine = true;  ///< every second row runs from the right, for a print head that moves back and forth
+    double exposure = 1;     ///< factor of linear values, the same for all pictures
     Metadata metadata = {};  ///< beside the light field's provenance; in pictures of rows alone: hogels are many
 };
 
@@ -230,8 +230,8 @@ HOGEL_API Plan plan_compression(const LightField& light_field, const Compression
 /// What it takes to propagate fields one after the other and write them to a file.
 HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options = {});
 
-/// Throws Error(usage) with the numbers where `what` needs more memory than the machine has left, or more disk than is
-/// free where `file` will stand.
+/// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than
+/// is free at `file`.
 HOGEL_API void require_resources(const Plan& plan, const std::string& what, const std::filesystem::path& file = {});
 
 }  // namespace hogel
