@@ -69,7 +69,7 @@ struct CompressionOptions {
     CodingMethod method;
     CompressionTarget target;
     std::optional<HogelRange> tile;      ///< size of the tiles (s0 = t0 = 0); by default the coder's preferred tile
-    Metadata metadata;                   ///< beside the light field's provenance; no name may be `filler`
+    Metadata metadata;                   ///< beside the light field's provenance; must not contain the name "filler"
     std::optional<StreamLayout> layout;  ///< by default the smaller of `stacked` (coder hogel only) and `faces`
     bool with_depth = false;             ///< whether depth is also stored
     double depth_error = 0;              ///< bound on each depth, metres; 0: a 1,000th of the range of depths

@@ -39,7 +39,7 @@ class HOGEL_API FieldSource {
     virtual ~FieldSource() = default;
     virtual const FieldGrid& grid() const = 0;
     virtual std::size_t looks() const { return 1; }
-    /// Where it comes from: what its file says, or the light field that it shows.
+    /// Where the field comes from: the provenance stored in its file, or that of the light field that it shows.
     virtual const Provenance& provenance() const;
     /// Regions whose positions and sizes are multiples of this number of samples are read without repeated work.
     virtual std::size_t alignment() const { return 1; }
@@ -50,7 +50,7 @@ class HOGEL_API FieldSource {
 /// The fields of a hologram, one for each wavelength; shared, so copies are cheap.
 using Fields = std::vector<std::shared_ptr<const FieldSource>>;
 
-/// A destination of fields. write() may be called from several threads at once, once for each sample.
+/// A destination of fields. write() may be called from several threads at once, each sample once.
 class HOGEL_API FieldSink {
   public:
     virtual ~FieldSink() = default;

@@ -46,9 +46,8 @@ HOGEL_API void require_picture_name(const std::filesystem::path& path);
 HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
 /// Reads any picture that OpenImageIO reads into linear light, with one or three channels: integers of 8 and 16 bits
-/// are taken as sRGB, alpha is dropped, and the first of two channels is kept. The texts in the file are its
-/// provenance. Throws Error(bad_input), naming the file, for one that is missing, damaged or has more than
-/// `max_pixels`.
+/// are taken as sRGB, alpha is dropped, of two channels the first is kept. The texts in the file are its provenance.
+/// Throws Error(bad_input), naming the file, for one that is missing, damaged or has more than `max_pixels`.
 HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// As read_image(), from the bytes of a picture file in memory, such as a texture inside a glTF file.

@@ -268,7 +268,7 @@ class HOGEL_API LightField {
     bool has_depth() const;
     /// The number of samples of all faces.
     double samples() const;
-    /// Where it comes from: what its file or its renderer says.
+    /// Where the light field comes from, according to its file or its renderer.
     const Provenance& provenance() const { return provenance_; }
     /// The same light field with another provenance.
     LightField with(Provenance provenance) const { return LightField(faces_, std::move(provenance)); }

@@ -180,7 +180,7 @@ HOGEL_API SampleComparison compare(const Fields& a, const Fields& b, const Progr
 /// Options of pictures for a hologram printer.
 struct PrinterImageOptions {
     bool rows = false;       ///< true: one picture per row of hogels, side by side; false: one per hogel
-    bool serpentine = true;  ///< every second row runs from the right, for a print head that moves back and forth
+    bool serpentine = true;  ///< whether every second row runs from the right, for a print head that moves both ways
     double exposure = 1;     ///< factor of linear values, the same for all pictures
     Metadata metadata = {};  ///< beside the light field's provenance; in pictures of rows alone: hogels are many
 };
@@ -224,10 +224,10 @@ HOGEL_API Plan plan_holograms(std::span<const LightFieldGrid> faces, const Holog
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
 
-/// What it takes to compress a light field, reading it aside. Disk is a bound: a coder that predicts nothing takes that
-/// much for an SQNR.
+/// Compressing a light field, without the cost of reading it. For an SQNR, the disk space is an upper bound: the size
+/// without any prediction.
 HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
-/// What it takes to propagate fields one after the other and write them to a file.
+/// Propagating fields one after the other and writing them to a file.
 HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options = {});
 
 /// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than
