@@ -103,7 +103,7 @@ struct OverlapAdd {
 
 struct HologramOptions;
 
-/// A method that a program brings along. As a row of hologram_methods() it is found by its name.
+/// A method that a program defines. Added as a row of hologram_methods(), it is found by name.
 struct OwnMethod {
     std::string name;
     bool needs_depth = false;
