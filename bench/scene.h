@@ -16,7 +16,7 @@ namespace hogel::bench {
 
 using namespace hogel::literals;
 
-// Those of `hogel render`.
+// The defaults are those of `hogel render`.
 inline const std::string default_algorithm{defaults.renderer}, default_shading{defaults.shading};
 inline constexpr double default_cache_spacing = defaults.cache_spacing;
 

@@ -47,10 +47,10 @@ class HOGEL_API FieldSource {
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
 };
 
-/// The fields of a hologram, one for each wavelength; shared, so copies are cheap.
+/// The fields of a hologram, one for each wavelength. Ownership is shared, so copies are cheap.
 using Fields = std::vector<std::shared_ptr<const FieldSource>>;
 
-/// A destination of fields. write() may be called from several threads at once, each sample once.
+/// A destination of fields. write() may be called from several threads at once, once for each sample.
 class HOGEL_API FieldSink {
   public:
     virtual ~FieldSink() = default;

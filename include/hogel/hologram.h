@@ -103,7 +103,7 @@ struct OverlapAdd {
 
 struct HologramOptions;
 
-/// A method that a program brings along. As a row of hologram_methods() it is found by its name.
+/// A method that a program defines. Added as a row of hologram_methods(), it is found by name.
 struct OwnMethod {
     std::string name;
     bool needs_depth = false;
@@ -115,7 +115,7 @@ struct OwnMethod {
     friend bool operator==(const OwnMethod& a, const OwnMethod& b) { return a.name == b.name; }
 };
 
-/// How a light field becomes fringes; docs/holograms.md compares the methods.
+/// The method that turns a light field into fringes; docs/holograms.md compares them.
 using HologramMethod = std::variant<Fourier, Lines, Basis, PhaseAdded, OverlapAdd, OwnMethod>;
 
 /// Whether a method needs the depth of every ray.

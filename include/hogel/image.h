@@ -17,11 +17,11 @@ namespace hogel {
 /// A picture in linear light: pixels[y][x][c], row 0 at the top, one or three channels (R, G, B).
 struct HOGEL_API Image {
     Array<float, 3> pixels;
-    Provenance provenance;  ///< with the camera, if one took it
+    Provenance provenance;  ///< includes the camera that took the picture, if any
 
     Image() = default;
     Image(std::size_t width, std::size_t height, std::size_t channels) : pixels(Shape<3>{height, width, channels}) {}
-    /// Makes all pixels black and forgets the provenance. A picture of this shape keeps its memory.
+    /// Makes all pixels black and removes the provenance. A picture that already has this shape keeps its memory.
     void reset(std::size_t width, std::size_t height, std::size_t channels);
     std::size_t width() const { return pixels.extent(1); }
     std::size_t height() const { return pixels.extent(0); }
@@ -46,8 +46,9 @@ HOGEL_API void require_picture_name(const std::filesystem::path& path);
 HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
 /// Reads any picture that OpenImageIO reads into linear light, with one or three channels: integers of 8 and 16 bits
-/// are taken as sRGB, alpha is dropped, of two channels the first is kept. The texts in the file are its provenance.
-/// Throws Error(bad_input), naming the file, for one that is missing, damaged or has more than `max_pixels`.
+/// are taken as sRGB, alpha is dropped, and the first of two channels is kept. The texts in the file are its
+/// provenance. Throws Error(bad_input), naming the file, for one that is missing, damaged or has more than
+/// `max_pixels`.
 HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// As read_image(), from the bytes of a picture file in memory, such as a texture inside a glTF file.

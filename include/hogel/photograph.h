@@ -33,8 +33,8 @@ struct PhotographOptions {
 HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
                                         const PhotographOptions& options = {}, const Progress& progress = {});
 
-/// The same into `pictures`, one a camera, which keep their memory where they have the cameras' shapes. Throws
-/// Error(usage) for another number of pictures, too.
+/// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
+/// throws Error(usage) for another number of pictures.
 HOGEL_API void photograph_into(const FieldSource& hologram, std::span<const Camera> cameras,
                                const PhotographOptions& options, std::span<Image> pictures,
                                const Progress& progress = {});

@@ -182,7 +182,8 @@ struct PrinterImageOptions {
     bool rows = false;       ///< true: one picture per row of hogels, side by side; false: one per hogel
     bool serpentine = true;  ///< whether every second row runs from the right, for a print head that moves both ways
     double exposure = 1;     ///< factor of linear values, the same for all pictures
-    Metadata metadata = {};  ///< beside the light field's provenance; in pictures of rows alone: hogels are many
+    Metadata metadata = {};  ///< in addition to the light field's provenance; stored only in pictures of rows, because
+                             ///< those of hogels are many
 };
 
 /// Writes the directions of each hogel of the front as PNG files in a folder, numbered in the order of printing

@@ -25,8 +25,8 @@ struct RayPhotographOptions {
 HOGEL_API std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
                                         const RayPhotographOptions& options = {}, const Progress& progress = {});
 
-/// The same into `pictures`, one a camera, which keep their memory where they have the cameras' shapes. Throws
-/// Error(usage) for another number of pictures, too.
+/// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
+/// throws Error(usage) for another number of pictures.
 HOGEL_API void photograph_into(const LightField& light_field, std::span<const Camera> cameras,
                                const RayPhotographOptions& options, std::span<Image> pictures,
                                const Progress& progress = {});

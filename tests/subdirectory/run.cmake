@@ -1,5 +1,5 @@
 # Configures the project beside this file. With HOGEL_BUILD_SUBDIRECTORY=1 in the environment, as in `./dev ci`, it is
-# built, too, without optimisation, and run: that compiles the whole library anew.
+# also built, without optimisation, and run, which compiles the whole library again.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)

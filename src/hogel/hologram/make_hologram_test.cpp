@@ -92,7 +92,7 @@ TEST(MakeHologram, every_method_keeps_its_light_field_alive) {
 
 TEST(HologramMethods, have_unique_names_and_say_whether_they_need_depth) {
     std::vector<std::string> names = hologram_methods().names();
-    names.resize(6);  // a program's own come behind
+    names.resize(6);  // rows added by programs come last
     EXPECT_EQ(names,
               (std::vector<std::string>{"fourier", "lines", "basis", "phase-added", "phase-added-exact", "olas"}));
     for (const HologramMethodInfo& info : hologram_methods().rows())

@@ -11,7 +11,8 @@ namespace hogel::image {
 /// Throws Error(usage) unless there is one picture for each camera.
 void require_a_picture_for_each(std::span<const Camera> cameras, std::span<const Image> pictures);
 
-/// Makes the pictures black, of the cameras' shapes, and puts down who takes them of what.
+/// Makes the pictures black with the cameras' shapes, and sets their provenance: the camera and the origin of the
+/// object.
 void load_film(std::span<const Camera> cameras, std::size_t channels, const Provenance& subject,
                std::span<Image> pictures);
 

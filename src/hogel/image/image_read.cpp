@@ -149,8 +149,8 @@ OpenPicture open_file(const std::filesystem::path& path, std::uint64_t& file_byt
     return picture;
 }
 
-// The texts of a picture file. Names with a colon are OpenImageIO's own. write_image() puts the texts of a TIFF file
-// into its description, a line each.
+// The texts of a picture file. Names with a colon are internal to OpenImageIO. In a TIFF file write_image() stores the
+// texts as lines of the description.
 Metadata texts_of(const OIIO::ImageSpec& spec) {
     Metadata texts;
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {

@@ -44,7 +44,7 @@ TEST(Provenance, an_unreadable_camera_stays_an_entry) {
     const Provenance read = to_provenance(metadata);
     EXPECT_FALSE(read.camera);
     EXPECT_EQ(read.entries, metadata);
-    // It does not get lost when the picture gets a camera of hogel's.
+    // It is kept when hogel adds a camera to the picture.
     EXPECT_EQ(to_metadata({metadata, a_camera()}).size(), 3u);
 }
 

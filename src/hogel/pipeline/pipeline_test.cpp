@@ -38,7 +38,7 @@ std::string entry(const Provenance& provenance, const std::string& key) {
     return "(none)";
 }
 
-// From the scene to the picture's file, each step through a file.
+// From a scene to a picture file, with a file after each step.
 TEST_F(Pipeline, provenance_travels_through_all_files) {
     const LightField light_field = rendered();
     EXPECT_EQ(entry(light_field.provenance(), "scene"), "ball");
@@ -76,7 +76,7 @@ TEST_F(Pipeline, a_light_field_keeps_its_camera) {
     EXPECT_EQ(open_light_field(stream).provenance().camera, camera);
     EXPECT_EQ(prepare_for_reading(light_field, 3, false).provenance().camera, camera);
     EXPECT_EQ(make_holograms(light_field, holograms_).front()->provenance().camera, camera);
-    // A picture has the camera that took it, and remembers the other.
+    // A picture has the camera that took it and keeps the entry of the other one.
     const Camera other = camera_for(2_mm, 2_mm, 10);
     const Image picture = photograph(light_field, {&other, 1}).front();
     EXPECT_EQ(picture.provenance.camera, other);
@@ -105,7 +105,7 @@ TEST_F(Pipeline, photographs_go_into_the_callers_pictures) {
     EXPECT_THROW(photograph_into(*hologram, cameras, {}, {pictures.data(), 1}), Error);
 }
 
-// What a file holds besides its samples is a few kilobytes.
+// Apart from its samples a file has a few kilobytes.
 TEST_F(Pipeline, plans_know_the_size_of_files) {
     const LightField light_field = rendered();
     for (const SampleType type : {SampleType::half, SampleType::single}) {

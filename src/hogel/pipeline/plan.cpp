@@ -26,10 +26,10 @@ namespace {
 constexpr double seconds_a_ray = 1.9e-9, seconds_a_ray_and_million_triangles = 2.0e-9, other_renderers = 10;
 // Seconds per sample of a hologram for its synthesis, and for the narrow band of one eye.
 constexpr double seconds_a_sample = 5e-9, seconds_a_sample_and_eye = 1.8e-9;
-// A sample of a light field to be compressed by the coder hogel, searching for the step; other coders take about as
-// long.
+// Seconds per sample to compress a light field with the coder hogel, including the search for the step; other coders
+// take about as long.
 constexpr double seconds_a_coded_sample = 30e-9;
-// A sample of a propagated field, in a window 2.5 times as large along each side.
+// Seconds per sample of a propagated field, in a window 2.5 times as large along each side.
 constexpr double seconds_a_propagated_sample = 300e-9;
 
 double on_all_threads(double processor_seconds) {
@@ -131,7 +131,7 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
 
 namespace {
 
-// Bytes of the file at most: a quantiser alone needs a bit for 6.02 dB.
+// Maximum bytes of the file: a quantiser alone needs one bit per 6.02 dB.
 double compressed_bytes(const LightField& light_field, const CompressionTarget& target) {
     const double samples = light_field.samples();
     if (const auto* rate = std::get_if<PixelsPerBit>(&target))
@@ -151,7 +151,7 @@ Plan plan_compression(const LightField& light_field, const CompressionOptions& o
     const double tiles = std::ceil(static_cast<double>(grid.hogels()) / static_cast<double>(tile.hogels()));
     const double at_once =
         std::min(tiles, static_cast<double>(std::min<std::size_t>(coder->max_at_once(), thread_count())));
-    // A tile, what is predicted of it, its residual and its coefficients, for each of the tiles in work.
+    // A tile, its prediction, its residual and its coefficients, for each of the tiles in progress.
     constexpr double arrays = 4;
     const double tile_samples = static_cast<double>(tile.hogels() * grid.directions() * grid.channels);
     Plan plan;
@@ -167,7 +167,7 @@ Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions&
     for (const FieldGrid& field : fields) {
         const Grid& plane = field.plane;
         const Grid window = optics::padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y());
-        // The spectrum and the wave that is made of it.
+        // The spectrum and the wave computed from it.
         const double bytes = 2 * static_cast<double>(window.samples()) * sizeof(std::complex<float>);
         const double kept = std::min(bytes, static_cast<double>(options.scratch.memory));
         const double result = static_cast<double>(plane.samples()) * sizeof(std::complex<float>);
