@@ -45,14 +45,14 @@ void add_frequencies_option(Command& command, RenderOptions& options);
 struct HologramChoices {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
-    std::string method = "fourier";
-    std::string phase;  ///< empty: the default of the method
+    std::string method = "fourier";  ///< a row of hologram_methods()
+    std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
     std::string basis;  ///< empty: that of the light field's coefficients, or else cdf97
     double tolerance = 0;
     double spacing = defaults.spacing;
     std::size_t planes = defaults.planes;
-    double lines = 0;  ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
+    double lines = 0;  ///< distance of the lines of the method lines, metres; 0: that of samples
 
     HologramMethod hologram_method() const;
     HologramRequest request(const Session& session, std::size_t looks) const;
