@@ -59,7 +59,7 @@ int compress_file(Options options, const Session& session) {
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
     Stage stage(session, "compressing");
     const CompressionResult result = compress(light_field, options.output, compression, stage.progress());
-    say_what_was_compressed(session, options.output, result);
+    report_compressed(session, options.output, result);
     return 0;
 }
 
@@ -134,6 +134,7 @@ void add_compress(Command& command, Session& session) {
     add_method_options(command, *options);
     add_mapping_options(command, *options);
     command.counts("--tile", options->tile, "Hogels across and down that are coded together; 0: as suits").no_default();
+    add_json_flag(command, session);
     command.work([options, &session] { return compress_file(*options, session); });
 }
 

@@ -56,6 +56,7 @@ int decompress_file(const Options& options, const Session& session) {
         copy_together(light_field, sinks, stage.progress());
     session.say(fmt::format("{}: {}", options.output,
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_samples(session, options.output);
     return 0;
 }
 
@@ -74,6 +75,7 @@ void add_decompress(Command& command, Session& session) {
     const Option single = command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
     command.flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
         .excludes(single);
+    add_json_flag(command, session);
     command.work([options, &session] { return decompress_file(*options, session); });
 }
 

@@ -27,11 +27,12 @@ struct Options {
     }
 };
 
-void say_what_was_made(const Options& options, const std::vector<FieldGrid>& grids, const Session& session) {
+void report_hologram(const Options& options, const std::vector<FieldGrid>& grids, const Session& session) {
     session.say(fmt::format("{}: {}x{} samples at {}, {} wavelength{}, {}", options.output, grids[0].plane.width,
                             grids[0].plane.height, format_length(grids[0].plane.pitch_x), grids.size(),
                             grids.size() == 1 ? "" : "s",
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_samples(session, options.output, {{"wavelengths_m", wavelengths_of(grids)}});
 }
 
 // Computes the field of a scene by a method without a light field.
@@ -66,7 +67,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
         how.channel = colour_of(grids[i].wavelength);
         copy(method.make(*scene, grids[i], how, stage.progress(i, grids.size())), *sinks[i]);
     }
-    say_what_was_made(options, grids, session);
+    report_hologram(options, grids, session);
     return 0;
 }
 
@@ -107,7 +108,7 @@ int hologram(Options options, const Session& session) {
     }
     std::vector<FieldGrid> grids;
     for (const auto& hologram : holograms) grids.push_back(hologram->grid());
-    say_what_was_made(options, grids, session);
+    report_hologram(options, grids, session);
     return 0;
 }
 
@@ -125,6 +126,7 @@ void add_hologram(Command& command, Session& session) {
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    add_json_flag(command, session);
     command.work([options, &session] { return hologram(*options, session); });
 }
 

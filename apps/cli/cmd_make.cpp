@@ -102,6 +102,27 @@ void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std:
     session.detail(fmt::format("photographs take {}; about {:.0f} s", format_bytes(plan.memory), plan.seconds));
 }
 
+// The gist of report.json.
+Result result_of(const Report& report, const std::string& folder, const Session& session) {
+    ResultList photographs;
+    for (const PhotographPair& pair : report.pairs)
+        photographs.push_back(Result{{"file", pair.wave_file + ".png"},
+                                     {"geometric_file", pair.geometric_file + ".png"},
+                                     {"psnr", pair.comparison.psnr},
+                                     {"ssim", pair.comparison.ssim}});
+    const Grid& picture = report.pairs.front().camera.picture;
+    return {{"folder", folder},
+            {"report", "report.html"},
+            {"triangles", report.triangles},
+            {"wavelengths_m", wavelengths_of(report.holograms)},
+            {"looks", report.looks},
+            {"width", picture.width},
+            {"height", picture.height},
+            {"exposure", report.exposure},
+            {"photographs", photographs},
+            {"seconds", session.seconds()}};
+}
+
 int make(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
@@ -130,7 +151,7 @@ int make(const Options& options, const Session& session) {
         const LightField rendered = render_light_field(session, scene, options.render);
         write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
     });
-    report.light_field_bytes = static_cast<double>(std::filesystem::file_size(light_field_file));
+    report.light_field_bytes = std::filesystem::file_size(light_field_file);
     const LightField light_field = open_light_field(light_field_file);
     const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
@@ -155,6 +176,7 @@ int make(const Options& options, const Session& session) {
     write_text(folder.path() / "report.json", report_json(report));
     write_text(folder.path() / "report.html", report_html(report));
     session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
+    session.result(result_of(report, options.output, session));
     return 0;
 }
 
@@ -183,6 +205,7 @@ void add_make(Command& command, Session& session) {
         .default_text(fmt::format("up to {}", defaults.looks));
     command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays");
     add_render_options(command, options->render);
+    add_json_flag(command, session);
     command.work([options, &session] { return make(*options, session); });
 }
 

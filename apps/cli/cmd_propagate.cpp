@@ -50,6 +50,19 @@ Image shown(const Field& field, const std::string& display) {
     return picture;
 }
 
+// @param picture  of an output that is one
+void report(const Options& options, OutputKind kind, std::span<const FieldGrid> grids, const Result& picture,
+            const Session& session) {
+    Result result{{"wavelengths_m", wavelengths_of(grids)}, {"distance_m", options.distance}};
+    if (kind == OutputKind::hologram) return report_samples(session, options.output, result);
+    const Grid& plane = grids.front().plane;
+    if (kind == OutputKind::array)
+        result.insert(result.end(), {{"samples_x", plane.width}, {"samples_y", plane.height}});
+    result.insert(result.end(), {{"pitch_x_m", plane.pitch_x}, {"pitch_y_m", plane.pitch_y}});
+    result.insert(result.end(), picture.begin(), picture.end());
+    report_file(session, options.output, result);
+}
+
 int propagate_fields(const Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output);
     require_writable(options.output);
@@ -63,6 +76,7 @@ int propagate_fields(const Options& options, const Session& session) {
     // Scratch files are in the output's folder.
     const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
     Metadata metadata = with_history(describe_run(session), to_metadata(fields.front()->provenance()));
+    Result exposed;
     std::vector<FieldGrid> grids;
     for (const auto& field : fields) grids.push_back(field->grid());
     Stage stage(session, "propagation");
@@ -90,10 +104,12 @@ int propagate_fields(const Options& options, const Session& session) {
         const bool grey = options.display == "log" || options.display == "phase";
         const double exposure = grey ? 1 : automatic_exposure(picture);
         metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
+        exposed = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
         write_image(options.output, picture, exposure, metadata);
     }
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
                             format_length(plane.pitch_x), format_length(options.distance)));
+    report(options, kind, grids, exposed, session);
     return 0;
 }
 
@@ -116,6 +132,7 @@ void add_propagate(Command& command, Session& session) {
     command.length("--pitch", options->pitch, "Of another program's samples");
     command.wavelengths(options->wavelengths);
     add_field_options(command, options->field);
+    add_json_flag(command, session);
     command.work([options, &session] { return propagate_fields(*options, session); });
 }
 

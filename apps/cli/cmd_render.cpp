@@ -64,7 +64,7 @@ int write_compressed(const Options& options, const LightField& rendered, const S
     compression.metadata = describe_run(session);
     Stage stage(session, "compressing");
     const CompressionResult result = compress(light_field, options.output, compression, stage.progress());
-    say_what_was_compressed(session, options.output, result);
+    report_compressed(session, options.output, result);
     return 0;
 }
 
@@ -83,6 +83,7 @@ int write_hdf5(const Options& options, const LightField& light_field, const std:
                             : faces == 3 ? " and two sides"
                                          : " and four sides",
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_samples(session, options.output);
     return 0;
 }
 
@@ -134,6 +135,7 @@ void add_render(Command& command, Session& session) {
         .no_default();
     add_hemicube_option(command, options->render);
     add_frequencies_option(command, options->render);
+    add_json_flag(command, session);
     command.work([options, &session] { return render(*options, session); });
 }
 

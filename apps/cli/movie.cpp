@@ -102,11 +102,15 @@ void require_movie(const fs::path& path) {
                                 path.string()));
 }
 
-void write_movie(const fs::path& path, std::span<const Image> frames, double exposure, double frames_a_second,
-                 const Metadata& metadata) {
+std::uintmax_t write_movie(const fs::path& path, std::span<const Image> frames, double exposure, double frames_a_second,
+                           const Metadata& metadata) {
     if (is_numbered(path)) {
-        for (std::size_t i = 0; i < frames.size(); ++i) write_image(numbered(path, i), frames[i], exposure, metadata);
-        return;
+        std::uintmax_t bytes = 0;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            write_image(numbered(path, i), frames[i], exposure, metadata);
+            bytes += fs::file_size(numbered(path, i));
+        }
+        return bytes;
     }
     const FrameFolder folder(fs::absolute(path));
     for (std::size_t i = 0; i < frames.size(); ++i)
@@ -130,6 +134,7 @@ void write_movie(const fs::path& path, std::span<const Image> frames, double exp
     std::error_code error;
     fs::rename(film, path, error);
     if (error) throw Error(ErrorCode::cannot_write, fmt::format("{}: {}", path.string(), error.message()));
+    return fs::file_size(path);
 }
 
 }  // namespace hogel::cli

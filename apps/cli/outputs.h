@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "command_line.h"
@@ -15,8 +16,17 @@ void add_force_flag(Command& command, bool& force);
 
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
-/// Prints a line about a compressed light field, and one about its depth.
-void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result);
+/// One line on a compressed light field, and one on its depth; with --json the result.
+void report_compressed(const Session& session, const std::string& file, const CompressionResult& result);
+
+/// What `hogel info` says of a file, as values: "yes" and "no" as truth values, whole numbers as such.
+Result result_of(const FileSummary& summary);
+/// The result of a command that wrote a light field or a hologram: its name, what `hogel info` says of it without the
+/// options that made it, `more`, and the time that the command took.
+void report_samples(const Session& session, const std::string& file, const Result& more = {});
+/// The result of a command that wrote another file: its name and size, `more`, and the time.
+void report_file(const Session& session, const std::string& file, const Result& more);
+ResultList wavelengths_of(std::span<const FieldGrid> grids);
 
 /// A folder for the outputs of `hogel make` or `hogel print`. Creates it with its parents, and removes it if the work
 /// fails before anything is written to it.

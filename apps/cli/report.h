@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,7 @@ struct Report {
     std::size_t triangles = 0;
     std::string algorithm;
     LightFieldGrid light_field;
-    double light_field_bytes = 0;  ///< of the file
+    std::uintmax_t light_field_bytes = 0;  ///< of the file
     std::vector<FieldGrid> holograms;
     std::size_t looks = 0;
     std::size_t pupil_samples = 0;

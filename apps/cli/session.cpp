@@ -49,6 +49,10 @@ void Session::result(const Result& result, const std::string& words) const {
         throw Error(ErrorCode::cannot_write, "cannot write to the standard output");
 }
 
+double Session::seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
 void add_common_options(Command& command, Session& session) {
     command.group(Command::last_group);
     command.flag("-q,--quiet", session.quiet, "Say nothing but errors");

@@ -23,7 +23,8 @@ struct Session {
     std::uint64_t seed = 1;
 
     const Command* command = nullptr;
-    std::stop_source stop;  ///< requests all work to stop
+    std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+    std::stop_source stop;  ///< asks all work to end
 
     /// Prints a line on stderr, unless -q; detail() prints one only with -v.
     void say(const std::string& line) const;
@@ -32,11 +33,13 @@ struct Session {
     /// Prints the result of the command on the standard output: with --json as a JSON object, otherwise as `words`,
     /// which may be empty if say() has reported it.
     void result(const Result& result, const std::string& words = "") const;
+    /// Since the program began.
+    double seconds() const;
 };
 
 /// The options that every command has: -q, -v, --threads, --seed.
 void add_common_options(Command& command, Session& session);
-/// --json, for commands that have a result.
+/// --json; every command has a result.
 void add_json_flag(Command& command, Session& session);
 
 /// The metadata of outputs: the version, the command, and the value of each of its options.

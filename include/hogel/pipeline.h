@@ -225,10 +225,10 @@ HOGEL_API Plan plan_holograms(std::span<const LightFieldGrid> faces, const Holog
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
 
-/// Compressing a light field, without the cost of reading it. For an SQNR, the disk space is an upper bound: the size
-/// without any prediction.
+/// Resources to compress a light field, without the cost of reading it. For an SQNR, the disk space is an upper
+/// bound: the size without any prediction.
 HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
-/// Propagating fields one after the other and writing them to a file.
+/// Resources to propagate fields one after the other and write them to a file.
 HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options = {});
 
 /// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than

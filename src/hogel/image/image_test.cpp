@@ -118,11 +118,7 @@ TEST_F(ImageFile, png_and_tiff_keep_metadata) {
     for (const auto& entry : metadata) EXPECT_EQ(std::ranges::count(png, entry), 1) << entry.first;
     write_image(directory_ / "a.tif", ramp(3, 2, 3), 1, metadata);
     const Metadata tiff = read_metadata(directory_ / "a.tif");
-    EXPECT_EQ(std::ranges::count(
-                  tiff,
-                  std::pair<std::string, std::string>{
-                      "ImageDescription", "hogel_command: render scene.glb --hogels 64x64\nhogel_version: 1.2.3\n"}),
-              1);
+    for (const auto& entry : metadata) EXPECT_EQ(std::ranges::count(tiff, entry), 1) << entry.first;
 }
 
 TEST_F(ImageFile, values_beyond_display_are_clamped) {
