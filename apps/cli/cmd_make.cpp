@@ -102,7 +102,7 @@ void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std:
     session.detail(fmt::format("photographs take {}; about {:.0f} s", format_bytes(plan.memory), plan.seconds));
 }
 
-// The gist of report.json.
+// The most important facts of report.json.
 Result result_of(const Report& report, const std::string& folder, const Session& session) {
     ResultList photographs;
     for (const PhotographPair& pair : report.pairs)

@@ -98,7 +98,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     return develop(stage, holograms, cameras, options);
 }
 
-// Throws Error(usage) for options that do not go together.
+// Throws Error(usage) for options that exclude each other.
 void require_sense(const Options& options, InputKind kind, bool geometric) {
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
@@ -111,7 +111,7 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
                     "--display phase: is that of the full camera with a perfect lens; add --camera full");
 }
 
-// What pictures are multiplied by: one factor for all, so that a film does not flicker.
+// The factor of all pictures, the same so that a movie does not flicker.
 // @param given  0: automatic
 double exposure_of(const Options& options, double given, std::span<const Image> pictures) {
     if (options.display != "intensity") return 1;
@@ -121,7 +121,7 @@ double exposure_of(const Options& options, double given, std::span<const Image> 
     return exposure;
 }
 
-// Writes the pictures, and says so.
+// Writes the pictures and reports them.
 void write_photographs(const Options& options, std::span<const Image> pictures, double exposure, bool geometric,
                        const Session& session) {
     Metadata metadata = describe_run(session);

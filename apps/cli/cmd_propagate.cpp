@@ -50,7 +50,7 @@ Image shown(const Field& field, const std::string& display) {
     return picture;
 }
 
-// @param picture  of an output that is one
+// @param picture  the facts of the picture, if the output is one
 void report(const Options& options, OutputKind kind, std::span<const FieldGrid> grids, const Result& picture,
             const Session& session) {
     Result result{{"wavelengths_m", wavelengths_of(grids)}, {"distance_m", options.distance}};

@@ -33,7 +33,7 @@ Modulator modulator_of(const Options& options) {
             static_cast<unsigned>(options.levels)};
 }
 
-// The share of light that a pattern uses, and where it sends it.
+// The share of light that a pattern uses, and its direction.
 Result result_of(const Pattern& pattern, double wavelength, Encoding encoding) {
     Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}};
     if (is_phase_only(encoding)) result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);

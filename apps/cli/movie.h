@@ -17,7 +17,7 @@ bool is_movie(const std::filesystem::path& path);
 /// installed.
 void require_movie(const std::filesystem::path& path);
 
-/// Writes pictures as numbered files, or as a film made by ffmpeg, and returns their size in bytes. Throws
+/// Writes pictures as numbered files, or as a movie made by ffmpeg, and returns their size in bytes. Throws
 /// Error(cannot_write).
 std::uintmax_t write_movie(const std::filesystem::path& path, std::span<const Image> frames, double exposure,
                            double frames_a_second, const Metadata& metadata);

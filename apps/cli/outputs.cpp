@@ -32,14 +32,14 @@ void refuse_outputs_of_another_run(const fs::path& folder) {
     }
 }
 
-// A fact that a file holds as text: true or false where it is one of these.
+// The value of a fact that a file stores as text; "yes" and "no" become booleans.
 ResultValue value_of(const std::string& text) {
     if (text == "yes" || text == "no") return text == "yes";
     return text;
 }
 
 ResultValue value_of(double number) {
-    constexpr double exact = 9007199254740992;  // 2⁵³: up to here a double holds every whole number
+    constexpr double exact = 9007199254740992;  // 2⁵³: doubles represent all whole numbers up to this
     if (std::abs(number) <= exact && number == std::trunc(number)) return static_cast<std::int64_t>(number);
     return number;
 }

@@ -16,13 +16,13 @@ void add_force_flag(Command& command, bool& force);
 
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
-/// One line on a compressed light field, and one on its depth; with --json the result.
+/// Prints a line about a compressed light field and one about its depth; with --json the result.
 void report_compressed(const Session& session, const std::string& file, const CompressionResult& result);
 
-/// What `hogel info` says of a file, as values: "yes" and "no" as truth values, whole numbers as such.
+/// The facts of `hogel info` about a file as values: "yes" and "no" as booleans, whole numbers as such.
 Result result_of(const FileSummary& summary);
-/// The result of a command that wrote a light field or a hologram: its name, what `hogel info` says of it without the
-/// options that made it, `more`, and the time that the command took.
+/// The result of a command that wrote a light field or a hologram: its name, the facts of `hogel info` without the
+/// options that made it, `more`, and the time of the command.
 void report_samples(const Session& session, const std::string& file, const Result& more = {});
 /// The result of a command that wrote another file: its name and size, `more`, and the time.
 void report_file(const Session& session, const std::string& file, const Result& more);

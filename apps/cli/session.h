@@ -24,7 +24,7 @@ struct Session {
 
     const Command* command = nullptr;
     std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
-    std::stop_source stop;  ///< asks all work to end
+    std::stop_source stop;  ///< requests all work to stop
 
     /// Prints a line on stderr, unless -q; detail() prints one only with -v.
     void say(const std::string& line) const;
@@ -33,7 +33,7 @@ struct Session {
     /// Prints the result of the command on the standard output: with --json as a JSON object, otherwise as `words`,
     /// which may be empty if say() has reported it.
     void result(const Result& result, const std::string& words = "") const;
-    /// Since the program began.
+    /// Seconds since the program began.
     double seconds() const;
 };
 
