@@ -96,6 +96,9 @@ def check_face(table, root, wrong):
     own = {str(path.relative_to(public)) for path in public.rglob("*.h")} | {"hogel/version.h"}
     for header in sorted(own - set(table.owner) - {"hogel/hogel.h", "hogel/version.h", "hogel/export.h"}):
         wrong.append(f"include/{header}: is in no module's row of the module table")
+    all_of_them = {header for _, header in includes(public / "hogel/hogel.h")}
+    for header in sorted(own - all_of_them - {"hogel/hogel.h", "hogel/export.h"}):
+        wrong.append(f"include/hogel/hogel.h: leaves out {header}")
     for path in sources(public):
         for number, header in includes(path):
             if header.split("/")[0] in THIRD_PARTY or (header.startswith("hogel/") and header not in own):

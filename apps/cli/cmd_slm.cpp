@@ -72,7 +72,7 @@ int slm(const Options& options, const Session& session) {
             line += fmt::format(", of its light field {:.2f} %", 100 * pattern.light_field_efficiency);
         if (pattern.reference_angle != 0)
             line += fmt::format(", the hologram's order at {:.3f} degrees",
-                                pattern.reference_angle * 180 / std::numbers::pi);
+                                -pattern.reference_angle * 180 / std::numbers::pi);
         session.say(line);
         metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
         patterns.push_back(result_of(pattern, fields[c]->grid().wavelength, pattern_options.encoding));

@@ -19,6 +19,7 @@
 #include "hogel/pipeline.h"
 #include "hogel/progress.h"
 #include "hogel/propagate.h"
+#include "hogel/provenance.h"
 #include "hogel/ray_photograph.h"
 #include "hogel/renderer.h"
 #include "hogel/resources.h"

@@ -76,8 +76,9 @@ struct Pattern {
     /// squares of `window` pixels. This is the measure for light fields, where the phases between directions are
     /// arbitrary.
     double light_field_efficiency = 0;
-    double reference_angle =
-        0;  ///< of R, or of the diffraction order that successive columns make, radians; 0 if there is none
+    /// Of the reference wave, radians; 0 without one. The order that shows the hologram leaves at the opposite angle,
+    /// also where successive columns make it.
+    double reference_angle = 0;
 };
 
 /// Encodes look 0 of a field for a modulator. A field larger than the modulator is cropped to its middle, a smaller one
