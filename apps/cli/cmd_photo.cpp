@@ -151,8 +151,8 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
 
 int photo(const Options& options, const Session& session) {
     const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
-    const bool foreign = is_external(options.input, options.field);
-    const InputKind kind = foreign ? InputKind::hologram : input_kind(options.input);
+    const bool external = is_external(options.input, options.field);
+    const InputKind kind = external ? InputKind::hologram : input_kind(options.input);
     options.view.frames > 1 ? require_movie(options.output) : require_picture_name(options.output);
     require_writable(options.output);
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);

@@ -11,7 +11,7 @@ namespace {
 
 struct Options {
     std::string input, output, order = "serpentine";
-    bool strips = false, force = false;
+    bool rows = false, force = false;
     double exposure = 1;
 };
 
@@ -23,7 +23,7 @@ int print(const Options& options, const Session& session) {
     const OutputFolder folder(options.output, options.force);
     Stage stage(session, "pictures");
     const auto names = write_printer_images(folder.path(), light_field,
-                                            {.rows = options.strips,
+                                            {.rows = options.rows,
                                              .serpentine = options.order == "serpentine",
                                              .exposure = options.exposure,
                                              .metadata = describe_run(session)},
@@ -53,7 +53,7 @@ void add_print(Command& command, Session& session) {
     command.text("-o,--output", options->output, "FOLDER", "Folder for the pictures, numbered in the order of printing")
         .required();
     add_force_flag(command, options->force);
-    command.flag("--strips", options->strips, "One picture a row of hogels, side by side, instead of one a hogel");
+    command.flag("--strips", options->rows, "One picture a row of hogels, side by side, instead of one a hogel");
     command.choice("--order", options->order, {"serpentine", "rows"}, "NAME",
                    "serpentine: every second row from the right\nrows: all rows from the left");
     command.number("--exposure", options->exposure, "NUMBER",
