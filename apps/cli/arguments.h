@@ -17,7 +17,7 @@ struct Angles {
     double across = 0, down = 0;
 };
 
-/// A number without a unit, or nothing where the text is no number.
+/// A finite number without a unit, or nothing where the text is none.
 std::optional<double> parse_number(const std::string& text);
 
 /// The channel of a picture that light of a wavelength belongs to: 0 red, 1 green, 2 blue.

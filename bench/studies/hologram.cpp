@@ -138,8 +138,8 @@ std::vector<MeasuredMethod> methods() {
     add("phase-added", Method::fourier, Phases::phase_added);
     add("phase-added-exact", Method::fourier, Phases::phase_added_exact);
     add("olas", Method::overlap_add, Phases::random);
-    for (const char* name : {"points", "points-visible", "points-tiled", "points-hpo", "edges", "lines", "fraunhofer",
-                             "fresnel", "planes", "polygons", "polygons-visible"})
+    for (const char* name : {"points", "points-visible", "points-tiled", "points-hpo", "edges", "segments",
+                             "fraunhofer", "fresnel", "planes", "polygons", "polygons-visible"})
         all.push_back({name, name, {}});
     return all;
 }
