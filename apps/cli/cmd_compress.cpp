@@ -84,7 +84,7 @@ int compress_file(Options options, const Session& session) {
     return 0;
 }
 
-// What to give up: one of these.
+// The targets, which exclude each other.
 void add_target_options(Command& command, Options& options) {
     const Option sqnr = command.number(
         "--sqnr", options.sqnr, "DB", fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr));
@@ -127,7 +127,7 @@ void add_method_options(Command& command, Options& options) {
         .excludes(no_depth);
 }
 
-// Where error matters less to the eye.
+// Mappings that put errors where the eye is less sensitive.
 void add_mapping_options(Command& command, Options& options) {
     const Option tone =
         command.choice("--tone", options.tone, tones, "none|histogram",

@@ -17,7 +17,7 @@ struct Options {
     std::size_t layers = 0;
 };
 
-// All faces tile by tile, for they may come from the same bytes, which are then decoded once.
+// Copies all faces together, tile by tile, because they may come from the same bytes, which are then decoded once.
 void copy_together(const LightField& light_field, const std::vector<std::unique_ptr<LightFieldSink>>& sinks,
                    const Progress& progress) {
     const std::span<const LightField::Source> faces = light_field.faces();
@@ -44,7 +44,7 @@ int decompress_file(const Options& options, const Session& session) {
     const LightField light_field =
         with_options({{"", "--layers"}}, [&] { return open_stream(options.input, {.layers = options.layers}); });
     LightFieldFileOptions file;
-    // Who asked for exact samples shall not lose them here.
+    // Exact coders keep their precision: their samples are not rounded to half floats.
     const std::string coder = read_stream_info(options.input).method.coder;
     const bool exact = coder == "lossless" || coder == "bounded";
     file.type = options.single || (exact && !options.half) ? SampleType::single : SampleType::half;

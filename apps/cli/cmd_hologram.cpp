@@ -36,7 +36,7 @@ void report_hologram(const Options& options, const std::vector<FieldGrid>& grids
     report_samples(session, options.output, {{"wavelengths_m", wavelengths_of(grids)}});
 }
 
-// The field of a scene by a method that knows no light fields.
+// Computes the field of a scene by a method without a light field.
 int straight_from_scene(const Options& options, const SceneHologramMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
     if (options.render.fronts_only)
@@ -56,7 +56,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     for (const FieldGrid& grid : grids)
         with_options({{"", "--size, --pitch"}}, [&] { validate(grid, ErrorCode::usage, "hologram"); });
     RenderOptions render = options.render;
-    render.cache_spacing = 0;  // in parts of a ray's width, and there are no rays
+    render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     const auto scene = light_scene(session, load_scene(session, options.input, render), render);
     const auto sinks = create_hologram(options.output, grids, options.file(session));
     SceneHologramOptions how;

@@ -24,7 +24,7 @@ struct Options {
     double eye_distance = defaults.eye_distance;
     double pupil = defaults.pupil;
     std::size_t resolution = defaults.resolution;
-    std::size_t looks = 0;  // none given: enough_looks
+    std::size_t looks = 0;  // 0: enough_looks()
     std::size_t pupil_samples = defaults.pupil_samples;
     bool store_hologram = false, force = false;
 };
@@ -34,14 +34,14 @@ struct Focus {
     double depth;
 };
 
-// A sixth of the scene's depth from its nearest point, and as much from its farthest.
+// Two focuses: a sixth of the scene's depth behind its nearest point, and as much in front of its farthest.
 std::array<Focus, 2> focuses(const Scene& scene, double eye_distance) {
     const Bounds box = bounds(scene);
     const double front = -box.high.z, back = -box.low.z, sixth = (back - front) / 6;
     return {Focus{"near", std::max(front + sixth, -0.5 * eye_distance)}, Focus{"far", back - sixth}};
 }
 
-// Left, high and right, as far from the middle as every hogel still sends rays to the whole lens.
+// Three eyes, left, high and right, as far from the axis as every hogel still sends rays to the whole lens.
 std::array<std::pair<std::string, Vec3>, 3> eyes(const Options& options, const LightFieldGrid& grid) {
     const double half_width = 0.5 * grid.pitch * static_cast<double>(std::max(grid.hogels_s, grid.hogels_t));
     const double margin = half_width + 0.5 * options.pupil, tangent = std::min(grid.half_u(), grid.half_v());
@@ -76,7 +76,7 @@ std::vector<PhotographPair> plan_photographs(const Options& options, const Scene
     return pairs;
 }
 
-// Runs a stage of the work, tells how long it took, and keeps the time for the report.
+// Runs a stage of the work, prints how long it took, and keeps the time for the report.
 template <class Work>
 void timed(const Session& session, Report& report, const std::string& name, Work work) {
     Stage stage(session, name);
@@ -96,7 +96,7 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
     }
 }
 
-// Says what the work will take, or that it would not fit.
+// Prints the resources that the work needs. Throws if they are not available.
 void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
                 const Session& session) {
     const Plan plan = plan_photographs(std::span(&grid, 1), request, cameras);
@@ -173,7 +173,7 @@ int make(const Options& options, const Session& session) {
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
     });
 
-    // One exposure for all, from the view from above.
+    // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
     for (PhotographPair& pair : report.pairs) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
     write_pictures(folder.path(), report);

@@ -30,7 +30,7 @@ struct Options {
 
     double film_distance = 0;
 
-    // The full camera may put beside the picture what does not fit into memory.
+    // Options of the full camera, whose scratch files are in the picture's folder.
     std::optional<PlaneWaveCameraOptions> full() const {
         if (camera != "full") return {};
         return PlaneWaveCameraOptions{
@@ -46,9 +46,7 @@ double parse_exposure(const std::string& text) {
     return *exposure;
 }
 
-using Fields = std::vector<std::shared_ptr<const FieldSource>>;
-
-// What the film shows of the light: its intensity, or its phase.
+// Photographs the intensity of the light or its phase.
 std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
                            const Options& options) {
     if (options.display != "phase")
@@ -65,22 +63,22 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
 }
 
 std::vector<Image> photographs_of_hologram(const Options& options, const Session& session) {
-    const HologramFile file = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
-                                          options.hologram.wavelengths);
-    if (file.fields.size() != 1 && file.fields.size() != 3)
+    const Fields fields = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
+                                      options.hologram.wavelengths);
+    if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
-                                                      options.input, file.fields.size()));
-    const Grid& plane = file.fields.front()->grid().plane;
+                                                      options.input, fields.size()));
+    const Grid& plane = fields.front()->grid().plane;
     const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
-    for (const auto& field : file.fields)
+    for (const auto& field : fields)
         for (const Camera& camera : cameras)
             with_options({{"", "--eye"}}, [&] { require_light_towards(field->grid(), camera); });
     Stage stage(session, "wave photograph");
-    std::vector<Image> pictures = develop(stage, file.fields, cameras, options);
+    std::vector<Image> pictures = develop(stage, fields, cameras, options);
     const auto black = [](const Image& picture) {
         return std::ranges::all_of(picture.pixels.elements(), [](float value) { return value == 0; });
     };
-    // Even a hologram's edge sends a little light everywhere: nothing at all comes from nothing.
+    // The edge of a hologram sends a little light everywhere, so completely black pictures mean an empty hologram.
     if (std::ranges::all_of(pictures, black))
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is empty; no light comes from it to the eye", options.input));

@@ -25,7 +25,7 @@ int print(const Options& options, const Session& session) {
                                             {.rows = options.strips,
                                              .serpentine = options.order == "serpentine",
                                              .exposure = options.exposure,
-                                             .provenance = describe_run(session)},
+                                             .metadata = describe_run(session)},
                                             stage.progress());
     session.say(fmt::format("{}: {} pictures, {} to {}", options.output, names.size(),
                             names.front().filename().string(), names.back().filename().string()));

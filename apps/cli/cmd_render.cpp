@@ -20,12 +20,12 @@ struct Options {
     LightFieldFileOptions file;
     bool single = false, resume = false;
     std::optional<double> sqnr;  // of a compressed light field
-    Counts region;               // none: what the renderer prefers
+    Counts region;               // empty: the size that the renderer prefers
 
     bool compressed() const { return std::filesystem::path(output).extension() == ".hgl"; }
 };
 
-// A renderer that is given regions of another size than it prefers.
+// Wraps a renderer to read regions of a size other than it prefers.
 class InRegions final : public LightFieldSource {
   public:
     InRegions(LightField::Source source, const Counts& region) : source_(std::move(source)) {
@@ -43,7 +43,7 @@ class InRegions final : public LightFieldSource {
     HogelRange size_;
 };
 
-// Says what regions will take before they do, or that they would not fit.
+// Prints the memory that regions need. Throws if it is not available.
 void state_plan(const Options& options, const LightField& rendered, std::size_t triangles, const Session& session) {
     const Plan plan = plan_light_field(rendered, options.render.request(), triangles, options.file);
     const HogelRange region = rendered.front().preferred_tile();
@@ -61,9 +61,9 @@ void state_plan(const Options& options, const LightField& rendered, std::size_t 
         session.detail(text);
 }
 
-// As it is rendered, with no file between.
+// Compresses the light field while it is rendered, without an intermediate file.
 int write_compressed(const Options& options, const LightField& rendered, const Session& session) {
-    // It is read several times, in tiles of the coder's own.
+    // It is read several times, in the coder's tiles.
     const LightField light_field = prepare_for_reading(session, rendered, 2, options.file.with_depth);
     CompressionOptions compression;
     compression.target = Sqnr{options.sqnr.value_or(defaults.sqnr)};
@@ -107,7 +107,7 @@ int render(Options options, const Session& session) {
             fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
     require_writable(options.output);
     options.file.type = options.single ? SampleType::single : SampleType::half;
-    static_cast<void>(options.render.request());  // complains before there is a scene
+    static_cast<void>(options.render.request());  // throws before a scene is made
     const Scene scene = load_scene(session, options.scene, options.render);
     std::optional<std::string> resume;
     if (options.resume) resume = describe_input(options.scene, scene);

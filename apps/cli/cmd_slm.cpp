@@ -57,8 +57,8 @@ int slm(const Options& options, const Session& session) {
     require_writable(options.output);
     if (input_kind(options.input) != InputKind::hologram)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
-    const HologramFile file = open_hologram(options.input);
-    const std::size_t colours = file.fields.size();
+    const Fields fields = open_hologram(options.input);
+    const std::size_t colours = fields.size();
     if (colours != 1 && colours != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
@@ -75,10 +75,10 @@ int slm(const Options& options, const Session& session) {
                           {"share", "--clip"},
                           {"columns", "--encoding"},
                           {"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}},
-                         [&] { return encode_pattern(*file.fields[c], pattern_options, stage.progress(c, colours)); });
+                         [&] { return encode_pattern(*fields[c], pattern_options, stage.progress(c, colours)); });
         for (std::size_t i = 0; i < pattern.levels.size(); ++i)
             levels.data()[i * colours + c] = pattern.levels.data()[i];
-        const std::string name = format_length(file.fields[c]->grid().wavelength);
+        const std::string name = format_length(fields[c]->grid().wavelength);
         std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
         if (encodings().find(options.encoding).phase_only)
             line += fmt::format(", of its light field {:.2f} %", 100 * pattern.light_field_efficiency);
@@ -87,9 +87,9 @@ int slm(const Options& options, const Session& session) {
                                 pattern.reference_angle * 180 / std::numbers::pi);
         session.say(line);
         metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
-        patterns.push_back(result_of(pattern, file.fields[c]->grid().wavelength, pattern_options.encoding));
+        patterns.push_back(result_of(pattern, fields[c]->grid().wavelength, pattern_options.encoding));
     }
-    write_raw_pixels(options.output, levels, metadata);
+    write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
                             format_length(modulator.pitch)));
     report_file(session, options.output,

@@ -22,7 +22,7 @@ std::string finite_number(const std::string& text) {
 }  // namespace
 
 Option Option::required() const {
-    option_->required()->default_str("");  // a default would never be taken
+    option_->required()->default_str("");  // the help shows no default, which would never be used
     return *this;
 }
 
@@ -180,7 +180,7 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
     }
     if (!words.empty() && !words.front().starts_with('-') && impl_->find(words.front()) == nullptr)
         throw Error(ErrorCode::usage, explain_unknown_command(impl_->app, words.front()));
-    std::ranges::reverse(words);  // CLI11 takes them from the end
+    std::ranges::reverse(words);  // CLI11 expects them in reverse order
     try {
         impl_->app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {

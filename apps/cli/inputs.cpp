@@ -16,7 +16,7 @@
 namespace hogel::cli {
 namespace {
 
-// What the user may call a method that makes a hologram of a light field, what lobes average, and phases.
+// The names of methods that make holograms of light fields, of averages of lobes, and of phases.
 const std::vector<std::string> method_names{"fourier", "basis", "olas"};
 const std::vector<std::string> average_names{"radiance", "amplitude"};
 const std::vector<std::string> phase_names{"random", "fixed", "designed", "phase-added", "phase-added-exact"};
@@ -68,7 +68,7 @@ LightFieldGrid RenderOptions::grid() const {
         return hogel::field_of_view(field_of_view.across, field_of_view.down, toward.across, toward.down);
     });
     if (frequencies > 0) {
-        // As many frequencies j/d as the field of view holds.
+        // As many frequencies j/d as fit into the field of view.
         const double step = frequencies / grid.pitch;
         const auto reach = [&](double angle) { return std::floor(std::sin(angle / 2) / step + 1e-9); };
         const double across = 2 * reach(field_of_view.across) + 1, down = 2 * reach(field_of_view.down) + 1;

@@ -28,11 +28,11 @@ void report_samples(const Session& session, const std::string& file, const Resul
 void report_file(const Session& session, const std::string& file, const Result& more);
 ResultList wavelengths_of(std::span<const FieldGrid> grids);
 
-/// A folder for the outputs of `hogel make` or `hogel print`. Creates it and those above it, and removes it again when
-/// the work failed before anything was put into it.
+/// A folder for the outputs of `hogel make` or `hogel print`. Creates it with its parents, and removes it if the work
+/// fails before anything is written to it.
 class OutputFolder {
   public:
-    /// Throws Error(cannot_write) where the folder cannot be created, or, without `force`, holds outputs of another
+    /// Throws Error(cannot_write) if the folder cannot be created or, without `force`, if it holds outputs of another
     /// run.
     OutputFolder(std::filesystem::path path, bool force);
     ~OutputFolder();

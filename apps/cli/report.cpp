@@ -102,7 +102,7 @@ std::string picture(const Image& image, const std::string& file, const char* lab
         escape(file), base64(encode_png(image, exposure)), image.width(), image.height(), escape(alt), label);
 }
 
-// A heading for each focus, the views from all eyes below it.
+// A heading for each focus, with the views from all eyes below it.
 std::string pictures_html(const Report& report) {
     std::string html, open_focus;
     for (const PhotographPair& pair : report.pairs) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Everything that hogel offers. Each header may be included by itself; examples/ shows how they work together.
+// All public headers. Each may be included by itself; examples/ shows how they work together.
 
 #include "hogel/array.h"
 #include "hogel/bake.h"

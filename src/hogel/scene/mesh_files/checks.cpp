@@ -58,7 +58,7 @@ void check_mesh_file(const std::filesystem::path& path) {
     if (error) reject_file(file, error.message(), "a readable mesh file");
     if (size == 0) reject_file(file, "empty", "a mesh file");
     if (size > max_file) reject_file(file, "more than 4 GiB", "a smaller mesh file");
-    // assimp chooses its reader by the first bytes as well as by the name.
+    // assimp chooses its reader both by the first bytes and by the name.
     char magic[4] = {};
     std::ifstream(path, std::ios::binary).read(magic, sizeof magic);
     const std::string_view start(magic, sizeof magic);

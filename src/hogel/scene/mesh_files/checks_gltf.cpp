@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t max_depth = 1000;
 
-/// The JSON part of a .gltf or .glb file. The chunks of a .glb file must lie inside it, because assimp allocates the
-/// sizes that they state.
+/// The JSON part of a .gltf or .glb file. Throws unless the chunks of a .glb file are inside it, because assimp
+/// allocates the sizes that they state.
 std::string_view json_part(const std::string& file, std::string_view bytes) {
     if (!bytes.starts_with("glTF")) return bytes;
     std::string_view json;
     for (std::size_t at = 12; at < bytes.size();) {
-        std::uint32_t length = 0;  // little-endian, as this machine is
+        std::uint32_t length = 0;  // little-endian, like this machine
         if (bytes.size() - at >= 8) std::memcpy(&length, bytes.data() + at, sizeof length);
         if (bytes.size() - at < 8 || length > bytes.size() - at - 8)
             reject_file(file, fmt::format("a chunk of {} bytes at byte {}", length, at), "one that ends in the file");
@@ -29,7 +29,7 @@ std::string_view json_part(const std::string& file, std::string_view bytes) {
     return json;
 }
 
-// An accessor without data stands for zeros, so that a few bytes could demand any number of elements.
+// Refuses accessors without data, which represent zeros, so that a few bytes could request any number of elements.
 void check_accessors(const std::string& file, const nlohmann::json& document, std::size_t file_size) {
     const auto accessors = document.find("accessors");
     if (accessors == document.end() || !accessors->is_array()) return;
@@ -68,7 +68,8 @@ void check_gltf(const std::string& file, std::string_view bytes) {
             known = i;
         }
     }
-    // As each node has one parent, a node is too deep or on a cycle exactly if the path upwards does not end soon.
+    // Each node has at most one parent, so a node is too deep or on a cycle exactly if the path upwards does not end
+    // within the limit.
     for (std::size_t i = 0; i < parent.size(); ++i) {
         std::size_t depth = 0;
         for (std::size_t at = i; at != none; at = parent[at])

@@ -133,7 +133,7 @@ std::uint64_t read_count(std::string_view bytes, const Type& type, Format format
     return value;  // a negative length becomes a huge one, which is refused as too long
 }
 
-/// Every element of binary data must lie inside the file.
+/// Throws unless every element of binary data is inside the file.
 void check_binary(const std::string& file, const Header& header, std::string_view data) {
     for (const Element& element : header.elements) {
         std::size_t fixed = 0;
@@ -167,7 +167,7 @@ void check_binary(const std::string& file, const Header& header, std::string_vie
     }
 }
 
-/// Text has one line for each element.
+/// Throws unless text data has one line for each element.
 void check_lines(const std::string& file, const Header& header, std::string_view data) {
     std::size_t lines = 0;
     for (std::size_t at = 0; (at = data.find_first_not_of(" \t\r\n", at)) != data.npos; ++lines)

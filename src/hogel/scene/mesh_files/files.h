@@ -7,14 +7,14 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Lets assimp open regular files in one folder and below, and nothing else: paths in a mesh file are not trusted.
+/// Restricts assimp to regular files in one folder and below, because paths in a mesh file are not trusted.
 class FolderFiles final : public Assimp::DefaultIOSystem {
   public:
     explicit FolderFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
 
-    /// Whether a path, symbolic links followed, is a regular file inside the folder.
+    /// Whether a path, after following symbolic links, is a regular file inside the folder.
     bool contains(const std::filesystem::path& path) const;
 
   private:

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t max_triangles = std::size_t{1} << 28;
 constexpr std::size_t max_instances = std::size_t{1} << 20;
-constexpr unsigned max_corners = 4096;                  // of a polygon, whose triangulation takes quadratic time
+constexpr unsigned max_corners = 4096;  // maximum for a polygon, because triangulation takes quadratic time
 constexpr double crease = 60 * std::numbers::pi / 180;  // missing normals are smooth up to this angle
 
 struct Placed {
@@ -33,8 +33,8 @@ struct Placed {
 
 bool has_faces(const aiMesh& mesh) { return mesh.mNumFaces > 0 && mesh.HasPositions(); }
 
-/// Every mesh of the node hierarchy with its transform. Triangles are counted before anything is copied, because a
-/// small file can demand billions of copies.
+/// Lists every mesh of the node hierarchy with its transform. Triangles are counted before anything is copied, because
+/// a small file can request billions of copies.
 std::vector<Placed> place_meshes(const aiScene& source, const std::string& file) {
     struct Visit {
         const aiNode* node;
@@ -68,7 +68,7 @@ std::vector<Placed> place_meshes(const aiScene& source, const std::string& file)
     return placed;
 }
 
-// In double precision, as matrices are products over the hierarchy.
+// In double precision, because matrices are products over the hierarchy.
 Vec3 transform_point(const aiMatrix4x4& m, const aiVector3D& p) {
     const double x = p.x, y = p.y, z = p.z;
     return {m.a1 * x + m.a2 * y + m.a3 * z + m.a4, m.b1 * x + m.b2 * y + m.b3 * z + m.b4,
@@ -91,7 +91,7 @@ struct NormalTransform {
     }
 };
 
-/// False if a normal of the file has no direction; then new ones are made.
+/// Returns false if a normal of the file is zero; then new normals are made.
 bool import_normals(const aiMesh& source, const NormalTransform& transform, Mesh& mesh) {
     mesh.normals.reserve(source.mNumVertices);
     for (unsigned i = 0; i < source.mNumVertices; ++i) {

@@ -33,7 +33,7 @@ class Import : public testing::Test {
         std::ofstream(path, std::ios::binary) << bytes;
         return path;
     }
-    /// The message with which an import must fail: one line that begins with the file's name.
+    /// The message of an import that must fail: one line that begins with the file's name.
     static std::string refusal(const fs::path& path) {
         try {
             import_scene(path);
@@ -161,7 +161,7 @@ TEST_F(Import, node_transforms_are_applied_and_mirrored_instances_keep_their_fro
 }
 
 TEST_F(Import, normals_are_perpendicular_after_uneven_scaling) {
-    // A facet with normal (1, 1, 0)/√2, squeezed in y by 2, has the normal (1, 2, 0)/√5.
+    // A facet with normal (1, 1, 0)/√2, compressed in y by 2, has the normal (1, 2, 0)/√5.
     const std::string bytes =
         raw<float>({1, 0, 0, 0, 1, 0, 0, 1, 1}) +
         raw<float>({0.70710678f, 0.70710678f, 0, 0.70710678f, 0.70710678f, 0, 0.70710678f, 0.70710678f, 0});

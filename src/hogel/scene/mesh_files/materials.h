@@ -14,7 +14,7 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Converts assimp's materials. A texture that several materials use is read once.
+/// Converts assimp's materials. A texture shared by several materials is read once.
 class MaterialImport {
   public:
     /// @param folder  of the mesh, canonical
