@@ -4,21 +4,36 @@
 #include <assimp/DefaultIOSystem.h>
 
 #include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
 
 namespace hogel::scene::mesh_files {
 
-/// Lets assimp open regular files in one folder and below, and nothing else: paths in a mesh file are not trusted.
+/// The file that a mesh file means by a relative path or URI ("my%20wood.png" is "my wood.png" where no file has the
+/// undecoded name), symbolic links followed: a regular file in the folder or below, or none. Paths in a mesh file are
+/// not trusted.
+/// @param folder  canonical
+std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path& folder, const std::string& name);
+
+/// Lets assimp open regular files in one folder and below, and nothing else, in the child process that it runs in.
+/// With each file that it opens, the child may use more memory and time: in proportion to what there is to read.
 class FolderFiles final : public Assimp::DefaultIOSystem {
   public:
     explicit FolderFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
 
-    /// Whether a path, symbolic links followed, is a regular file inside the folder.
-    bool contains(const std::filesystem::path& path) const;
+    const std::set<std::filesystem::path>& opened() const { return opened_; }
+    /// Bytes of all files opened, each counted once.
+    std::uint64_t bytes_opened() const { return bytes_; }
 
   private:
+    std::optional<std::filesystem::path> find(const char* file) const;
+
     std::filesystem::path folder_;  // canonical
+    std::set<std::filesystem::path> opened_;
+    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace hogel::scene::mesh_files
