@@ -18,14 +18,13 @@
 #include "hogel/scene/mesh_files/files.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
+#include "hogel/scene/mesh_files/polygons.h"
 #include "hogel/scene/mesh_files/transfer.h"
-#include "hogel/scene/triangulate.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
 
 constexpr std::size_t max_instances = std::size_t{1} << 20;
-constexpr unsigned max_corners = 4096;  // of a polygon, whose triangulation takes quadratic time
 
 struct Placed {
     const aiMesh* mesh;
@@ -119,36 +118,10 @@ Rgb import_color(const aiColor4D& c, bool linear) {
     return linear ? Rgb{c.r, c.g, c.b} : Rgb{srgb_decode(c.r), srgb_decode(c.g), srgb_decode(c.b)};
 }
 
-bool is_flat(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
-    const Vec3 a = mesh.positions[t[0]];
-    return cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a) == Vec3{};
-}
-
 void import_triangles(const aiMesh& source, bool mirrored, const std::string& file, Mesh& mesh) {
     mesh.triangles.reserve(source.mNumFaces);
-    std::vector<Vec3> polygon;
-    for (unsigned i = 0; i < source.mNumFaces; ++i) {
-        const std::span<const unsigned> corners(source.mFaces[i].mIndices, source.mFaces[i].mNumIndices);
-        for (const unsigned index : corners)
-            if (index >= source.mNumVertices)
-                reject_file(file, fmt::format("mesh '{}': vertex index {}", mesh.name, index),
-                            fmt::format("less than {}", source.mNumVertices));
-        if (corners.size() > max_corners)
-            reject_file(file, fmt::format("a face with {} corners", corners.size()),
-                        fmt::format("at most {}", max_corners));
-        if (corners.size() < 3) continue;
-        const auto add = [&](std::array<std::uint32_t, 3> triangle) {
-            if (mirrored) std::swap(triangle[1], triangle[2]);
-            if (!is_flat(mesh, triangle)) mesh.triangles.push_back(triangle);
-        };
-        if (corners.size() == 3) {
-            add({corners[0], corners[1], corners[2]});
-            continue;
-        }
-        polygon.clear();
-        for (const unsigned index : corners) polygon.push_back(mesh.positions[index]);
-        for (const auto& [a, b, c] : scene::triangulate(polygon)) add({corners[a], corners[b], corners[c]});
-    }
+    for (unsigned i = 0; i < source.mNumFaces; ++i)
+        add_polygon({source.mFaces[i].mIndices, source.mFaces[i].mNumIndices}, mirrored, file, mesh);
 }
 
 Mesh import_mesh(const Placed& placed, bool linear_colors, const std::string& file) {
@@ -217,6 +190,8 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
     auto* files = new FolderFiles(path.parent_path());
     Assimp::Importer importer;
     importer.SetIOHandler(files);
+    // Read by off.cpp. assimp takes any text with "off" near its start for such a file, and counts for true.
+    importer.UnregisterLoader(importer.GetImporter("off"));
     const aiScene* source = importer.ReadFile(path.string(), 0);
     if (!source || !source->mRootNode) {
         if (importer.GetException()) std::rethrow_exception(importer.GetException());

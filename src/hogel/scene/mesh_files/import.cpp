@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
+#include <new>
 #include <numbers>
 
 #include "hogel/core/child_process.h"
@@ -10,6 +13,7 @@
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
+#include "hogel/scene/mesh_files/off.h"
 #include "hogel/scene/mesh_files/transfer.h"
 #include "hogel/scenes.h"
 
@@ -36,6 +40,24 @@ Imported import_in_child(const std::filesystem::path& path, const std::string& f
     }
 }
 
+/// assimp chooses its reader by the name, and by the first bytes where it knows no such name.
+Imported import_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file) {
+    std::string start(4096, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(stream.gcount()));
+    if (has_extension(path, {".off"}) || starts_like_off(start)) {
+        Imported imported;
+        imported.meshes.push_back({read_off(file, read_file(path, size, file))});
+        return imported;
+    }
+    const std::size_t first = start.find_first_not_of(" \t\r\n");
+    if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{'))
+        check_gltf(file, path.parent_path(), read_file(path, size, file));
+    if (has_extension(path, {".ply"}) || starts_like_ply(start)) check_ply(file, read_file(path, size, file));
+    return import_in_child(path, file);
+}
+
 Scene convert(Imported imported, const std::filesystem::path& path, const std::string& file) {
     Textures textures(std::move(imported.textures), path.parent_path(), file);
     Scene scene;
@@ -49,7 +71,7 @@ Scene convert(Imported imported, const std::filesystem::path& path, const std::s
             for (std::size_t i = 0; i < std::min(mesh.colors.size(), mesh.radiance.size()); ++i)
                 mesh.radiance[i] = mesh.radiance[i] * mesh.colors[i];
         }
-        scene.meshes.push_back(std::move(mesh));
+        if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
     }
     if (scene.meshes.empty()) reject_file(file, "no triangles that have an area", "at least one");
     try {
@@ -66,10 +88,10 @@ Scene convert(Imported imported, const std::filesystem::path& path, const std::s
 Scene import_scene(const std::filesystem::path& path, const Progress& progress) {
     const core::StopScope scope(progress);
     const std::string file = path.string();
-    check_mesh_file(path);
+    const std::uintmax_t size = check_regular_file(path);
     try {
         const std::filesystem::path real = std::filesystem::canonical(path);
-        return convert(import_in_child(real, file), real, file);
+        return convert(import_file(real, size, file), real, file);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
