@@ -80,7 +80,7 @@ std::vector<GltfAccessor> check_accessors(const Gltf& gltf, const GltfBuffers& b
 /// Checks the attributes and indices of all primitives.
 void check_primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accessors);
 
-/// Checks that nodes form strict trees that are not too deep, and that scenes name each root at most once.
+/// Checks that nodes form strict trees that are not too deep, and that scenes name no node twice.
 void check_nodes(const Gltf& gltf);
 
 }  // namespace hogel::scene::mesh_files

@@ -119,12 +119,13 @@ std::vector<std::size_t> find_parents(const Gltf& gltf, const Json& nodes) {
     return parent;
 }
 
-/// A root that a scene names a thousand times would be a thousand copies.
-void check_scenes(const Gltf& gltf, const std::vector<std::size_t>& parent) {
+/// A root that a scene names a thousand times would be a thousand copies. That some programs name children too, which
+/// then appear twice, is accepted.
+void check_scenes(const Gltf& gltf, std::size_t nodes) {
     const Json& scenes = gltf.list("scenes");
     if (scenes.empty()) gltf.reject("scenes", "is missing or empty", "a scene to show");
     gltf.reference(gltf.json, "document", "scene", "scenes");
-    std::vector<std::size_t> named_by(parent.size(), scenes.size());
+    std::vector<std::size_t> named_by(nodes, scenes.size());
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const std::string where = fmt::format("scenes[{}]", i);
         const Json& scene = gltf.object(scenes, i, where);
@@ -132,12 +133,10 @@ void check_scenes(const Gltf& gltf, const std::vector<std::size_t>& parent) {
         if (roots == scene.end()) continue;
         if (!roots->is_array()) gltf.reject(where + ".nodes", "is not an array", "one");
         for (const Json& root : *roots) {
-            if (!root.is_number_unsigned() || root.get<std::uint64_t>() >= parent.size())
+            if (!root.is_number_unsigned() || root.get<std::uint64_t>() >= nodes)
                 gltf.reject(where, "has a node that does not exist", "the number of a node");
             const auto number = root.get<std::size_t>();
-            if (named_by[number] == i) gltf.reject(where, fmt::format("names node {} twice", number), "each root once");
-            if (parent[number] != no_node)
-                gltf.reject(where, fmt::format("names node {}, which is a child", number), "roots alone");
+            if (named_by[number] == i) gltf.reject(where, fmt::format("names node {} twice", number), "each node once");
             named_by[number] = i;
         }
     }
@@ -171,7 +170,7 @@ void check_nodes(const Gltf& gltf) {
                 gltf.reject(fmt::format("nodes[{}]", i), fmt::format("lies below more than {} others", max_depth),
                             "a flatter tree");
     }
-    check_scenes(gltf, parent);
+    check_scenes(gltf, parent.size());
 }
 
 }  // namespace hogel::scene::mesh_files
