@@ -186,8 +186,8 @@ const char* const readable = "a mesh file that assimp can read";
     reject_file(file, "needs more memory than a file of its size should", "a smaller or undamaged mesh");
 }
 
-void import_or_throw(const std::filesystem::path& path, const std::string& file, int pipe) {
-    auto* files = new FolderFiles(path.parent_path());
+void import_or_throw(const std::filesystem::path& path, const std::string& file, std::string_view contents, int pipe) {
+    auto* files = new FolderFiles(path, contents);
     Assimp::Importer importer;
     importer.SetIOHandler(files);
     // Read by off.cpp. assimp takes any text with "off" near its start for such a file, and counts for true.
@@ -208,11 +208,12 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
 
 }  // namespace
 
-void import_with_assimp(const std::filesystem::path& path, const std::string& file, int pipe) noexcept {
+void import_with_assimp(const std::filesystem::path& path, const std::string& file, std::string_view contents,
+                        int pipe) noexcept {
     const Sender sender(pipe);
     try {
         try {
-            import_or_throw(path, file, pipe);
+            import_or_throw(path, file, contents, pipe);
         } catch (const Error&) {
             throw;
         } catch (const std::bad_alloc&) {

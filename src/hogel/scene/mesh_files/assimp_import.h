@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace hogel::scene::mesh_files {
 
@@ -10,6 +11,8 @@ namespace hogel::scene::mesh_files {
 /// the pipe. Ends the process.
 /// @param path  canonical
 /// @param file  name of the mesh for messages, as the caller gave it
-[[noreturn]] void import_with_assimp(const std::filesystem::path& path, const std::string& file, int pipe) noexcept;
+/// @param contents  read instead of what the file holds, unless it is empty
+[[noreturn]] void import_with_assimp(const std::filesystem::path& path, const std::string& file,
+                                     std::string_view contents, int pipe) noexcept;
 
 }  // namespace hogel::scene::mesh_files

@@ -26,9 +26,13 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t size, co
 /// Throws Error(bad_input) for a file that is missing, not regular, empty or larger than any mesh.
 std::uintmax_t check_regular_file(const std::filesystem::path& path);
 
-/// Check what a glTF or PLY file announces, which assimp 5.2 trusts. `bytes` is the whole file; `folder`, canonical,
-/// holds the buffers. Both throw Error(bad_input) by reject_file().
-void check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes);
+/// Checks what a PLY file announces, which assimp 5.2 trusts. `bytes` is the whole file. Throws Error(bad_input) by
+/// reject_file().
 void check_ply(const std::string& file, std::string_view bytes);
+
+/// The same for a glTF file, whose buffers lie in `folder` (canonical). Returns the file that assimp is to read
+/// instead: what was checked, without what hogel does not use (skins, animations, morph targets, cameras). Empty for a
+/// document of glTF 1, which is not checked.
+std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes);
 
 }  // namespace hogel::scene::mesh_files

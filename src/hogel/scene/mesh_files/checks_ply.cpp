@@ -31,7 +31,7 @@ struct Property {
 };
 
 struct Element {
-    std::string_view name;
+    std::string name;  ///< for messages
     std::size_t count = 0;
     std::vector<Property> properties;
 };
@@ -87,7 +87,7 @@ Format parse_format(const std::string& file, std::string_view line, std::string_
 }
 
 Element parse_element(const std::string& file, std::string_view line, const std::vector<std::string_view>& words) {
-    Element element{words[1], 0, {}};
+    Element element{one_line(std::string(words[1])), 0, {}};
     const auto [rest, status] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
     if (status != std::errc{} || rest != words[2].data() + words[2].size()) reject(file, line, "a number of elements");
     return element;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/scene/mesh_files/files.h"
 
+#include <assimp/MemoryIOWrapper.h>
+
 #include <algorithm>
 #include <charconv>
 #include <string_view>
@@ -64,6 +66,8 @@ Assimp::IOStream* FolderFiles::Open(const char* file, const char* mode) {
         // The limits begin with those for the first file, which is the mesh itself.
         if (opened_.size() > 1) core::ChildProcess::raise_limits(further_limits(size));
     }
+    if (*real == mesh_ && !contents_.empty())
+        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(contents_.data()), contents_.size());
     return DefaultIOSystem::Open(real->c_str(), mode);
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace hogel::scene::mesh_files {
 
@@ -20,7 +21,10 @@ std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path&
 /// With each file that it opens, the child may use more memory and time: in proportion to what there is to read.
 class FolderFiles final : public Assimp::DefaultIOSystem {
   public:
-    explicit FolderFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// @param mesh      the file that assimp is to read, canonical
+    /// @param contents  what is read instead of what that file holds, unless it is empty; lives longer than this
+    FolderFiles(const std::filesystem::path& mesh, std::string_view contents)
+        : folder_(mesh.parent_path()), mesh_(mesh), contents_(contents) {}
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
 
@@ -31,7 +35,8 @@ class FolderFiles final : public Assimp::DefaultIOSystem {
   private:
     std::optional<std::filesystem::path> find(const char* file) const;
 
-    std::filesystem::path folder_;  // canonical
+    std::filesystem::path folder_, mesh_;  // canonical
+    std::string_view contents_;
     std::set<std::filesystem::path> opened_;
     std::uint64_t bytes_ = 0;
 };

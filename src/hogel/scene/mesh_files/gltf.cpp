@@ -49,7 +49,8 @@ std::string shown(const Json& value) {
 /// The JSON part of a .gltf or .glb file. The chunks of a .glb file must lie inside it, because assimp allocates the
 /// sizes that they state.
 std::string_view split_chunks(std::string_view bytes, Gltf& gltf) {
-    if (!bytes.starts_with("glTF")) return bytes;
+    gltf.is_binary = bytes.starts_with("glTF");
+    if (!gltf.is_binary) return bytes;
     if (bytes.size() < 12) reject_file(gltf.file, "ends in its header", "a .glb file");
     const std::uint32_t length = read_u32(bytes, 8);
     if (length > bytes.size())
@@ -118,6 +119,39 @@ void check_extensions(const Gltf& gltf) {
                         "a file that needs no such extension; convert it, for instance without compression");
 }
 
+/// What moves a model, and cameras. assimp crashes on skins that lack what glTF does not ask for.
+void drop_unused(Json& json) {
+    for (const char* name : {"animations", "cameras", "skins"}) json.erase(name);
+    if (json.contains("nodes"))
+        for (Json& node : json["nodes"])
+            for (const char* name : {"camera", "skin", "weights"}) node.erase(name);
+    if (!json.contains("meshes")) return;
+    for (Json& mesh : json["meshes"]) {
+        mesh.erase("weights");
+        for (Json& primitive : mesh["primitives"]) primitive.erase("targets");
+    }
+}
+
+void append_chunk(std::string& bytes, std::string_view type, std::string_view content) {
+    const auto size = static_cast<std::uint32_t>(content.size());
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size).append(type).append(content);
+}
+
+/// The file anew, as a .glb file if it was one.
+std::string assemble(const Gltf& gltf) {
+    std::string json = gltf.json.dump();
+    if (!gltf.is_binary) return json;
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::uint32_t version = 2;
+    const auto size = static_cast<std::uint32_t>(20 + json.size() + (gltf.has_binary ? 8 + gltf.binary.size() : 0));
+    std::string bytes = "glTF";
+    bytes.append(reinterpret_cast<const char*>(&version), sizeof version);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    append_chunk(bytes, "JSON", json);
+    if (gltf.has_binary) append_chunk(bytes, {"BIN\0", 4}, gltf.binary);
+    return bytes;
+}
+
 }  // namespace
 
 void Gltf::reject(const std::string& where, const std::string& what, const std::string& expected) const {
@@ -175,12 +209,16 @@ Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, st
 
 // assimp 5.2 drops faces with indices that do not exist, wraps offsets around, allocates what counts and indexed names
 // announce, and walks trees recursively.
-void check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
-    const Gltf gltf = parse_gltf(file, folder, bytes);
-    if (!gltf.is_version_2) return;
-    const GltfBuffers buffers(gltf);
-    check_primitives(gltf, check_accessors(gltf, buffers));
+std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
+    Gltf gltf = parse_gltf(file, folder, bytes);
+    if (!gltf.is_version_2) return {};
+    {
+        const GltfBuffers buffers(gltf);
+        check_primitives(gltf, check_accessors(gltf, buffers));
+    }
     check_nodes(gltf);
+    drop_unused(gltf.json);
+    return assemble(gltf);
 }
 
 }  // namespace hogel::scene::mesh_files

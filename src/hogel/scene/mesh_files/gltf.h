@@ -23,7 +23,8 @@ struct Gltf {
     std::uint64_t file_size = 0;
     Json json;                  ///< an object
     std::string_view binary;    ///< the BIN chunk of a .glb file
-    bool has_binary = false;    ///< whether there is one
+    bool is_binary = false;     ///< whether it is a .glb file
+    bool has_binary = false;    ///< whether there is a BIN chunk
     bool is_version_2 = false;  ///< assimp reads version 1 too, whose documents are built otherwise
 
     /// An array of the document; an empty one where it is missing.

@@ -26,10 +26,11 @@ namespace {
 constexpr double crease = 60 * std::numbers::pi / 180;  // missing normals are smooth up to this angle
 
 /// What assimp makes of the file, in a child process: it crashes on damaged files of many formats.
-Imported import_in_child(const std::filesystem::path& path, const std::string& file) {
+Imported import_in_child(const std::filesystem::path& path, const std::string& file, std::string_view contents) {
     const std::uint64_t bytes = std::filesystem::file_size(path);
     for (int attempt = 1;; ++attempt) {
-        core::ChildProcess child(child_limits(bytes), [&](int pipe) { import_with_assimp(path, file, pipe); });
+        core::ChildProcess child(child_limits(bytes),
+                                 [&](int pipe) { import_with_assimp(path, file, contents, pipe); });
         try {
             return receive(child, path.parent_path(), file);
         } catch (const core::ChildFailure& failure) {
@@ -53,9 +54,9 @@ Imported import_file(const std::filesystem::path& path, std::uintmax_t size, con
     }
     const std::size_t first = start.find_first_not_of(" \t\r\n");
     if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{'))
-        check_gltf(file, path.parent_path(), read_file(path, size, file));
+        return import_in_child(path, file, check_gltf(file, path.parent_path(), read_file(path, size, file)));
     if (has_extension(path, {".ply"}) || starts_like_ply(start)) check_ply(file, read_file(path, size, file));
-    return import_in_child(path, file);
+    return import_in_child(path, file, {});
 }
 
 Scene convert(Imported imported, const std::filesystem::path& path, const std::string& file) {
