@@ -26,8 +26,7 @@ namespace hogel::core {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto patience = std::chrono::seconds(30);  // without processor time
-constexpr int poll_ms = 100;                         // how soon a stop is seen
+constexpr int poll_ms = 100;  // how soon a stop is seen
 
 /// Bytes of address space that this process uses.
 std::uint64_t address_space() {
@@ -96,7 +95,8 @@ std::chrono::nanoseconds cpu_time(pid_t process) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const ChildLimits& limits, const std::function<void(int)>& work) {
+ChildProcess::ChildProcess(const ChildLimits& limits, const std::function<void(int)>& work)
+    : patience_(limits.patience) {
     int ends[2] = {};
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Error(ErrorCode::internal, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
@@ -153,7 +153,7 @@ void ChildProcess::wait_for_data() {
         if (const auto now_used = child_ < 0 ? used : cpu_time(child_); now_used != used) {
             used = now_used;
             alive = Clock::now();
-        } else if (Clock::now() - alive > patience) {
+        } else if (Clock::now() - alive > patience_) {
             reap(true);
             throw ChildFailure(ChildFailure::Kind::stuck, "waits for something that never comes");
         }

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -14,13 +15,18 @@ namespace hogel::core {
 struct ChildLimits {
     std::uint64_t memory = std::uint64_t{1} << 30;  ///< bytes of address space
     unsigned cpu_seconds = 60;                      ///< then it is ended
+    std::chrono::seconds patience{30};              ///< so long it may use no processor time, then it is ended
 };
 
 /// Thrown where a child process ended without having sent what was to be read: what() says how, in a few words that
 /// begin a sentence about it ("crashed (segmentation fault)").
 class ChildFailure : public std::exception {
   public:
-    enum class Kind { crashed, time, stuck };
+    enum class Kind {
+        crashed,  ///< or ended without a word
+        time,     ///< used up
+        stuck,    ///< waits for something, such as a lock of a thread that it does not have
+    };
     ChildFailure(Kind kind, std::string text) : kind_(kind), text_(std::move(text)) {}
     Kind kind() const { return kind_; }
     const char* what() const noexcept override { return text_.c_str(); }
@@ -59,6 +65,7 @@ class ChildProcess {
     [[noreturn]] void fail();
     int reap(bool kill_first);
 
+    std::chrono::seconds patience_;
     pid_t child_ = -1;
     int pipe_ = -1;
 };
