@@ -11,7 +11,7 @@
 namespace hogel::bench {
 namespace {
 
-constexpr std::size_t max_count = std::size_t{1} << 24;  // more along one side is a slip of the finger
+constexpr std::size_t max_count = std::size_t{1} << 24;  // a larger number along one side is treated as a typing error
 constexpr double degrees = 180 / std::numbers::pi;
 
 }  // namespace
@@ -43,7 +43,7 @@ Angles parse_angles(const std::string& text, const std::string& option) {
     std::string across = text.substr(0, comma);
     const std::string down = text.substr(comma + 1);
     constexpr const char* number = "+-.0123456789";
-    // An angle without a unit takes the one of the last.
+    // An angle without a unit has the unit of the last one.
     if (const std::size_t unit = down.find_first_not_of(number);
         unit != std::string::npos && across.find_first_not_of(number) == std::string::npos)
         across += down.substr(unit);

@@ -24,7 +24,7 @@
 namespace hogel::bench {
 namespace {
 
-// One run: the options that all commands share, and the work of the command that was chosen.
+// One run: the options shared by all commands, and the work of the chosen command.
 struct Program {
     Session session;
     std::size_t threads = 0;  // 0: all
@@ -50,7 +50,7 @@ void add_names(CLI::App* command, const std::string& name, std::vector<std::stri
     command->add_option(name, names, help)->type_name("NAME,...")->delimiter(',');
 }
 
-// A number in a range; shows no default if the value is optional.
+// An option for a number in a range; shows no default if the value is optional.
 template <class Value>
 void add_number(CLI::App* command, const std::string& name, Value& value, const CLI::Range& range,
                 const std::string& help, const char* type) {
@@ -73,7 +73,7 @@ void add_output(CLI::App* command, std::string& output) {
     command->add_option("-o,--output", output, "Folder for plots, SVG")->type_name("DIR");
 }
 
-// @param threads   the default of --threads; nothing: the command measures on one thread
+// @param threads   the default of --threads; empty: the command measures on one thread
 template <class Options>
 CLI::App* add_command(CLI::App& app, Program& program, const char* name, const char* description,
                       std::optional<std::size_t> threads, const std::shared_ptr<Options>& options,

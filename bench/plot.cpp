@@ -15,7 +15,7 @@ namespace {
 constexpr double width = 760, height = 480, left = 74, right = 130, top = 66, bottom = 56, note_height = 18;
 constexpr double label_distance = 15;  // between the names of two curves
 
-// Distinct also for eyes that see red and green alike.
+// Distinguishable also with red-green colour blindness.
 constexpr std::array colours{"#1f6feb", "#d1242f", "#1a7f37", "#8250df", "#bf8700", "#0e8a8a", "#57606a", "#bc4c00"};
 
 std::string escaped(const std::string& text) {
@@ -103,7 +103,7 @@ std::string grid_lines(const Axes& axes) {
     return svg;
 }
 
-// The rows of the curves' names, moved apart where they would lie on each other.
+// The rows of the curves' names, moved apart where they would overlap.
 std::vector<double> label_rows(const Axes& axes, const std::vector<Curve>& curves) {
     std::vector<double> rows(curves.size(), 0);
     std::vector<std::size_t> order;

@@ -11,7 +11,7 @@ namespace hogel::bench {
 struct Curve {
     std::string name;
     std::vector<std::pair<double, double>> points;
-    bool dashed = false;  ///< for curves that were not measured in full
+    bool dashed = false;  ///< for curves that were not fully measured
 };
 
 /// The text and the axes of a plot. The x axis is logarithmic, with marks at powers of two.
@@ -24,7 +24,7 @@ struct PlotText {
     std::vector<std::pair<std::string, double>> levels = {};  ///< names and heights of horizontal lines
 };
 
-/// An SVG picture of curves, each with its name at its end. At least one of them must have a point.
+/// An SVG picture of curves, each with its name at its end. At least one curve must have a point.
 std::string plot_svg(const PlotText& text, const std::vector<Curve>& curves);
 
 }  // namespace hogel::bench

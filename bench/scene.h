@@ -7,6 +7,7 @@
 #include "bench/arguments.h"
 #include "bench/session.h"
 #include "hogel/light_field.h"
+#include "hogel/pipeline.h"
 #include "hogel/scene.h"
 #include "hogel/shading.h"
 #include "hogel/units.h"
@@ -15,11 +16,11 @@ namespace hogel::bench {
 
 using namespace hogel::literals;
 
-inline constexpr const char* default_algorithm = "epi";
-inline constexpr const char* default_shading = "vertex";
-inline constexpr double default_cache_spacing = 0.25;
+// The defaults are those of `hogel render`.
+inline const std::string default_algorithm{defaults.renderer}, default_shading{defaults.shading};
+inline constexpr double default_cache_spacing = defaults.cache_spacing;
 
-/// How a scene becomes a light field. The defaults are those of `hogel render`.
+/// The options of rendering a scene. The defaults are those of `hogel render`.
 struct LightFieldOptions {
     std::string algorithm = default_algorithm;
     std::string shading = default_shading;
@@ -29,7 +30,7 @@ struct LightFieldOptions {
     double size = 20_mm;                   ///< width of the hologram
     Angles field_of_view{16_deg, 16_deg};  ///< full angles
 
-    /// Throws Error(usage) where these make no light field.
+    /// Throws Error(usage) if they are invalid.
     LightFieldGrid grid() const;
 };
 
@@ -37,12 +38,11 @@ struct LightFieldOptions {
 /// that is neither a scene nor a file.
 Scene load_scene(const std::string& name, const LightFieldOptions& options);
 
-/// The scene with its light, and with a radiance cache for the rays of the options' light field unless cache_spacing
-/// is 0.
+/// Shades the scene and adds a radiance cache for the rays of the options' light field, unless cache_spacing is 0.
 std::shared_ptr<const ShadedScene> shade(const Session& session, const Scene& scene, const LightFieldOptions& options);
 
-/// A light field file, or a scene's light field, which is rendered where it is read.
-std::unique_ptr<LightFieldSource> open_or_render(const Session& session, const std::string& name,
-                                                 const LightFieldOptions& options);
+/// A light field file, or a scene's light field, which is rendered when it is read.
+std::shared_ptr<const LightFieldSource> open_or_render(const Session& session, const std::string& name,
+                                                       const LightFieldOptions& options);
 
 }  // namespace hogel::bench

@@ -8,31 +8,31 @@
 
 namespace hogel::bench {
 
-/// The options that commands share, and what a benchmark prints while it works. Tables go to the standard output, all
+/// The options shared by commands, and the output of a benchmark while it works. Tables go to the standard output, all
 /// other lines to stderr.
 struct Session {
     bool quiet = false;
     bool verbose = false;
     std::size_t threads = 0;  ///< 0: as many as the command itself prefers
 
-    /// A line on stderr, unless --quiet.
+    /// Prints a line on stderr, unless --quiet.
     void say(const std::string& line) const;
-    /// A line on stderr with --verbose alone.
+    /// Prints a line on stderr only with --verbose.
     void detail(const std::string& line) const;
 };
 
-/// From now on Ctrl-C and SIGTERM ask the work to stop; a second one, later, ends the program at once.
+/// From now on Ctrl-C and SIGTERM request the work to stop; a second, later signal ends the program at once.
 void catch_interrupts();
-/// The signal that asked for it, or 0.
+/// The signal that requested the stop, or 0.
 int interrupted_by();
 /// Throws Error(cancelled) after an interrupt.
 void stop_if_interrupted();
-/// Stops the library's work after an interrupt.
+/// A Progress that stops the library's work after an interrupt.
 Progress until_interrupted();
 
-/// Creates the folder and those above it. Throws Error(cannot_write).
+/// Creates the folder and its parents. Throws Error(cannot_write).
 void create_folder(const std::filesystem::path& folder);
-/// Writes a whole file, which appears when it is complete.
+/// Writes a file, which appears when it is complete.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace hogel::bench

@@ -1,5 +1,5 @@
-# Every third-party library that the library itself links, found once. Each is included by one folder of src/hogel and by no
-# public header, so a program that uses a shared hogel needs none of them. A static hogel hands them on: its package
+# Finds every third-party library that the library links. Each is included by one folder of src/hogel and by no public
+# header, so a program that uses a shared hogel needs none of them. A static hogel passes them on: its package
 # (hogelConfig.cmake) includes this file too.
 find_package(PkgConfig REQUIRED)
 find_package(TBB REQUIRED)
@@ -10,7 +10,7 @@ find_package(fmt REQUIRED)
 # libfftw3f is GPL; any library with the same interface can be put in its place here (see math/fft.cpp).
 pkg_check_modules(fftw3f REQUIRED IMPORTED_TARGET fftw3f)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
-# By pkg-config, because Debian's CMake files of OpenImageIO insist on its programs (and so on Qt), and CMake's own
-# search for HDF5 needs a C compiler and links what HDF5 itself links (curl, ssl).
+# By pkg-config, because Debian's CMake files of OpenImageIO require its programs (and so Qt), and CMake's own search
+# for HDF5 needs a C compiler and links HDF5's dependencies (curl, ssl).
 pkg_check_modules(openimageio REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_search_module(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)

@@ -23,7 +23,7 @@ function(hogel_module name)
   set_property(GLOBAL APPEND_STRING PROPERTY HOGEL_MODULE_TABLE "${name}:${arg_FOLDER}:${uses}:${public}\n")
 endfunction()
 
-# What every target of the project is compiled with.
+# The compile options of every target of the project.
 #   -ffp-contract=off  a product and a sum stay two roundings, so that results do not depend on whether the processor has
 #                      fused multiply-add: the same bytes on every machine, and .hgl streams decode alike everywhere
 #   -Wno-psabi         silences g++'s note that passing SIMD vectors by value changed in GCC 4.6; no such call leaves a file
@@ -39,7 +39,7 @@ function(hogel_compile_options target)
   endif()
 endfunction()
 
-# The headers of all modules, for the library itself, its tests and its benchmarks.
+# The include path of all modules' headers, for the library itself, its tests and its benchmarks.
 function(hogel_private_includes target)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}
                                                ${PROJECT_BINARY_DIR}/include)

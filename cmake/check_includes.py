@@ -7,8 +7,8 @@ usage: check_includes.py TABLE PROJECT_DIR
 
 A module may include itself, what it uses, and what those use; of other modules only what its table row allows, whether the
 header is private (src/hogel/MODULE/...) or public (include/hogel/HEADER.h). A family's folder may not include those that
-FORBIDDEN_IN names. Public headers include public headers alone. A third-party header may be included by the modules, or folders
-of modules, named in THIRD_PARTY alone, and by no public header. Front ends (apps) include public headers alone.
+FORBIDDEN_IN names. Public headers include only public headers. A third-party header may be included by the modules, or folders
+of modules, named in THIRD_PARTY, and by no public header. Front ends (apps) include only public headers.
 """
 import pathlib
 import re
@@ -91,11 +91,14 @@ def check_module(table, module, root, wrong):
 
 
 def check_face(table, root, wrong):
-    """Public headers and front ends name public headers alone."""
+    """Public headers and front ends may include only public headers."""
     public = root / "include"
     own = {str(path.relative_to(public)) for path in public.rglob("*.h")} | {"hogel/version.h"}
     for header in sorted(own - set(table.owner) - {"hogel/hogel.h", "hogel/version.h", "hogel/export.h"}):
         wrong.append(f"include/{header}: is in no module's row of the module table")
+    all_of_them = {header for _, header in includes(public / "hogel/hogel.h")}
+    for header in sorted(own - all_of_them - {"hogel/hogel.h", "hogel/export.h"}):
+        wrong.append(f"include/hogel/hogel.h: leaves out {header}")
     for path in sources(public):
         for number, header in includes(path):
             if header.split("/")[0] in THIRD_PARTY or (header.startswith("hogel/") and header not in own):

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails when a page of the documentation links to what is not there.
+"""Fails when a link in the documentation has no target.
 
 usage: check_links.py [ROOT]
 Pages are ROOT/*.md and the .md files below docs and examples. Checked are links and pictures within the repository:
-the file exists, a page has the heading that a link names, a picture is one and has a text for those who cannot see it,
-and every file of docs/images is shown somewhere. Links to other sites are left alone.
+the file exists, a page has the heading that a link names, a picture is valid and has an alternative
+text, and every file of docs/images is shown somewhere. Links to other sites are not checked.
 """
 import pathlib
 import re
@@ -24,12 +24,12 @@ HEADING = re.compile(r"^#{1,6} +(.+?) *#*$", re.MULTILINE)
 
 
 def blank(match):
-    """Code with nothing in it, as many lines as before."""
+    """Replaces code by empty lines, which keeps line numbers."""
     return re.sub(r"[^\n]", " ", match.group())
 
 
 def anchors(text):
-    """The names that GitHub gives to the headings of a page, and those that the page gives itself."""
+    """The anchors of a page: those that GitHub gives to headings, and explicit ones."""
     names = set(re.findall(r'<a (?:name|id)="([^"]+)"', text))
     for heading in HEADING.findall(FENCED.sub("", text)):
         shown = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", heading)
@@ -40,7 +40,7 @@ def anchors(text):
 
 
 def fault_of_picture(path):
-    """What keeps a picture from being shown, or None."""
+    """The reason why a picture cannot be shown, or None."""
     if path.suffix == ".png" and not path.read_bytes().startswith(b"\x89PNG\r\n\x1a\n"):
         return "is no PNG"
     if path.suffix == ".svg":
@@ -52,7 +52,7 @@ def fault_of_picture(path):
 
 
 def fault_of_link(root, page, target, shown):
-    """What is wrong with a link, or None. Adds the file that it leads to to `shown`."""
+    """The error of a link, or None. Adds the target file to `shown`."""
     url = urllib.parse.urlsplit(target)
     if url.scheme or url.netloc:
         return None

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails when a program needs a shared library that the first section of packages.txt does not bring.
+"""Fails when a program needs a shared library that the packages in the first section of packages.txt do not install.
 
 usage: check_packages.py PROGRAM PACKAGE...
-The libraries are those that ldd names, except those built beside the program. The packages that PACKAGE... bring are
-those that apt would install, without recommended ones, on a machine that has none.
+The libraries are those that ldd names, except those built beside the program. The packages are PACKAGE... and
+those that apt would install with them, without recommended ones, on a machine that has none.
 """
 import os
 import pathlib
@@ -31,7 +31,7 @@ def libraries(program):
 
 
 def spellings(path):
-    """The names that dpkg may know a file by: with or without /usr, and what a link leads to."""
+    """The names of a file that dpkg may use: with or without /usr, and the target of a link."""
     real = os.path.realpath(path)
     return {path, real, f"/usr{path}"} | {name.removeprefix("/usr") for name in (path, real)}
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Says what ctest ran.
+"""Summarises the tests that ctest ran.
 
 usage: test_summary.py FILE            names what failed and what was skipped, then counts; status 1 if a test was
                                        skipped and the environment has HOGEL_REQUIRE_TOOLS=1

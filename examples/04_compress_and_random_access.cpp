@@ -15,8 +15,8 @@ int main() {
     CompressionOptions options;
     options.target = Sqnr{30};  // decibels; or PixelsPerBit, Step, MaxError, Lossless
     const CompressionResult result = compress(light_field, "pumpkin.hgl", options);
-    std::printf("%llu bytes, %.2f dB, %.1f pixels per bit\n", static_cast<unsigned long long>(result.bytes), result.sqnr,
-                result.pixels_per_bit);
+    std::printf("%llu bytes, %.2f dB, %.1f pixels per bit\n", static_cast<unsigned long long>(result.bytes),
+                result.sqnr, result.pixels_per_bit);
 
     const LightField decoded = open_stream("pumpkin.hgl");
     LightFieldTile hogel(decoded.grid(), {24, 24, 1, 1}, false);  // the one in the middle

@@ -8,8 +8,8 @@ using namespace hogel;
 using namespace hogel::literals;
 
 int main() {
-    Modulator modulator = modulators().find("leto");  // a name in the table; or describe another one
-    modulator.width = 480;                            // a part of it, so that this takes a moment
+    Modulator modulator = modulators().find("leto");  // a name in the table; or fill in a Modulator
+    modulator.width = 480;                            // a part of it, to save time
     modulator.height = 270;
 
     LightFieldRequest request;

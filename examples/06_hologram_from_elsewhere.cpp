@@ -11,7 +11,7 @@ using namespace hogel;
 using namespace hogel::literals;
 
 int main() {
-    // What another program would have written: a spherical wave that converges 20 mm in front of its plane.
+    // Writes what another program might have: a spherical wave that converges 20 mm in front of its plane.
     constexpr std::size_t n = 1024;
     constexpr double pitch = 4e-6, wavelength = 532e-9, distance = 20e-3;
     Array<std::complex<float>, 2> samples({n, n});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer of one's own, put into the table of renderers, where the whole recipe finds it by name.
+// A renderer of one's own, added to the table of renderers, where the pipeline finds it by name.
 #include <cstdio>
 #include <memory>
 
@@ -8,7 +8,7 @@
 using namespace hogel;
 using namespace hogel::literals;
 
-// Shows how deep the first triangle lies along each ray; only triangles, one after the other.
+// Shows the depth of the first triangle on each ray. For simplicity it tests all triangles one after the other.
 class DepthRenderer final : public LightFieldSource {
   public:
     DepthRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
@@ -28,7 +28,7 @@ class DepthRenderer final : public LightFieldSource {
     }
 
   private:
-    // The least ζ at which the ray x = s + Uζ, y = t + Vζ meets a triangle; infinity where it meets none.
+    // The smallest ζ at which the ray x = s + Uζ, y = t + Vζ meets a triangle; infinity if it meets none.
     double first_depth(double s, double t, double U, double V) const {
         double first = std::numeric_limits<double>::infinity();
         for (const ShadedScene::Triangle& triangle : scene_->triangles) {

@@ -3,7 +3,7 @@
 
 #include "hogel/scene/shapes.h"
 
-/// Measures and parts of the pool table. Lengths are arbitrary: the cloth is the plane y = 0, 2.4 long and 1.28 wide.
+/// Dimensions and parts of the pool table. Lengths are arbitrary: the cloth is the plane y = 0, 2.4 long and 1.28 wide.
 namespace hogel::showpieces {
 
 inline constexpr double half_length = 1.2, half_width = 0.64;

@@ -36,7 +36,7 @@ double clearance(Parameter p, Holes holes) {
     return inside ? -nearest : nearest;
 }
 
-/// The grid while holes are cut. The side of a point is its clearance, exactly 0 on an outline.
+/// Cuts holes into a grid. The `side` of a point is its clearance, exactly 0 on an outline.
 class Carver {
   public:
     Carver(std::span<const double> columns, std::span<const double> rows, Holes holes) : holes_(holes) {

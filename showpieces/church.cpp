@@ -112,7 +112,7 @@ void shafts_and_ribs(scene::MeshBuilder& smooth) {
         [](std::size_t) { return 0.1; }, color);
 }
 
-/// A barrel vault of blue plaster from the far wall to a little past its crown, with a roof over it.
+/// A barrel vault of blue plaster from the far wall to slightly beyond its crown, with a roof above.
 void barrel(scene::MeshBuilder& smooth, scene::MeshBuilder& stars) {
     constexpr std::size_t columns = 90, rows = 20;
     const auto along = [](std::size_t i) { return half_length * (2 * static_cast<double>(i) / columns - 1); };

@@ -8,8 +8,8 @@
 #include "hogel/scene/shapes.h"
 #include "showpieces/masonry.h"
 
-/// Measures and parts of the church. Its length runs along x, the altar to the right; the nave lies between
-/// z = -nave_half and nave_half, the aisle behind it; the near half is cut away. Lengths are arbitrary.
+/// Dimensions and parts of the church. Its length runs along x, the altar to the right; the nave lies between z =
+/// -nave_half and nave_half, the aisle behind it; the near half is cut away. Lengths are arbitrary.
 namespace hogel::showpieces {
 
 inline constexpr std::size_t bays = 6;

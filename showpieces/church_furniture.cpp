@@ -109,7 +109,7 @@ void add_stars(scene::MeshBuilder& stars) {
                     const double around = pi / 5 * static_cast<double>(tip), r = tip % 2 == 0 ? size : 0.4 * size;
                     rim[tip] = stars.vertex(middle + r * std::sin(around) * right + r * std::cos(around) * up, gold);
                 }
-                // The front faces down, from where the frame (right, up) is left-handed.
+                // The front faces downwards; seen from there the frame (right, up) is left-handed.
                 for (std::size_t tip = 0; tip < rim.size(); ++tip)
                     stars.triangle(hub, rim[(tip + 1) % rim.size()], rim[tip]);
             }

@@ -139,7 +139,7 @@ TEST(Builtin, scenes_are_the_same_every_time) {
 
 using Point = std::array<double, 3>;
 
-/// For each edge, how many more triangles run along it in one direction than in the other.
+/// For each edge, the number of triangles that traverse it in one direction minus those in the other.
 std::map<std::array<Point, 2>, int> rims(const Scene& scene, const std::vector<std::string>& names) {
     std::map<std::array<Point, 2>, int> edges;
     for (const Mesh& mesh : scene.meshes) {
@@ -157,9 +157,9 @@ std::map<std::array<Point, 2>, int> rims(const Scene& scene, const std::vector<s
     return edges;
 }
 
-// Along every edge of a closed surface as many triangles run in one direction as in the other. Skin and flesh of the
-// pumpkin are closed together, the meshes of other scenes that are named above each by itself. All others are open
-// sheets: masonry, vaults, cloth, shades.
+// Every edge of a closed surface is traversed by as many triangles in one direction as in the other. Skin and flesh of
+// the pumpkin are closed together; the other meshes named above are closed individually. All others are open sheets:
+// masonry, vaults, cloth, shades.
 TEST(Builtin, closed_surfaces_have_no_gap) {
     const auto expect_closed = [](const Scene& scene, const std::vector<std::string>& names) {
         const auto edges = rims(scene, names);
@@ -197,7 +197,7 @@ TEST(Builtin, scenes_scale_with_the_size_of_the_hologram) {
                 ASSERT_NEAR(length(2 * small.meshes[m].positions[i] - large.meshes[m].positions[i]), 0, 1e-12 * size);
         if (triangle_count(small) > 20000) continue;  // lighting is slow
         const ShadedScene a = shade_scene_vertices(small), b = shade_scene_vertices(large);
-        std::size_t different = 0;  // rounding decides about shadow rays that graze an edge
+        std::size_t different = 0;  // rounding decides for shadow rays that graze an edge
         for (std::size_t i = 0; i < a.positions.size(); ++i)
             different += std::abs(a.radiance[i].r - b.radiance[i].r) > 1e-4f;
         EXPECT_LT(different, 5 + a.positions.size() / 1000) << builtin.name;

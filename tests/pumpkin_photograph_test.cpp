@@ -80,7 +80,7 @@ double block_mean(const Image& image, std::size_t row, std::size_t column, std::
     return sum / static_cast<double>(side * side);
 }
 
-// No factor is fitted: radiance in, radiance out.
+// Radiance is kept without a fitted factor.
 TEST_F(PumpkinPhotograph, is_as_bright_as_geometric_optics_says_everywhere) {
     for (std::size_t i = 0; i < photographs().cameras.size(); ++i) {
         const Image &wave = photographs().waves[i], &ray = photographs().rays[i];
@@ -93,7 +93,8 @@ TEST_F(PumpkinPhotograph, is_as_bright_as_geometric_optics_says_everywhere) {
     }
 }
 
-// The picture against the dark background: where it is brighter than a tenth of display white, smoothed over 5 pixels.
+// The mask of the picture against the dark background: where it is brighter than a tenth of display white after
+// smoothing over 5 pixels.
 std::vector<bool> silhouette(const Image& image, double exposure) {
     std::vector<bool> inside;
     for (std::size_t row = 0; row + 5 <= pixels; ++row)
@@ -116,10 +117,11 @@ TEST_F(PumpkinPhotograph, has_the_silhouette_that_geometric_optics_says) {
     }
 }
 
-// Rows of a picture that are compared together: enough for speckle to move them by less than half a pixel.
+// The number of rows of a picture that are compared together, so many that speckle shifts them by less than half a
+// pixel.
 constexpr std::size_t strip = 36;
 
-// The horizontal shift of a strip of one picture that fits another one best, in pixels.
+// The horizontal shift, in pixels, of a strip of one picture that best fits another one.
 double shift_between(const Image& from, const Image& to, std::size_t row) {
     const auto correlation = [&](int shift) {
         double ab = 0, aa = 0, bb = 0;
@@ -140,8 +142,8 @@ double shift_between(const Image& from, const Image& to, std::size_t row) {
     return best + 0.5 * (before - after) / (before - 2 * at + after);
 }
 
-// Between two eyes the pumpkin moves against the frame of the hologram, each part by its own depth: as much in
-// waves as in rays, to a fraction of a pixel.
+// Between two eyes the parts of the pumpkin shift against the frame of the hologram according to their depth. The
+// shifts by waves and by rays agree to a fraction of a pixel.
 TEST_F(PumpkinPhotograph, has_the_parallax_that_geometric_optics_says) {
     for (std::size_t row = 60; row + 60 < pixels; row += strip) {
         const double by_waves = shift_between(photographs().waves[0], photographs().waves[2], row);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stop ends every function that takes a Progress within a second, wherever in the library the time is spent.
+// A stop ends every function that takes a Progress within a second, wherever in the library it is working.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -29,7 +29,7 @@ using namespace literals;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// A minute's work on all threads.
+// Work that takes a minute on all threads.
 void work_for_a_minute() {
     core::parallel_for(60000 * thread_count(), [](std::size_t) { std::this_thread::sleep_for(milliseconds(1)); });
 }
@@ -60,7 +60,7 @@ Camera camera_of(const Grid& plane) {
     return camera;
 }
 
-// A ball, under so many lamps that shading takes minutes.
+// A ball with so many lamps that shading takes minutes.
 Scene lit_ball() {
     Scene scene = make_scene("sphere", 16_mm);
     Light lamp;
@@ -147,16 +147,23 @@ std::vector<Verb> verbs() {
     };
 }
 
-// Takes values and forgets them.
+// Discards all values.
 class NullSink final : public LightFieldSink {
   public:
     void write(const LightFieldTile&) override {}
 };
 
-// Of a scene that takes seconds for each tile.
+// A scene that takes seconds for each tile, behind the hologram, where every renderer can draw it.
+std::shared_ptr<const ShadedScene> pumpkin_behind() {
+    Scene scene = make_scene("pumpkin", 16_mm);
+    const double front = bounds(scene).high.z + 1_mm;
+    for (Mesh& mesh : scene.meshes)
+        for (Vec3& position : mesh.positions) position.z -= front;
+    return std::make_shared<const ShadedScene>(shade_scene(scene, {.model = "vertex"}));
+}
+
 std::vector<Verb> renderings() {
-    static const auto scene =
-        std::make_shared<const ShadedScene>(shade_scene(make_scene("pumpkin", 16_mm), {.model = "vertex"}));
+    static const auto scene = pumpkin_behind();
     std::vector<Verb> all;
     for (const RendererInfo& renderer : renderers().rows())
         all.push_back({renderer.name, [name = renderer.name](const Progress& progress) {

@@ -18,7 +18,7 @@ namespace hogel::cli {
 using namespace literals;
 namespace {
 
-constexpr std::size_t max_count = std::size_t{1} << 24;  // more than this along one side is a typing error
+constexpr std::size_t max_count = std::size_t{1} << 24;  // a larger number along one side is treated as a typing error
 
 std::size_t parse_count(const std::string& text, const std::string& what, const char* hint) {
     const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
@@ -47,13 +47,13 @@ Counts parse_counts(const std::string& text, const std::string& what) {
     return {parse_count(text.substr(0, cross), what, hint), parse_count(text.substr(cross + 1), what, hint)};
 }
 
-// The part of "1,2,3mm" after its last number.
+// The unit of a list such as "1,2,3mm": the text after its last number.
 std::string unit_of(const std::string& last) {
     const std::size_t number = last.find_first_not_of("+-.0123456789");
     return number == std::string::npos ? "" : last.substr(number);
 }
 
-// A part with its own unit, or else with that of the last part.
+// A part of a list with its unit; if it has none, with that of the last part.
 std::string with_unit(const std::string& part, const std::string& unit) {
     return part.find_first_not_of("+-.0123456789") == std::string::npos ? part + unit : part;
 }
@@ -77,7 +77,7 @@ Vec3 parse_point(const std::string& text, const std::string& what) {
     return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
 }
 
-// A length as one types it: without the space that format_length puts before the unit.
+// A length as typed, without the space that format_length() puts before the unit.
 std::string typed(double metres) {
     std::string text = format_length(metres);
     std::erase(text, ' ');

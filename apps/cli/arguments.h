@@ -17,10 +17,10 @@ struct Angles {
     double across = 0, down = 0;
 };
 
-/// A number without a unit, or nothing where the text is no number.
+/// A number without a unit, or nothing if the text is not a number.
 std::optional<double> parse_number(const std::string& text);
 
-/// The channel of a picture that light of a wavelength belongs to: 0 red, 1 green, 2 blue.
+/// The channel of a picture for light of a wavelength: 0 red, 1 green, 2 blue.
 std::size_t colour_of(double wavelength);
 
 }  // namespace hogel::cli

@@ -21,7 +21,7 @@ Camera make_camera(const CameraOptions& options, double width, double height, do
     camera.pupil = options.f_number > 0 ? options.focal_length / options.f_number : options.pupil;
     if (camera.eye.z > 0 && !(options.gaze.z < camera.eye.z))
         throw Error(ErrorCode::usage, "--gaze: the eye looks at a point in front of it, not beside or behind it");
-    // Where the line of sight to that point meets the hologram plane is the middle of the picture.
+    // The middle of the picture is where the line of sight to that point meets the hologram plane.
     const Vec3 middle = camera.eye + camera.eye.z / (camera.eye.z - options.gaze.z) * (options.gaze - camera.eye);
     const double shown = options.angle_of_view > 0 ? 2 * camera.eye.z * std::tan(0.5 * options.angle_of_view) : width;
     const double pixel = shown / static_cast<double>(options.resolution.columns);

@@ -9,13 +9,13 @@
 
 namespace hogel::cli {
 
-/// Cameras as people describe them.
+/// The options that describe cameras.
 struct CameraOptions {
     Vec3 eye{0, 0, defaults.eye_distance}, gaze;
     double focus = 0;
     Angles focus_tilt;
     double pupil = defaults.pupil, f_number = 0, focal_length = defaults.focal_length;
-    double angle_of_view = 0;  ///< across; 0: what shows the hologram
+    double angle_of_view = 0;  ///< horizontal; 0: the angle that frames the hologram
     Counts resolution{defaults.resolution, 0};
 
     Vec3 last_eye;

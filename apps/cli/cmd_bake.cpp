@@ -31,6 +31,7 @@ int bake(const Options& options, const Session& session) {
     write_baked_scene(options.output, baked);
     session.say(fmt::format("{}: {} triangles, {}; render it with --as-is", options.output, triangle_count(baked),
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_file(session, options.output, {{"triangles", triangle_count(baked)}});
     return 0;
 }
 
@@ -48,6 +49,7 @@ void add_bake(Command& command, Session& session) {
     command.count("--bounces", options->bake.bounces, "How often light is reflected");
     command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
     command.length("--size", options->size, "Width of the hologram that the scene is fitted to");
+    add_json_flag(command, session);
     command.work([options, &session] { return bake(*options, session); });
 }
 

@@ -14,17 +14,15 @@ struct Options {
     std::optional<double> min_psnr, min_sqnr;
 };
 
-using Fields = std::span<const std::shared_ptr<const FieldSource>>;
-
 SampleComparison compare_samples(const Options& options, FileKind kind, const Session& session) {
     Stage stage(session, "comparing");
     if (kind == FileKind::light_field)
         return compare(open_light_field(options.a), open_light_field(options.b), stage.progress());
-    const HologramFile a = open_hologram(options.a), b = open_hologram(options.b);
-    return compare(Fields(a.fields), Fields(b.fields), stage.progress());
+    const Fields a = open_hologram(options.a), b = open_hologram(options.b);
+    return compare(a, b, stage.progress());
 }
 
-// Exit status 1 where a bound was given and is missed; a bound on what was not measured is a usage error.
+// Whether a bound was given and is missed (exit status 1). A bound on a value that was not measured is a usage error.
 bool misses(const Session& session, const char* name, std::optional<double> bound, std::optional<double> value) {
     if (!bound) return false;
     if (!value) throw Error(ErrorCode::usage, fmt::format("--min-{}: pictures have no {}; use --min-psnr", name, name));

@@ -57,13 +57,14 @@ int compress_file(Options options, const Session& session) {
     compression.with_depth = light_field.has_depth() && !options.no_depth;
     if (compression.depth_error > 0 && !compression.with_depth)
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
+    require_resources(plan_compression(light_field, compression), "compressing", options.output);
     Stage stage(session, "compressing");
     const CompressionResult result = compress(light_field, options.output, compression, stage.progress());
-    say_what_was_compressed(session, options.output, result);
+    report_compressed(session, options.output, result);
     return 0;
 }
 
-// What to give up: one of these.
+// The targets, which exclude each other.
 void add_target_options(Command& command, Options& options) {
     const Option sqnr = command.number(
         "--sqnr", options.sqnr, "DB", fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr));
@@ -103,7 +104,7 @@ void add_method_options(Command& command, Options& options) {
         .excludes(no_depth);
 }
 
-// Where error matters less to the eye.
+// Mappings that put errors where the eye is less sensitive.
 void add_mapping_options(Command& command, Options& options) {
     const Option tone =
         command.choice("--tone", options.tone, tones, "none|histogram",
@@ -134,6 +135,7 @@ void add_compress(Command& command, Session& session) {
     add_method_options(command, *options);
     add_mapping_options(command, *options);
     command.counts("--tile", options->tile, "Hogels across and down that are coded together; 0: as suits").no_default();
+    add_json_flag(command, session);
     command.work([options, &session] { return compress_file(*options, session); });
 }
 

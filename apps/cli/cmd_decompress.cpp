@@ -16,7 +16,7 @@ struct Options {
     std::size_t layers = 0;
 };
 
-// All faces tile by tile, for they may come from the same bytes, which are then decoded once.
+// Copies all faces together, tile by tile, because they may come from the same bytes, which are then decoded once.
 void copy_together(const LightField& light_field, const std::vector<std::unique_ptr<LightFieldSink>>& sinks,
                    const Progress& progress) {
     const std::span<const LightField::Source> faces = light_field.faces();
@@ -42,7 +42,7 @@ int decompress_file(const Options& options, const Session& session) {
     require_writable(options.output);
     const LightField light_field = open_stream(options.input, {.layers = options.layers});
     LightFieldFileOptions file;
-    // Who asked for exact samples shall not lose them here.
+    // Exact coders keep their precision: their samples are not rounded to half floats.
     const std::string coder = read_stream_info(options.input).method.coder;
     const bool exact = coder == "lossless" || coder == "bounded";
     file.type = options.single || (exact && !options.half) ? SampleType::single : SampleType::half;
@@ -56,6 +56,7 @@ int decompress_file(const Options& options, const Session& session) {
         copy_together(light_field, sinks, stage.progress());
     session.say(fmt::format("{}: {}", options.output,
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_samples(session, options.output);
     return 0;
 }
 
@@ -74,6 +75,7 @@ void add_decompress(Command& command, Session& session) {
     const Option single = command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
     command.flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
         .excludes(single);
+    add_json_flag(command, session);
     command.work([options, &session] { return decompress_file(*options, session); });
 }
 

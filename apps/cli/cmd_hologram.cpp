@@ -27,14 +27,15 @@ struct Options {
     }
 };
 
-void say_what_was_made(const Options& options, const std::vector<FieldGrid>& grids, const Session& session) {
+void report_hologram(const Options& options, const std::vector<FieldGrid>& grids, const Session& session) {
     session.say(fmt::format("{}: {}x{} samples at {}, {} wavelength{}, {}", options.output, grids[0].plane.width,
                             grids[0].plane.height, format_length(grids[0].plane.pitch_x), grids.size(),
                             grids.size() == 1 ? "" : "s",
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_samples(session, options.output, {{"wavelengths_m", wavelengths_of(grids)}});
 }
 
-// The field of a scene by a method that knows no light fields.
+// Computes the field of a scene by a method without a light field.
 int straight_from_scene(const Options& options, const SceneHologramMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
     if (options.render.fronts_only)
@@ -53,7 +54,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
                          wavelength});
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
     RenderOptions render = options.render;
-    render.cache_spacing = 0;  // in parts of a ray's width, and there are no rays
+    render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     const auto scene = light_scene(session, load_scene(session, options.input, render), render);
     const auto sinks = create_hologram(options.output, grids, options.file(session));
     SceneHologramOptions how;
@@ -66,7 +67,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
         how.channel = colour_of(grids[i].wavelength);
         copy(method.make(*scene, grids[i], how, stage.progress(i, grids.size())), *sinks[i]);
     }
-    say_what_was_made(options, grids, session);
+    report_hologram(options, grids, session);
     return 0;
 }
 
@@ -107,7 +108,7 @@ int hologram(Options options, const Session& session) {
     }
     std::vector<FieldGrid> grids;
     for (const auto& hologram : holograms) grids.push_back(hologram->grid());
-    say_what_was_made(options, grids, session);
+    report_hologram(options, grids, session);
     return 0;
 }
 
@@ -125,6 +126,7 @@ void add_hologram(Command& command, Session& session) {
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    add_json_flag(command, session);
     command.work([options, &session] { return hologram(*options, session); });
 }
 

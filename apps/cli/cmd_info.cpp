@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 
 #include "commands.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
 #include "hogel/scenes.h"
+#include "outputs.h"
 
 namespace hogel::cli {
 namespace {
@@ -65,31 +65,12 @@ FileSummary summarize_any(const std::string& path, const Progress& progress) {
                 fmt::format("{}: is neither a light field, a hologram, a picture nor a mesh", path));
 }
 
-// A fact that a file holds as text: true or false where it is one of these.
-ResultValue value_of(const std::string& text) {
-    if (text == "yes" || text == "no") return text == "yes";
-    return text;
-}
-
-ResultValue value_of(double number) {
-    constexpr double exact = 9007199254740992;  // 2⁵³: up to here a double holds every whole number
-    if (std::abs(number) <= exact && number == std::trunc(number)) return static_cast<std::int64_t>(number);
-    return number;
-}
-
 int info(const std::string& path, const Session& session) {
     const FileSummary summary = summarize_any(path, Progress(session.stop.get_token()));
-    Result result;
     std::string words;
-    for (const auto& [name, value] : summary.text) {
-        result.emplace_back(name, value_of(value));
-        words += fmt::format("{:<24} {}\n", name, value);
-    }
-    for (const auto& [name, value] : summary.numbers) {
-        result.emplace_back(name, value_of(value));
-        words += fmt::format("{:<24} {:.9g}\n", name, value);
-    }
-    session.result(result, words);
+    for (const auto& [name, value] : summary.text) words += fmt::format("{:<24} {}\n", name, value);
+    for (const auto& [name, value] : summary.numbers) words += fmt::format("{:<24} {:.9g}\n", name, value);
+    session.result(result_of(summary), words);
     return 0;
 }
 

@@ -23,7 +23,7 @@ struct Options {
     double eye_distance = defaults.eye_distance;
     double pupil = defaults.pupil;
     std::size_t resolution = defaults.resolution;
-    std::size_t looks = 0;  // none given: enough_looks
+    std::size_t looks = 0;  // 0: enough_looks()
     std::size_t pupil_samples = defaults.pupil_samples;
     bool store_hologram = false, force = false;
 };
@@ -33,14 +33,14 @@ struct Focus {
     double depth;
 };
 
-// A sixth of the scene's depth from its nearest point, and as much from its farthest.
+// Two focuses: a sixth of the scene's depth behind its nearest point, and as much in front of its farthest.
 std::array<Focus, 2> focuses(const Scene& scene, double eye_distance) {
     const Bounds box = bounds(scene);
     const double front = -box.high.z, back = -box.low.z, sixth = (back - front) / 6;
     return {Focus{"near", std::max(front + sixth, -0.5 * eye_distance)}, Focus{"far", back - sixth}};
 }
 
-// Left, high and right, as far from the middle as every hogel still sends rays to the whole lens.
+// Three eyes, left, high and right, as far from the axis as every hogel still sends rays to the whole lens.
 std::array<std::pair<std::string, Vec3>, 3> eyes(const Options& options, const LightFieldGrid& grid) {
     const double half_width = 0.5 * grid.pitch * static_cast<double>(std::max(grid.hogels_s, grid.hogels_t));
     const double margin = half_width + 0.5 * options.pupil, tangent = std::min(grid.half_u(), grid.half_v());
@@ -74,7 +74,7 @@ std::vector<PhotographPair> plan_photographs(const Options& options, const Scene
     return pairs;
 }
 
-// Runs a stage of the work, tells how long it took, and keeps the time for the report.
+// Runs a stage of the work, prints how long it took, and keeps the time for the report.
 template <class Work>
 void timed(const Session& session, Report& report, const std::string& name, Work work) {
     Stage stage(session, name);
@@ -94,12 +94,33 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
     }
 }
 
-// Says what the work will take, or that it would not fit.
+// Prints the resources that the work needs. Throws if they are not available.
 void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
                 const Session& session) {
     const Plan plan = plan_photographs(std::span(&grid, 1), request, cameras);
     require_resources(plan, "photographing the hologram");
     session.detail(fmt::format("photographs take {}; about {:.0f} s", format_bytes(plan.memory), plan.seconds));
+}
+
+// The most important facts of report.json.
+Result result_of(const Report& report, const std::string& folder, const Session& session) {
+    ResultList photographs;
+    for (const PhotographPair& pair : report.pairs)
+        photographs.push_back(Result{{"file", pair.wave_file + ".png"},
+                                     {"geometric_file", pair.geometric_file + ".png"},
+                                     {"psnr", pair.comparison.psnr},
+                                     {"ssim", pair.comparison.ssim}});
+    const Grid& picture = report.pairs.front().camera.picture;
+    return {{"folder", folder},
+            {"report", "report.html"},
+            {"triangles", report.triangles},
+            {"wavelengths_m", wavelengths_of(report.holograms)},
+            {"looks", report.looks},
+            {"width", picture.width},
+            {"height", picture.height},
+            {"exposure", report.exposure},
+            {"photographs", photographs},
+            {"seconds", session.seconds()}};
 }
 
 int make(const Options& options, const Session& session) {
@@ -130,7 +151,7 @@ int make(const Options& options, const Session& session) {
         const LightField rendered = render_light_field(session, scene, options.render);
         write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
     });
-    report.light_field_bytes = static_cast<double>(std::filesystem::file_size(light_field_file));
+    report.light_field_bytes = std::filesystem::file_size(light_field_file);
     const LightField light_field = open_light_field(light_field_file);
     const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
@@ -148,13 +169,14 @@ int make(const Options& options, const Session& session) {
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
     });
 
-    // One exposure for all, from the view from above.
+    // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
     for (PhotographPair& pair : report.pairs) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
     write_pictures(folder.path(), report);
     write_text(folder.path() / "report.json", report_json(report));
     write_text(folder.path() / "report.html", report_html(report));
     session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
+    session.result(result_of(report, options.output, session));
     return 0;
 }
 
@@ -183,6 +205,7 @@ void add_make(Command& command, Session& session) {
         .default_text(fmt::format("up to {}", defaults.looks));
     command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays");
     add_render_options(command, options->render);
+    add_json_flag(command, session);
     command.work([options, &session] { return make(*options, session); });
 }
 

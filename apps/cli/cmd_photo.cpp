@@ -29,7 +29,7 @@ struct Options {
 
     double film_distance = 0;
 
-    // The full camera may put beside the picture what does not fit into memory.
+    // Options of the full camera, whose scratch files are in the picture's folder.
     std::optional<PlaneWaveCameraOptions> full() const {
         if (camera != "full") return {};
         return PlaneWaveCameraOptions{
@@ -45,9 +45,7 @@ double parse_exposure(const std::string& text) {
     return *exposure;
 }
 
-using Fields = std::vector<std::shared_ptr<const FieldSource>>;
-
-// What the film shows of the light: its intensity, or its phase.
+// Photographs the intensity of the light or its phase.
 std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
                            const Options& options) {
     if (options.display != "phase") return photograph_colours(fields, cameras, options.full(), stage.progress());
@@ -61,21 +59,21 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
 }
 
 std::vector<Image> photographs_of_hologram(const Options& options, const Session& session) {
-    const HologramFile file = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
-                                          options.hologram.wavelengths);
-    if (file.fields.size() != 1 && file.fields.size() != 3)
+    const Fields fields = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
+                                      options.hologram.wavelengths);
+    if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
-                                                      options.input, file.fields.size()));
-    const Grid& plane = file.fields.front()->grid().plane;
+                                                      options.input, fields.size()));
+    const Grid& plane = fields.front()->grid().plane;
     const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
-    for (const auto& field : file.fields)
+    for (const auto& field : fields)
         for (const Camera& camera : cameras) require_light_towards(field->grid(), camera);
     Stage stage(session, "wave photograph");
-    std::vector<Image> pictures = develop(stage, file.fields, cameras, options);
+    std::vector<Image> pictures = develop(stage, fields, cameras, options);
     const auto black = [](const Image& picture) {
         return std::ranges::all_of(picture.pixels.elements(), [](float value) { return value == 0; });
     };
-    // Even a hologram's edge sends a little light everywhere: nothing at all comes from nothing.
+    // The edge of a hologram sends a little light everywhere, so completely black pictures mean an empty hologram.
     if (std::ranges::all_of(pictures, black))
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is empty; no light comes from it to the eye", options.input));
@@ -100,16 +98,10 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     return develop(stage, holograms, cameras, options);
 }
 
-int photo(const Options& options, const Session& session) {
-    const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
-    const bool foreign = is_external(options.input, options.field);
-    const InputKind kind = foreign ? InputKind::hologram : input_kind(options.input);
-    const bool movie = options.view.frames > 1;
-    movie ? require_movie(options.output) : require_picture_name(options.output);
-    require_writable(options.output);
+// Throws Error(usage) for options that exclude each other.
+void require_sense(const Options& options, InputKind kind, bool geometric) {
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
-    const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     if (geometric && options.camera != "narrow")
         throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
     if (options.film_distance != 0 && options.camera != "full")
@@ -117,29 +109,60 @@ int photo(const Options& options, const Session& session) {
     if (options.display == "phase" && (options.camera != "full" || options.film_distance != 0))
         throw Error(ErrorCode::usage,
                     "--display phase: is that of the full camera with a perfect lens; add --camera full");
-    std::vector<Image> pictures = kind == InputKind::hologram
-                                      ? photographs_of_hologram(options, session)
-                                      : photographs_of_light_field(options, session, kind, geometric);
-    // One exposure for all, so that a film does not flicker.
-    double exposure = given;
-    if (options.display == "log")
-        for (Image& picture : pictures) picture = logarithmic(picture);
-    if (options.display != "intensity") {
-        exposure = 1;
-    } else if (given == 0) {
-        exposure = automatic_exposure(pictures.front());
-        for (const Image& picture : pictures) exposure = std::min(exposure, automatic_exposure(picture));
-    }
+}
+
+// The factor of all pictures, the same so that a movie does not flicker.
+// @param given  0: automatic
+double exposure_of(const Options& options, double given, std::span<const Image> pictures) {
+    if (options.display != "intensity") return 1;
+    if (given > 0) return given;
+    double exposure = automatic_exposure(pictures.front());
+    for (const Image& picture : pictures) exposure = std::min(exposure, automatic_exposure(picture));
+    return exposure;
+}
+
+// Writes the pictures and reports them.
+void write_photographs(const Options& options, std::span<const Image> pictures, double exposure, bool geometric,
+                       const Session& session) {
     Metadata metadata = describe_run(session);
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
     const Image& first = pictures.front();
-    if (movie)
-        write_movie(options.output, pictures, exposure, options.view.frame_rate, metadata);
-    else
+    std::uintmax_t bytes = 0;
+    const bool movie = options.view.frames > 1;
+    if (movie) {
+        bytes = write_movie(options.output, pictures, exposure, options.view.frame_rate, metadata);
+    } else {
         write_image(options.output, first, exposure, metadata);
+        bytes = std::filesystem::file_size(options.output);
+    }
     session.say(fmt::format("{}: {}{}x{} pixels, exposure {:.6g}", options.output,
                             movie ? fmt::format("{} pictures of ", pictures.size()) : "", first.width(), first.height(),
                             exposure));
+    session.result({{"file", options.output},
+                    {"bytes", bytes},
+                    {"pictures", pictures.size()},
+                    {"width", first.width()},
+                    {"height", first.height()},
+                    {"channels", first.channels()},
+                    {"exposure", exposure},
+                    {"geometric", geometric},
+                    {"seconds", session.seconds()}});
+}
+
+int photo(const Options& options, const Session& session) {
+    const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
+    const bool foreign = is_external(options.input, options.field);
+    const InputKind kind = foreign ? InputKind::hologram : input_kind(options.input);
+    options.view.frames > 1 ? require_movie(options.output) : require_picture_name(options.output);
+    require_writable(options.output);
+    const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
+    require_sense(options, kind, geometric);
+    std::vector<Image> pictures = kind == InputKind::hologram
+                                      ? photographs_of_hologram(options, session)
+                                      : photographs_of_light_field(options, session, kind, geometric);
+    if (options.display == "log")
+        for (Image& picture : pictures) picture = logarithmic(picture);
+    write_photographs(options, pictures, exposure_of(options, given, pictures), geometric, session);
     return 0;
 }
 
@@ -182,6 +205,7 @@ void add_photo(Command& command, Session& session) {
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
     add_field_options(command, options->field);
+    add_json_flag(command, session);
     command.work([options, &session] { return photo(*options, session); });
 }
 

@@ -26,10 +26,19 @@ int print(const Options& options, const Session& session) {
                                             {.rows = options.strips,
                                              .serpentine = options.order == "serpentine",
                                              .exposure = options.exposure,
-                                             .provenance = describe_run(session)},
+                                             .metadata = describe_run(session)},
                                             stage.progress());
     session.say(fmt::format("{}: {} pictures, {} to {}", options.output, names.size(),
                             names.front().filename().string(), names.back().filename().string()));
+    std::uintmax_t bytes = 0;
+    for (const auto& name : names) bytes += std::filesystem::file_size(name);
+    session.result({{"folder", options.output},
+                    {"bytes", bytes},
+                    {"pictures", names.size()},
+                    {"first", names.front().filename().string()},
+                    {"last", names.back().filename().string()},
+                    {"exposure", options.exposure},
+                    {"seconds", session.seconds()}});
     return 0;
 }
 
@@ -49,6 +58,7 @@ void add_print(Command& command, Session& session) {
                    "serpentine: every second row from the right\nrows: all rows from the left");
     command.number("--exposure", options->exposure, "NUMBER",
                    "What linear values are multiplied by, the same in all pictures");
+    add_json_flag(command, session);
     command.work([options, &session] { return print(*options, session); });
 }
 

@@ -33,13 +33,13 @@ OutputKind output_kind(const std::filesystem::path& path) {
     return OutputKind::picture;
 }
 
-void require_one_wavelength(const HologramFile& file, const std::string& what) {
-    if (file.fields.size() != 1)
+void require_one_wavelength(const Fields& fields, const std::string& what) {
+    if (fields.size() != 1)
         throw Error(ErrorCode::usage,
-                    fmt::format("{}: is made of one wavelength, but the hologram has {}", what, file.fields.size()));
+                    fmt::format("{}: is made of one wavelength, but the hologram has {}", what, fields.size()));
 }
 
-// What one colour's picture shows.
+// The picture of one colour.
 Image shown(const Field& field, const std::string& display) {
     if (display == "phase") return phases(field.samples);
     Image picture(field.samples.extent(1), field.samples.extent(0), 1);
@@ -50,24 +50,39 @@ Image shown(const Field& field, const std::string& display) {
     return picture;
 }
 
+// @param picture  the facts of the picture, if the output is one
+void report(const Options& options, OutputKind kind, std::span<const FieldGrid> grids, const Result& picture,
+            const Session& session) {
+    Result result{{"wavelengths_m", wavelengths_of(grids)}, {"distance_m", options.distance}};
+    if (kind == OutputKind::hologram) return report_samples(session, options.output, result);
+    const Grid& plane = grids.front().plane;
+    if (kind == OutputKind::array)
+        result.insert(result.end(), {{"samples_x", plane.width}, {"samples_y", plane.height}});
+    result.insert(result.end(), {{"pitch_x_m", plane.pitch_x}, {"pitch_y_m", plane.pitch_y}});
+    result.insert(result.end(), picture.begin(), picture.end());
+    report_file(session, options.output, result);
+}
+
 int propagate_fields(const Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output);
     require_writable(options.output);
-    const HologramFile file =
+    const Fields fields =
         open_fields(options.input, options.field, *session.command, options.pitch, options.wavelengths);
-    if (kind == OutputKind::array) require_one_wavelength(file, options.output);
-    if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(file, "--display phase");
-    if (kind == OutputKind::picture && file.fields.size() != 1 && file.fields.size() != 3)
-        throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a picture takes one or three",
-                                                      options.input, file.fields.size()));
-    // What does not fit into memory lies beside the output.
+    if (kind == OutputKind::array) require_one_wavelength(fields, options.output);
+    if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(fields, "--display phase");
+    if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: has {} wavelengths; a picture takes one or three", options.input, fields.size()));
+    // Scratch files are in the output's folder.
     const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
-    Metadata metadata = describe_run(session);
+    Metadata metadata = with_history(describe_run(session), to_metadata(fields.front()->provenance()));
+    Result exposed;
     std::vector<FieldGrid> grids;
-    for (const auto& field : file.fields) grids.push_back(field->grid());
+    for (const auto& field : fields) grids.push_back(field->grid());
+    require_resources(plan_propagation(grids, {.scratch = scratch}), "propagation", options.output);
     Stage stage(session, "propagation");
     const auto colour = [&](std::size_t c, FieldSink& sink) {
-        hogel::propagate(*file.fields[c], options.distance, sink, {0, scratch}, stage.progress(c, grids.size()));
+        hogel::propagate(*fields[c], options.distance, sink, {0, scratch}, stage.progress(c, grids.size()));
     };
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::hologram) {
@@ -90,10 +105,12 @@ int propagate_fields(const Options& options, const Session& session) {
         const bool grey = options.display == "log" || options.display == "phase";
         const double exposure = grey ? 1 : automatic_exposure(picture);
         metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
+        exposed = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
         write_image(options.output, picture, exposure, metadata);
     }
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
                             format_length(plane.pitch_x), format_length(options.distance)));
+    report(options, kind, grids, exposed, session);
     return 0;
 }
 
@@ -116,6 +133,7 @@ void add_propagate(Command& command, Session& session) {
     command.length("--pitch", options->pitch, "Of another program's samples");
     command.wavelengths(options->wavelengths);
     add_field_options(command, options->field);
+    add_json_flag(command, session);
     command.work([options, &session] { return propagate_fields(*options, session); });
 }
 

@@ -18,12 +18,12 @@ struct Options {
     LightFieldFileOptions file;
     bool single = false, resume = false;
     std::optional<double> sqnr;  // of a compressed light field
-    Counts region;               // none: what the renderer prefers
+    Counts region;               // empty: the size that the renderer prefers
 
     bool compressed() const { return std::filesystem::path(output).extension() == ".hgl"; }
 };
 
-// A renderer that is given regions of another size than it prefers.
+// Wraps a renderer to read regions of a size other than it prefers.
 class InRegions final : public LightFieldSource {
   public:
     InRegions(LightField::Source source, const Counts& region) : source_(std::move(source)) {
@@ -41,7 +41,7 @@ class InRegions final : public LightFieldSource {
     HogelRange size_;
 };
 
-// Says what regions will take before they do, or that they would not fit.
+// Prints the memory that regions need. Throws if it is not available.
 void state_plan(const Options& options, const LightField& rendered, std::size_t triangles, const Session& session) {
     const Plan plan = plan_light_field(rendered, options.render.request(), triangles, options.file);
     const HogelRange region = rendered.front().preferred_tile();
@@ -54,9 +54,9 @@ void state_plan(const Options& options, const LightField& rendered, std::size_t 
         session.detail(text);
 }
 
-// As it is rendered, with no file between.
+// Compresses the light field while it is rendered, without an intermediate file.
 int write_compressed(const Options& options, const LightField& rendered, const Session& session) {
-    // It is read several times, in tiles of the coder's own.
+    // It is read several times, in the coder's tiles.
     const LightField light_field = prepare_for_reading(session, rendered, 2, options.file.with_depth);
     CompressionOptions compression;
     compression.target = Sqnr{options.sqnr.value_or(defaults.sqnr)};
@@ -64,7 +64,7 @@ int write_compressed(const Options& options, const LightField& rendered, const S
     compression.metadata = describe_run(session);
     Stage stage(session, "compressing");
     const CompressionResult result = compress(light_field, options.output, compression, stage.progress());
-    say_what_was_compressed(session, options.output, result);
+    report_compressed(session, options.output, result);
     return 0;
 }
 
@@ -83,6 +83,7 @@ int write_hdf5(const Options& options, const LightField& light_field, const std:
                             : faces == 3 ? " and two sides"
                                          : " and four sides",
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_samples(session, options.output);
     return 0;
 }
 
@@ -98,7 +99,7 @@ int render(Options options, const Session& session) {
             fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
     require_writable(options.output);
     options.file.type = options.single ? SampleType::single : SampleType::half;
-    static_cast<void>(options.render.request().grids());  // complains before there is a scene
+    static_cast<void>(options.render.request().grids());  // throws before a scene is made
     const Scene scene = load_scene(session, options.scene, options.render);
     std::optional<std::string> resume;
     if (options.resume) resume = describe_input(options.scene, scene);
@@ -134,6 +135,7 @@ void add_render(Command& command, Session& session) {
         .no_default();
     add_hemicube_option(command, options->render);
     add_frequencies_option(command, options->render);
+    add_json_flag(command, session);
     command.work([options, &session] { return render(*options, session); });
 }
 

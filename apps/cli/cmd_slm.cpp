@@ -33,6 +33,15 @@ Modulator modulator_of(const Options& options) {
             static_cast<unsigned>(options.levels)};
 }
 
+// The share of light that a pattern uses, and its direction.
+Result result_of(const Pattern& pattern, double wavelength, Encoding encoding) {
+    Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}};
+    if (is_phase_only(encoding)) result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);
+    if (pattern.reference_angle != 0)
+        result.emplace_back("reference_angle_deg", pattern.reference_angle * 180 / std::numbers::pi);
+    return result;
+}
+
 int slm(const Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
     pattern_options.encoding = encodings().find(options.encoding).encoding;
@@ -42,8 +51,8 @@ int slm(const Options& options, const Session& session) {
     require_writable(options.output);
     if (input_kind(options.input) != InputKind::hologram)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
-    const HologramFile file = open_hologram(options.input);
-    const std::size_t colours = file.fields.size();
+    const Fields fields = open_hologram(options.input);
+    const std::size_t colours = fields.size();
     if (colours != 1 && colours != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
@@ -52,23 +61,32 @@ int slm(const Options& options, const Session& session) {
     Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
     Metadata metadata = describe_run(session);
+    ResultList patterns;
     for (std::size_t c = 0; c < colours; ++c) {
-        const Pattern pattern = encode_pattern(*file.fields[c], pattern_options, stage.progress(c, colours));
+        const Pattern pattern = encode_pattern(*fields[c], pattern_options, stage.progress(c, colours));
         for (std::size_t i = 0; i < pattern.levels.size(); ++i)
             levels.data()[i * colours + c] = pattern.levels.data()[i];
-        const std::string name = format_length(file.fields[c]->grid().wavelength);
+        const std::string name = format_length(fields[c]->grid().wavelength);
         std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
         if (encodings().find(options.encoding).phase_only)
             line += fmt::format(", of its light field {:.2f} %", 100 * pattern.light_field_efficiency);
         if (pattern.reference_angle != 0)
             line += fmt::format(", the hologram's order at {:.3f} degrees",
-                                pattern.reference_angle * 180 / std::numbers::pi);
+                                -pattern.reference_angle * 180 / std::numbers::pi);
         session.say(line);
         metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
+        patterns.push_back(result_of(pattern, fields[c]->grid().wavelength, pattern_options.encoding));
     }
-    write_raw_pixels(options.output, levels, metadata);
+    write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
                             format_length(modulator.pitch)));
+    report_file(session, options.output,
+                {{"width", modulator.width},
+                 {"height", modulator.height},
+                 {"pixel_pitch_m", modulator.pitch},
+                 {"levels", modulator.levels},
+                 {"encoding", options.encoding},
+                 {"patterns", patterns}});
     return 0;
 }
 
@@ -109,6 +127,7 @@ void add_slm(Command& command, Session& session) {
     command.counts("--pixels", options->pixels, "Any other: pixels across and down");
     command.length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels");
     command.count("--levels", options->levels, "Levels of its pixels");
+    add_json_flag(command, session);
     command.work([options, &session] { return slm(*options, session); });
 }
 

@@ -12,7 +12,7 @@
 namespace hogel::cli {
 
 Option Option::required() const {
-    option_->required()->default_str("");  // a default would never be taken
+    option_->required()->default_str("");  // the help shows no default, which would never be used
     return *this;
 }
 
@@ -163,7 +163,7 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
         words.resize(std::min<std::size_t>(words.size(), 1));
         words.emplace_back("--help");
     }
-    std::ranges::reverse(words);  // CLI11 takes them from the end
+    std::ranges::reverse(words);  // CLI11 expects them in reverse order
     try {
         impl_->app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {

@@ -24,24 +24,24 @@ namespace hogel::cli {
 struct Session;
 class Command;
 
-/// An option that was declared, to say more about it. Copies speak of the same option.
+/// A handle of a declared option, to set its properties. Copies refer to the same option.
 class Option {
   public:
     Option(Command& command, CLI::Option* option) : command_(&command), option_(option) {}
 
     Option required() const;
-    /// The option makes no sense together with another, which was declared before.
+    /// The option must not be given together with another, which was declared before.
     Option excludes(const Option& other) const;
     Option excludes(const std::string& name) const;
-    /// The option makes sense only together with another.
+    /// The option may only be given together with another.
     Option needs(const Option& other) const;
-    /// What the help shows as the default instead of the variable's value; an empty text shows none.
+    /// The text that the help shows as the default instead of the variable's value; an empty text shows none.
     Option default_text(const std::string& text) const;
     Option no_default() const { return default_text(""); }
-    /// Numbers outside are refused.
+    /// Numbers outside of this range are refused.
     Option range(double low, double high) const;
     Option positive() const;
-    /// A variable that becomes true where the option is given.
+    /// A variable that becomes true if the option is given.
     Option sets(bool& given) const;
 
   private:
@@ -49,9 +49,9 @@ class Option {
     CLI::Option* option_;
 };
 
-/// One command of the program: its options and its work. A variable that an option fills has to outlive the command;
-/// the value that it has when the option is declared is the default, which the help shows. Names are written
-/// "--fov" or "-o,--output". A value that makes no sense throws Error(usage), which names the option.
+/// One command of the program: its options and its work. A variable that an option fills must outlive the command; its
+/// value when the option is declared is the default, which the help shows. Names are written "--fov" or "-o,--output".
+/// An invalid value throws Error(usage), which names the option.
 class Command {
   public:
     explicit Command(CLI::App& app);
@@ -70,14 +70,14 @@ class Command {
     static constexpr const char* default_group = "Options";
     static constexpr const char* last_group = "General";  ///< of the options that all commands share
 
-    /// An argument without a name, which has to be given.
+    /// A required argument without a name.
     Option positional(const std::string& name, std::string& value, const std::string& type, const std::string& help);
     Option text(const std::string& name, std::string& value, const std::string& type, const std::string& help);
     Option number(const std::string& name, double& value, const std::string& type, const std::string& help);
     Option number(const std::string& name, std::optional<double>& value, const std::string& type,
                   const std::string& help);
     Option flag(const std::string& name, bool& value, const std::string& help);
-    /// A flag that changes nothing: it names the default.
+    /// A flag without effect, which names the default.
     Option flag(const std::string& name, const std::string& help);
     /// One of several words, such as the names() of a table.
     Option choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
@@ -103,12 +103,12 @@ class Command {
     /// Whether an option ("--pitch") is on the command line.
     bool given(const std::string& name) const;
 
-    /// Every option, without dashes, and its value as text: as it was typed, or the default; "yes" or "no" of a flag.
+    /// Every option, without dashes, and its value as text, as typed or the default; "yes" or "no" for a flag.
     Metadata values() const;
 
   private:
     friend class Option;
-    /// Reads the text of an option; `name` is how messages call it.
+    /// Reads the text of an option; `name` is its name in messages.
     using Read = std::function<void(const std::string& text, const std::string& name)>;
     Option read_option(const std::string& name, const std::string& type, const std::string& shown,
                        const std::string& help, Read read);
@@ -135,8 +135,8 @@ class CommandLine {
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
 
-    /// Reads the arguments of main() into the variables of the options. Returns the command that was chosen, or null
-    /// where help or the version was asked for, which then is on the standard output. Throws Error(usage).
+    /// Reads the arguments of main() into the variables of the options. Returns the chosen command, or null after
+    /// printing help or the version on the standard output. Throws Error(usage).
     const Command* parse(int argc, const char* const* argv);
 
   private:

@@ -23,8 +23,8 @@ bool is_external(const std::string& name, const FieldOptions& options) {
     return (!options.values.empty() || !options.imaginary.empty()) && file_kind(name) == FileKind::picture;
 }
 
-HologramFile open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
-                         const std::vector<double>& wavelengths) {
+Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
+                   const std::vector<double>& wavelengths) {
     const bool pitch_given = command.given("--pitch"), wavelength_given = command.given("--wavelength");
     if (!is_external(name, options)) {
         if (pitch_given || wavelength_given)
@@ -44,9 +44,9 @@ HologramFile open_fields(const std::string& name, const FieldOptions& options, c
     what.imaginary = options.imaginary;
     what.variable = options.variable;
     what.conjugate = options.conjugate;
-    HologramFile file;
-    file.fields.push_back(open_external_field(name, what));
-    return file;
+    Fields fields;
+    fields.push_back(open_external_field(name, what));
+    return fields;
 }
 
 }  // namespace hogel::cli

@@ -7,19 +7,19 @@
 
 namespace hogel::cli {
 
-/// What the user says of a field that another program wrote.
+/// Options that describe a field written by another program.
 struct FieldOptions {
     std::string values, imaginary, variable;
     bool conjugate = false;
 };
 void add_field_options(Command& command, FieldOptions& options);
 
-/// Whether a name is that of another program's field: an array, or a picture that was said to be one.
+/// Whether a name is that of another program's field: an array, or a picture that the options declare as one.
 bool is_external(const std::string& name, const FieldOptions& options);
 
-/// A hologram, or another program's field with the --pitch and the one --wavelength that `command` was given. Throws
-/// Error(usage) where they are missing, or given for a hologram, which has its own.
-HologramFile open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
-                         const std::vector<double>& wavelengths);
+/// Opens a hologram, or another program's field with the --pitch and the single --wavelength given to `command`. Throws
+/// Error(usage) if they are missing, or if they are given for a hologram, which has its own.
+Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
+                   const std::vector<double>& wavelengths);
 
 }  // namespace hogel::cli

@@ -19,12 +19,12 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
-// The dashes that an option is written with, and its name: "-o" or "--output".
+// The name of an option with its dashes: "-o" or "--output".
 std::string written_name(const CLI::Option& option) {
     return option.get_snames().empty() ? "--" + option.get_lnames().front() : "-" + option.get_snames().front();
 }
 
-// A mistyped option "--hogel" or "--hogel=4x4", in words.
+// The message for an unknown option such as "--hogel" or "--hogel=4x4".
 std::string explain_unknown_option(const CLI::App& app, const std::string& word) {
     const std::string option = word.substr(0, word.find('='));
     std::vector<std::string> known;
@@ -82,7 +82,7 @@ std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
     const std::string shown = option->get_default_str();
     std::string words = option->get_description();
     if (shown.empty()) return words;
-    // The default belongs to the first line, what follows explains the choices.
+    // The default is appended to the first line; the following lines explain the choices.
     const std::size_t line = std::min(words.find('\n'), words.size());
     return fmt::format("{} [{}]{}", words.substr(0, line), shown, words.substr(line));
 }

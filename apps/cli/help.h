@@ -6,8 +6,8 @@
 
 namespace hogel::cli {
 
-/// How --help looks: the usage on one line as it would be typed, groups of options with what all commands share at the
-/// end, and defaults in brackets after the words.
+/// The layout of --help: the usage on one line, groups of options with those shared by all commands last, and defaults
+/// in brackets after the description.
 class HelpFormatter final : public CLI::Formatter {
   public:
     HelpFormatter() { column_width(24); }
@@ -18,9 +18,9 @@ class HelpFormatter final : public CLI::Formatter {
     std::string make_option_desc(const CLI::Option* option) const override;
 };
 
-/// What is wrong with a command line, in one line, and where to read on.
+/// A one-line message on what is wrong with a command line, with a reference to the help.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
-/// There is no such command: which one may have been meant, and which ones exist.
+/// The message for an unknown command, with the nearest command and all that exist.
 std::string explain_unknown_command(const CLI::App& app, const std::string& word);
 
 }  // namespace hogel::cli

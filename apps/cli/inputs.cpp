@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <variant>
 
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
@@ -15,32 +16,25 @@
 namespace hogel::cli {
 namespace {
 
-// What the user may call a method that makes a hologram of a light field, what lobes average, and phases.
-const std::vector<std::string> method_names{"fourier", "basis", "olas"};
+// The names of averages of lobes, and of phases.
 const std::vector<std::string> average_names{"radiance", "amplitude"};
-const std::vector<std::string> phase_names{"random", "fixed", "designed", "phase-added", "phase-added-exact"};
+const std::vector<std::string> phase_names{"random", "fixed", "designed"};
 
 constexpr const char* light_field_group = "Light field of a scene";
 
 void add_hologram_options(Command& command, HologramChoices& options, const std::vector<std::string>& names,
-                          const std::string& method_help) {
+                          const std::string& help) {
     command.group("Hologram");
     command.wavelengths(options.wavelengths);
     command.length("--pitch", options.pitch, "Distance of samples, rounded to divide a hogel");
     command.length("--line-pitch", options.lines,
-                   "Horizontal parallax only, in lines this far apart; for light fields of Nx1 directions");
-    command.choice("--method", options.method, names, "NAME",
-                   "fourier: one transform a hogel\n"
-                   "basis: a sum of basis fringes a hogel\n"
-                   "olas: overlapping windows, for hogels of a few samples; needs depth" +
-                       method_help);
+                   "Distance of the lines of --method lines (default: as far apart as samples)");
+    command.choice("--method", options.method, names, "NAME", help);
     command.choice("--phase", options.phase, phase_names, "NAME",
                    "Phases of each hogel's directions\n"
                    "random: independent everywhere (default)\n"
                    "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
-                   "designed: the same in all hogels, for a fringe of flat modulus\n"
-                   "phase-added: of spherical waves from what rays meet; needs depth\n"
-                   "phase-added-exact: the same, each ray with its own frequency");
+                   "designed: the same in all hogels, for a fringe of flat modulus");
     command.choice("--lobes", options.average, average_names, "radiance|amplitude",
                    "What a hogel's lobes take from the directions that they light: their mean radiance, or "
                    "(always with basis) mean amplitude");
@@ -54,6 +48,60 @@ void add_hologram_options(Command& command, HologramChoices& options, const std:
         .range(0, 1);
 }
 
+// The methods of the table, with a line of help each.
+std::string help_of_methods() {
+    std::string help = "How a light field becomes fringes";
+    for (const HologramMethodInfo& method : hologram_methods().rows())
+        help += fmt::format("\n{}: {}{}", method.name, method.text, method.needs_depth ? "; needs depth" : "");
+    return help;
+}
+
+// Gives a method the options of the command line; refuses those that it does not have.
+struct Adjust {
+    const HologramChoices& choices;
+
+    void operator()(Fourier& method) const {
+        method.phases = phases(Phases::random);
+        method.average = average();
+    }
+    void operator()(Lines& method) const {
+        method.line_pitch = choices.lines;
+        method.phases = phases(Phases::random);
+        method.average = average();
+    }
+    void operator()(Basis& method) const {
+        const Phases chosen = phases(Phases::fixed);
+        if (chosen == Phases::random)
+            refuse("basis fringes have the same phases in all hogels; expected fixed or designed");
+        method.phases = chosen == Phases::designed ? SharedPhases::designed : SharedPhases::fixed;
+        method.transform = choices.basis.empty() ? std::string(defaults.basis) : choices.basis;
+        method.tolerance = choices.tolerance;
+    }
+    void operator()(PhaseAdded&) const {
+        if (!choices.phase.empty()) refuse("is not for --method phase-added, whose phases are those of the points");
+    }
+    void operator()(OverlapAdd& method) const {
+        const Phases chosen = phases(Phases::random);
+        if (chosen == Phases::designed) refuse("is not for --method olas; expected random or fixed");
+        method.phases = chosen == Phases::fixed ? PointPhases::fixed : PointPhases::random;
+    }
+    void operator()(OwnMethod&) const {}
+
+  private:
+    Phases phases(Phases otherwise) const {
+        return choices.phase == "random"     ? Phases::random
+               : choices.phase == "fixed"    ? Phases::fixed
+               : choices.phase == "designed" ? Phases::designed
+                                             : otherwise;
+    }
+    LobeAverage average() const {
+        return choices.average == "amplitude" ? LobeAverage::amplitude : LobeAverage::radiance;
+    }
+    void refuse(const char* expected) const {
+        throw Error(ErrorCode::usage, fmt::format("--phase {}: {}", choices.phase, expected));
+    }
+};
+
 }  // namespace
 
 LightFieldGrid RenderOptions::grid() const {
@@ -66,7 +114,7 @@ LightFieldGrid RenderOptions::grid() const {
     grid.directions_v = directions.rows;
     grid.view = hogel::field_of_view(field_of_view.across, field_of_view.down, toward.across, toward.down);
     if (frequencies > 0) {
-        // As many frequencies j/d as the field of view holds.
+        // As many frequencies j/d as fit into the field of view.
         const double step = frequencies / grid.pitch;
         const auto reach = [&](double angle) { return std::floor(std::sin(angle / 2) / step + 1e-9); };
         const double across = 2 * reach(field_of_view.across) + 1, down = 2 * reach(field_of_view.down) + 1;
@@ -94,35 +142,11 @@ LightFieldRequest RenderOptions::request() const {
 }
 
 HologramMethod HologramChoices::hologram_method() const {
-    const auto refuse = [&](const char* expected) {
-        throw Error(ErrorCode::usage, fmt::format("--phase {}: {}", phase, expected));
-    };
-    if (phase.starts_with("phase-added")) {
-        if (method != "fourier") refuse("belongs to --method fourier, with one plane wave a ray");
-        if (lines > 0) refuse("is not for --line-pitch; expected random, fixed or designed");
-        return PhaseAdded{phase == "phase-added-exact"};
-    }
-    if (lines > 0 && method != "fourier")
-        throw Error(ErrorCode::usage, fmt::format("--line-pitch: belongs to --method fourier, not {}", method));
-    const Phases phases = phase == "random"     ? Phases::random
-                          : phase == "fixed"    ? Phases::fixed
-                          : phase == "designed" ? Phases::designed
-                          : method == "basis"   ? Phases::fixed
-                                                : Phases::random;
-    const LobeAverage lobes = average == "amplitude" ? LobeAverage::amplitude : LobeAverage::radiance;
-    if (method == "basis") {
-        if (phases == Phases::random)
-            refuse("basis fringes have the same phases in all hogels; expected fixed or designed");
-        return Basis{.transform = basis.empty() ? std::string(defaults.basis) : basis,
-                     .tolerance = tolerance,
-                     .phases = phases == Phases::designed ? SharedPhases::designed : SharedPhases::fixed};
-    }
-    if (method == "olas") {
-        if (phases == Phases::designed) refuse("is not for --method olas; expected random or fixed");
-        return OverlapAdd{phases == Phases::fixed ? PointPhases::fixed : PointPhases::random};
-    }
-    if (lines > 0) return Lines{.line_pitch = lines, .phases = phases, .average = lobes};
-    return Fourier{.phases = phases, .average = lobes};
+    HologramMethod chosen = hologram_methods().find(method).method;
+    if (lines > 0 && !std::holds_alternative<Lines>(chosen))
+        throw Error(ErrorCode::usage, fmt::format("--line-pitch: belongs to --method lines, not {}", method));
+    std::visit(Adjust{*this}, chosen);
+    return chosen;
 }
 
 HologramRequest HologramChoices::request(const Session& session, std::size_t looks) const {
@@ -195,12 +219,12 @@ void add_frequencies_option(Command& command, RenderOptions& options) {
 }
 
 void add_hologram_options(Command& command, HologramChoices& options) {
-    add_hologram_options(command, options, method_names, "");
+    add_hologram_options(command, options, hologram_methods().names(), help_of_methods());
 }
 
 void add_scene_hologram_options(Command& command, HologramChoices& options) {
-    std::vector<std::string> names = method_names;
-    std::string help = "\nWithout a light field, from a scene:";
+    std::vector<std::string> names = hologram_methods().names();
+    std::string help = help_of_methods() + "\nWithout a light field, from a scene:";
     for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
         names.emplace_back(method.name);
         help += fmt::format("\n{}: {}", method.name, method.text);

@@ -13,7 +13,7 @@
 
 namespace hogel::cli {
 
-/// How a scene becomes a light field.
+/// The options of rendering a scene.
 struct RenderOptions {
     std::string algorithm{defaults.renderer};
     std::string shading{defaults.shading};
@@ -21,57 +21,57 @@ struct RenderOptions {
     double cache_spacing = defaults.cache_spacing;
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
-    Counts samples{1, 1};  ///< of a ray: along a hogel, along a direction's cell
+    Counts samples{1, 1};  ///< per ray: along a hogel's side, along a side of a direction's cell
     double size = defaults.size;
     Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
     Angles toward;
     bool hemicube = false;
-    double frequencies = 0;  ///< wavelength on whose frequency grid the directions lie, metres; 0: in perspective
+    double frequencies = 0;  ///< wavelength whose frequency grid gives the directions, metres; 0: perspective
     bool as_is = false;
     bool fronts_only = false;  ///< whether back faces are culled
     double front = defaults.front;
 
-    /// How the front is sampled. Throws Error(usage).
+    /// The grid of the front. Throws Error(usage).
     LightFieldGrid grid() const;
     LightFieldRequest request() const;
 };
 void add_render_options(Command& command, RenderOptions& options);
-/// --hemicube, for commands that make use of all faces.
+/// --hemicube, for commands that use all faces.
 void add_hemicube_option(Command& command, RenderOptions& options);
 /// --frequencies, for the command that makes light fields.
 void add_frequencies_option(Command& command, RenderOptions& options);
 
-/// How a light field becomes a hologram.
+/// The options of a hologram of a light field.
 struct HologramChoices {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
-    std::string method = "fourier";
-    std::string phase;  ///< empty: what suits the method
+    std::string method = "fourier";  ///< a row of hologram_methods()
+    std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
-    std::string basis;  ///< empty: the one that the light field's coefficients are of, or else cdf97
+    std::string basis;  ///< empty: that of the light field's coefficients, or else cdf97
     double tolerance = 0;
     double spacing = defaults.spacing;
     std::size_t planes = defaults.planes;
-    double lines = 0;  ///< distance of lines with horizontal parallax only, metres; 0: both parallaxes
+    double lines = 0;  ///< distance of the lines of the method lines, metres; 0: that of samples
 
     HologramMethod hologram_method() const;
     HologramRequest request(const Session& session, std::size_t looks) const;
 };
 void add_hologram_options(Command& command, HologramChoices& options);
-/// These, and more for methods that make the hologram of a scene without a light field.
+/// As add_hologram_options(), and those of methods that compute the hologram of a scene without a light field.
 void add_scene_hologram_options(Command& command, HologramChoices& options);
 
-/// A built-in scene as big as the hologram, or a mesh file fitted to it (or as it is), with lights.
+/// A built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
 
-/// The scene shaded, with words about what that takes.
+/// Shades the scene and prints the resources that this takes.
 std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
                                                const RenderOptions& options);
 
-/// The light field of a scene, rendered where it is read.
+/// The light field of a scene, rendered when it is read.
 LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options);
 
-/// The light field that a name stands for: the file's, or the scene's, rendered where it is read.
+/// The light field of a file, or of a scene, which is rendered when it is read.
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options);
 
 /// See prepare_for_reading() in hogel/pipeline.h.

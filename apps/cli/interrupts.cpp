@@ -41,7 +41,7 @@ Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) 
     sigemptyset(&impl_->signals);
     for (const int signal : {SIGINT, SIGTERM}) {
         sigaddset(&impl_->signals, signal);
-        // A shell starts what runs in the background with SIGINT ignored, and an ignored signal need not be delivered.
+        // Shells start background programs with SIGINT ignored, and ignored signals may not be delivered to sigwait().
         ::signal(signal, SIG_DFL);
     }
     pthread_sigmask(SIG_BLOCK, &impl_->signals, nullptr);
@@ -50,7 +50,7 @@ Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) 
 
 Interrupts::~Interrupts() {
     impl_->ended = true;
-    pthread_kill(impl_->watcher.native_handle(), SIGTERM);  // wakes it
+    pthread_kill(impl_->watcher.native_handle(), SIGTERM);  // wakes the watcher
     impl_->watcher.join();
 }
 

@@ -6,11 +6,11 @@
 
 namespace hogel::cli {
 
-/// Ctrl-C and SIGTERM ask the work to stop. A second one that comes more than a second later ends the program at once;
-/// wrappers such as timeout(1) send the first one twice, to the program and to its group.
+/// Ctrl-C and SIGTERM request the work to stop. A second signal more than a second later ends the program at once; the
+/// delay is needed because wrappers such as timeout(1) send the first signal twice, to the program and to its group.
 ///
-/// The signals are blocked in the thread that creates this object, and so in all threads that are started afterwards;
-/// a thread of the object's own waits for them. To be created before any other thread exists.
+/// The signals are blocked in the thread that creates this object, and so in all threads started later; a separate
+/// thread waits for them. Must be created before any other thread.
 class Interrupts {
   public:
     explicit Interrupts(std::stop_source stop);
@@ -18,7 +18,7 @@ class Interrupts {
     Interrupts(const Interrupts&) = delete;
     Interrupts& operator=(const Interrupts&) = delete;
 
-    /// The signal that came first, or 0.
+    /// The first signal that was received, or 0.
     int signal() const;
 
   private:

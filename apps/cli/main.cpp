@@ -26,8 +26,8 @@ int fail(ErrorCode code, std::string message) {
     return static_cast<int>(code);
 }
 
-// A standard stream that the caller closed is opened again as one that fails, so that no output file gets its number
-// and with it the words that are meant for the stream.
+// Reopens closed standard streams as ones that fail, so that no output file gets the number of such a stream and with
+// it the stream's output.
 void open_closed_streams() {
     for (const int stream : {0, 1, 2})
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);

@@ -28,7 +28,7 @@ std::string numbered(const fs::path& path, std::size_t frame) {
 
 bool is_numbered(const fs::path& path) { return path.filename().string().find('#') != std::string::npos; }
 
-// The program that makes films, or nothing.
+// The path of ffmpeg, or an empty text.
 std::string ffmpeg() {
     const char* places = std::getenv("PATH");
     std::istringstream folders(places != nullptr ? places : "");
@@ -39,7 +39,7 @@ std::string ffmpeg() {
     return "";
 }
 
-// Runs a program and waits for it; false where it fails.
+// Runs a program and waits for it. Returns false if it fails.
 bool run(const std::vector<std::string>& words) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -47,7 +47,7 @@ bool run(const std::vector<std::string>& words) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     for (int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-    // Signals that are blocked here would be blocked there too, and the program could not be stopped.
+    // The program would inherit the blocked signals and could not be stopped.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none;
@@ -63,7 +63,7 @@ bool run(const std::vector<std::string>& words) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// A folder beside the film, for as long as the film is made.
+// A temporary folder beside the movie for its frames.
 class FrameFolder {
   public:
     explicit FrameFolder(const fs::path& beside)
@@ -102,11 +102,15 @@ void require_movie(const fs::path& path) {
                                 path.string()));
 }
 
-void write_movie(const fs::path& path, std::span<const Image> frames, double exposure, double frames_a_second,
-                 const Metadata& metadata) {
+std::uintmax_t write_movie(const fs::path& path, std::span<const Image> frames, double exposure, double frames_a_second,
+                           const Metadata& metadata) {
     if (is_numbered(path)) {
-        for (std::size_t i = 0; i < frames.size(); ++i) write_image(numbered(path, i), frames[i], exposure, metadata);
-        return;
+        std::uintmax_t bytes = 0;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            write_image(numbered(path, i), frames[i], exposure, metadata);
+            bytes += fs::file_size(numbered(path, i));
+        }
+        return bytes;
     }
     const FrameFolder folder(fs::absolute(path));
     for (std::size_t i = 0; i < frames.size(); ++i)
@@ -130,6 +134,7 @@ void write_movie(const fs::path& path, std::span<const Image> frames, double exp
     std::error_code error;
     fs::rename(film, path, error);
     if (error) throw Error(ErrorCode::cannot_write, fmt::format("{}: {}", path.string(), error.message()));
+    return fs::file_size(path);
 }
 
 }  // namespace hogel::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -12,11 +13,13 @@ namespace hogel::cli {
 /// Whether a name is that of several pictures: name####.png, numbered from 0, or one .mp4, .gif or .apng.
 bool is_movie(const std::filesystem::path& path);
 
-/// Throws Error(usage) for a name that is not, Error(not_built_in) for a film where ffmpeg is not installed.
+/// Throws Error(usage) for a name that is_movie() refuses, Error(not_built_in) for a movie file if ffmpeg is not
+/// installed.
 void require_movie(const std::filesystem::path& path);
 
-/// Writes pictures as numbered files, or as a film made by ffmpeg. Throws Error(cannot_write).
-void write_movie(const std::filesystem::path& path, std::span<const Image> frames, double exposure,
-                 double frames_a_second, const Metadata& metadata);
+/// Writes pictures as numbered files, or as a movie made by ffmpeg, and returns their size in bytes. Throws
+/// Error(cannot_write).
+std::uintmax_t write_movie(const std::filesystem::path& path, std::span<const Image> frames, double exposure,
+                           double frames_a_second, const Metadata& metadata);
 
 }  // namespace hogel::cli

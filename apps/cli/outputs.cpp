@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "hogel/error.h"
 #include "hogel/units.h"
 
@@ -30,6 +32,18 @@ void refuse_outputs_of_another_run(const fs::path& folder) {
     }
 }
 
+// The value of a fact that a file stores as text; "yes" and "no" become booleans.
+ResultValue value_of(const std::string& text) {
+    if (text == "yes" || text == "no") return text == "yes";
+    return text;
+}
+
+ResultValue value_of(double number) {
+    constexpr double exact = 9007199254740992;  // 2⁵³: doubles represent all whole numbers up to this
+    if (std::abs(number) <= exact && number == std::trunc(number)) return static_cast<std::int64_t>(number);
+    return number;
+}
+
 }  // namespace
 
 void add_force_flag(Command& command, bool& force) {
@@ -41,13 +55,46 @@ void add_resume_flag(Command& command, bool& resume) {
                  "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
 }
 
-void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result) {
+void report_compressed(const Session& session, const std::string& file, const CompressionResult& result) {
     session.say(fmt::format("{}: {}, {:.2f} dB, {:.4g} pixels per bit, coded {} {}", file,
                             format_bytes(static_cast<double>(result.bytes)), result.sqnr, result.pixels_per_bit,
                             result.passes, result.passes == 1 ? "time" : "times"));
     if (result.depth_bytes > 0)
         session.say(fmt::format("of which depth: {}, to within {:.3g} m",
                                 format_bytes(static_cast<double>(result.depth_bytes)), result.depth_error));
+    report_samples(session, file, {{"sqnr", result.sqnr}, {"step", result.step}, {"passes", result.passes}});
+}
+
+Result result_of(const FileSummary& summary) {
+    Result result;
+    for (const auto& [name, value] : summary.text) result.emplace_back(name, value_of(value));
+    for (const auto& [name, value] : summary.numbers) result.emplace_back(name, value_of(value));
+    return result;
+}
+
+void report_samples(const Session& session, const std::string& file, const Result& more) {
+    if (!session.json) return;
+    FileSummary summary = summarize(file);
+    for (const auto& [name, value] : describe_run(session))
+        std::erase_if(summary.text, [&](const auto& fact) { return fact.first == name; });
+    Result result{{"file", file}};
+    for (const Result& part : {result_of(summary), more}) result.insert(result.end(), part.begin(), part.end());
+    result.emplace_back("seconds", session.seconds());
+    session.result(result);
+}
+
+void report_file(const Session& session, const std::string& file, const Result& more) {
+    if (!session.json) return;
+    Result result{{"file", file}, {"bytes", fs::file_size(file)}};
+    result.insert(result.end(), more.begin(), more.end());
+    result.emplace_back("seconds", session.seconds());
+    session.result(result);
+}
+
+ResultList wavelengths_of(std::span<const FieldGrid> grids) {
+    ResultList list;
+    for (const FieldGrid& grid : grids) list.emplace_back(grid.wavelength);
+    return list;
 }
 
 OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
@@ -62,7 +109,7 @@ OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
 
 OutputFolder::~OutputFolder() {
     std::error_code ignored;
-    if (created_) fs::remove(path_, ignored);  // succeeds for an empty folder alone
+    if (created_) fs::remove(path_, ignored);  // succeeds only for an empty folder
 }
 
 }  // namespace hogel::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "command_line.h"
@@ -15,14 +16,23 @@ void add_force_flag(Command& command, bool& force);
 
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
-/// One line on a compressed light field, and one on its depth.
-void say_what_was_compressed(const Session& session, const std::string& file, const CompressionResult& result);
+/// Prints a line about a compressed light field and one about its depth; with --json the result.
+void report_compressed(const Session& session, const std::string& file, const CompressionResult& result);
 
-/// A folder for the outputs of `hogel make` or `hogel print`. Creates it and those above it, and removes it again when
-/// the work failed before anything was put into it.
+/// The facts of `hogel info` about a file as values: "yes" and "no" as booleans, whole numbers as such.
+Result result_of(const FileSummary& summary);
+/// The result of a command that wrote a light field or a hologram: its name, the facts of `hogel info` without the
+/// options that made it, `more`, and the time of the command.
+void report_samples(const Session& session, const std::string& file, const Result& more = {});
+/// The result of a command that wrote another file: its name and size, `more`, and the time.
+void report_file(const Session& session, const std::string& file, const Result& more);
+ResultList wavelengths_of(std::span<const FieldGrid> grids);
+
+/// A folder for the outputs of `hogel make` or `hogel print`. Creates it with its parents, and removes it if the work
+/// fails before anything is written to it.
 class OutputFolder {
   public:
-    /// Throws Error(cannot_write) where the folder cannot be created, or, without `force`, holds outputs of another
+    /// Throws Error(cannot_write) if the folder cannot be created or, without `force`, if it holds outputs of another
     /// run.
     OutputFolder(std::filesystem::path path, bool force);
     ~OutputFolder();

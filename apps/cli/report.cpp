@@ -102,7 +102,7 @@ std::string picture(const Image& image, const std::string& file, const char* lab
         escape(file), base64(encode_png(image, exposure)), image.width(), image.height(), escape(alt), label);
 }
 
-// A heading for each focus, the views from all eyes below it.
+// A heading for each focus, with the views from all eyes below it.
 std::string pictures_html(const Report& report) {
     std::string html, open_focus;
     for (const PhotographPair& pair : report.pairs) {
@@ -156,7 +156,7 @@ std::string tables_html(const Report& report) {
                 {"Field of view", fmt::format("{:.4g}° × {:.4g}°", 2 * std::atan(grid.half_u()) / degree,
                                               2 * std::atan(grid.half_v()) / degree)},
                 {"Rays", fmt::format("{:.4g} million", 1e-6 * grid.samples() / static_cast<double>(grid.channels))},
-                {"Light field file", format_bytes(report.light_field_bytes)}};
+                {"Light field file", format_bytes(static_cast<double>(report.light_field_bytes))}};
     Rows hologram{{"Samples", samples_text(report)},
                   {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
                   {"Wavelengths", wavelengths_text(report)},

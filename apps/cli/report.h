@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +13,7 @@
 
 namespace hogel::cli {
 
-/// One view of the hologram, photographed by waves and, as its truth, by rays.
+/// One view of the hologram, photographed by waves and, as reference, by rays.
 struct PhotographPair {
     std::string eye_name, focus_name;  ///< "left", "plane": parts of the file names
     Camera camera;
@@ -21,26 +22,26 @@ struct PhotographPair {
     ImageComparison comparison;
 };
 
-/// All that `hogel make` tells about its run, for people and for programs.
+/// All facts that `hogel make` reports about its run.
 struct Report {
     std::string scene;
     std::size_t triangles = 0;
     std::string algorithm;
     LightFieldGrid light_field;
-    double light_field_bytes = 0;  ///< of the file
+    std::uintmax_t light_field_bytes = 0;  ///< of the file
     std::vector<FieldGrid> holograms;
     std::size_t looks = 0;
     std::size_t pupil_samples = 0;
-    double exposure = 1;  ///< of every picture
+    double exposure = 1;  ///< of all pictures
     std::vector<PhotographPair> pairs;
     std::vector<std::pair<std::string, double>> stages;  ///< name, seconds
     std::size_t threads = 0;
     Metadata run;
 };
 
-/// A page that stands alone, its pictures inside.
+/// A self-contained HTML page with embedded pictures.
 std::string report_html(const Report& report);
-/// The same numbers in SI units.
+/// The same numbers as JSON, in SI units.
 std::string report_json(const Report& report);
 
 }  // namespace hogel::cli

@@ -15,8 +15,7 @@ class ResultValue;
 using Result = std::vector<std::pair<std::string, ResultValue>>;
 using ResultList = std::vector<ResultValue>;
 
-/// A value in what a command reports with --json: true or false, a whole number, a number, words, a list, or names with
-/// values of their own.
+/// A value in the --json output of a command: true or false, a whole number, a number, a text, a list, or an object.
 class ResultValue {
   public:
     ResultValue(bool value) : value_(value) {}

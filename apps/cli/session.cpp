@@ -49,6 +49,10 @@ void Session::result(const Result& result, const std::string& words) const {
         throw Error(ErrorCode::cannot_write, "cannot write to the standard output");
 }
 
+double Session::seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
 void add_common_options(Command& command, Session& session) {
     command.group(Command::last_group);
     command.flag("-q,--quiet", session.quiet, "Say nothing but errors");
@@ -64,8 +68,8 @@ void add_json_flag(Command& command, Session& session) {
 }
 
 Metadata describe_run(const Session& session) {
-    // Equal input gives equal bytes: what does not touch the result is left out, such as how many threads worked and
-    // how much was said.
+    // Options that do not affect the result, such as the number of threads and the verbosity, are left out, so that
+    // equal input gives equal bytes.
     constexpr std::array<std::string_view, 9> silent{"help",   "quiet",  "verbose", "threads", "output",
                                                      "resume", "region", "json",    "force"};
     Metadata metadata{{"software", "hogel " HOGEL_VERSION}, {"command", "hogel " + session.command->name()}};

@@ -14,48 +14,51 @@ namespace hogel::cli {
 
 class Command;
 
-/// One run of the program: the options that all commands share, and the command that was chosen.
+/// One run of the program: the options shared by all commands, and the chosen command.
 struct Session {
     bool quiet = false;
     bool verbose = false;
-    bool json = false;          ///< results as JSON instead of words
+    bool json = false;          ///< print results as JSON instead of text
     std::uint64_t threads = 0;  ///< 0: all
     std::uint64_t seed = 1;
 
     const Command* command = nullptr;
-    std::stop_source stop;  ///< asks all work to end
+    std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+    std::stop_source stop;  ///< requests all work to stop
 
-    /// A line of words on stderr, unless -q; and one that only -v shows.
+    /// Prints a line on stderr, unless -q; detail() prints one only with -v.
     void say(const std::string& line) const;
     void detail(const std::string& line) const;
 
-    /// What the command found out or made, on the standard output: with --json as a JSON object, otherwise `words`,
-    /// which may be empty where say() speaks of it.
+    /// Prints the result of the command on the standard output: with --json as a JSON object, otherwise as `words`,
+    /// which may be empty if say() has reported it.
     void result(const Result& result, const std::string& words = "") const;
+    /// Seconds since the program began.
+    double seconds() const;
 };
 
 /// The options that every command has: -q, -v, --threads, --seed.
 void add_common_options(Command& command, Session& session);
-/// --json, for commands that have a result.
+/// --json; every command has a result.
 void add_json_flag(Command& command, Session& session);
 
-/// What outputs carry with them: the version, the command, and the value of each of its options.
+/// The metadata of outputs: the version, the command, and the value of each of its options.
 Metadata describe_run(const Session& session);
 
-/// Writes to the standard error. That it cannot be written is no reason to fail.
+/// Writes to the standard error and ignores failures.
 void write_error_stream(const std::string& text);
 
-/// One stage of the work: a bar on stderr where that is a terminal and the stage takes longer than a second.
+/// One stage of the work, with a progress bar if stderr is a terminal and the stage takes longer than a second.
 class Stage {
   public:
-    /// Throws Error(cancelled) where the work is to stop.
+    /// Throws Error(cancelled) if the work is to stop.
     Stage(const Session& session, std::string name);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    /// For the library: stops the work after an interrupt, and draws the bar. Lives no longer than the stage. With
-    /// (i, n), part i of n equal parts of the stage.
+    /// The Progress for library functions, which stops the work after an interrupt and draws the bar. It must not
+    /// outlive the stage. With (i, n) it is that of part i of n equal parts of the stage.
     Progress progress(std::size_t i = 0, std::size_t n = 1);
     double seconds() const;
 

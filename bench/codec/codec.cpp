@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, Brightness>, 2> dense_fields{
     {{"dense", Brightness::even}, {"dense-hdr", Brightness::high}}};
 
-// The whole light field in memory; with `grey`, the mean of its colours.
+// Reads the whole light field into memory; with `grey`, the mean of its colours.
 LightFieldBuffer load(const LightFieldSource& source, bool grey) {
     LightFieldBuffer field(source.grid());
     copy(source, field, until_interrupted());
@@ -33,14 +33,14 @@ LightFieldBuffer load(const LightFieldSource& source, bool grey) {
     return mean;
 }
 
-// A dense light field, or any other.
-std::unique_ptr<LightFieldSource> open(const Session& session, const CodecOptions& options) {
+// Opens the input: a dense light field, a file or a scene.
+std::shared_ptr<const LightFieldSource> open(const Session& session, const CodecOptions& options) {
     for (const auto& [name, brightness] : dense_fields)
         if (options.input == name) return make_dense_field(options.light_field.grid(), brightness);
     return open_or_render(session, options.input, options.light_field);
 }
 
-// Each coder with the transforms that go with it.
+// Each coder with each of its transforms.
 std::vector<CodingMethod> methods_of(const CodecOptions& options) {
     const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::ranges::count(names, name) > 0;
@@ -84,7 +84,7 @@ std::string table(const std::vector<RateCurve>& curves, const std::vector<double
     return text;
 }
 
-// The curves of all coders and peers that were asked for.
+// The curves of all requested coders and peers.
 std::vector<RateCurve> measure(const LightFieldBuffer& field, const CodecOptions& options, const QualityRange& range,
                                const Session& session) {
     std::vector<RateCurve> curves;

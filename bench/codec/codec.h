@@ -21,7 +21,7 @@ struct CodecOptions {
     bool thesis = false;                        ///< whether the plot has the point that [K] gives
 };
 
-/// Prints how coders, and peers, trade the quality of a light field against its size, and how fast they are.
+/// Prints the size of a light field against its quality for coders and peers, and their speed.
 void measure_codec(const CodecOptions& options, const Session& session);
 
 }  // namespace hogel::bench

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t ellipses = 28, waves = 4;
 constexpr double max_disparity = 2;
-constexpr double max_frequency = 0.22;  // of textures, cycles per direction
+constexpr double max_frequency = 0.22;  // of textures, in cycles per direction
 
 // A sequence of random numbers from 0 to 1, the same in every run.
 class Numbers {
@@ -25,8 +25,8 @@ class Numbers {
     std::uint32_t next_ = 0;
 };
 
-// A part of a plane, an ellipse as the middle hogel sees it. Points on it have the coordinates (x, y) of the direction
-// in which that hogel sees them; their disparity is p = p0 + a x + b y.
+// A part of a plane that the middle hogel sees as an ellipse. The coordinates (x, y) of its points are the direction in
+// which that hogel sees them; their disparity is p = p0 + a x + b y.
 struct Surface {
     double p0, a, b;
     double x, y, along, across, cosine, sine;  // the ellipse: centre, half axes, rotation
@@ -36,8 +36,8 @@ struct Surface {
     };
     std::array<Wave, waves> texture;
 
-    // Disparity of the point that a hogel, (i, j) away from the middle one, sees in direction (u, v). That point is
-    // x = u + p i, y = v + p j.
+    // The disparity of the point that the hogel at (i, j) from the middle one sees in direction (u, v), which is x = u
+    // + p i, y = v + p j.
     double disparity(double u, double v, double i, double j) const {
         return (p0 + a * u + b * v) / (1 - a * i - b * j);
     }
@@ -106,7 +106,7 @@ class DenseField final : public LightFieldSource {
     static double from_middle(std::size_t k, std::size_t count) {
         return static_cast<double>(k) - static_cast<double>(count - 1) / 2;
     }
-    // The radiance of the nearest surface on the ray, which is the one of the largest disparity.
+    // The radiance of the nearest surface on the ray, the one with the largest disparity.
     double seen(double i, double j, double u, double v) const {
         double nearest = surfaces_.front().disparity(u, v, i, j);
         const Surface* found = &surfaces_.front();

@@ -7,16 +7,16 @@
 
 namespace hogel::bench {
 
-/// How bright the surfaces of a dense light field are.
+/// The brightness of the surfaces of a dense light field.
 enum class Brightness {
     even,  ///< 0 to 1
-    high,  ///< each ellipse its own, over a range of 10⁵
+    high,  ///< a different one for each ellipse, over a range of 10⁵
 };
 
-/// A light field for measuring coders: textured ellipses at various slants that hide each other, in front of a textured
-/// ground. Hogels are so close together that what they show moves by at most two directions from one to the next. Each
-/// sample is computed in closed form where it is read.
-/// @param grid  only its counts matter; the light field has one channel
+/// A light field for measuring coders: textured ellipses at various slants that occlude each other, in front of a
+/// textured background. Hogels are so dense that disparities are at most two directions. Samples are computed in closed
+/// form when they are read.
+/// @param grid  only its counts are used; the light field has one channel
 std::unique_ptr<LightFieldSource> make_dense_field(const LightFieldGrid& grid, Brightness brightness);
 
 }  // namespace hogel::bench

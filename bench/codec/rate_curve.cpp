@@ -55,7 +55,7 @@ RateCurve measure_method(const LightFieldBuffer& field, const CodingMethod& meth
     if (method.table == QuantisationTable::jpeg) curve.name = method.coder + ", table jpeg";
     CompressionOptions options;
     options.method = method;
-    // A quantiser's error is step/√12 where there is detail of the step's size, and less where there is none.
+    // The error of a quantiser is step/√12 where there is detail of the step's size, and less elsewhere.
     double step = root_mean_square(field) * std::sqrt(12.0) * std::pow(10, -range.low / 20) * 16;
     const double samples = field.grid().samples() * 1e-6;
     LightFieldBuffer decoded(field.grid());
@@ -65,7 +65,7 @@ RateCurve measure_method(const LightFieldBuffer& field, const CodingMethod& meth
         const CompressionResult result = compress(borrow(field), path, options, until_interrupted());
         const double encoding = processor_seconds() - began;
         if (result.sqnr < range.low - 6) {
-            // Far below the range: go most of the way at once.
+            // If the SQNR is far outside the range, takes most of the distance in one step.
             step *= std::pow(10, std::min(0.0, (result.sqnr - range.low + 8) / 20));
             continue;
         }

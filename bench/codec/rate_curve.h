@@ -10,8 +10,8 @@
 
 namespace hogel::bench {
 
-/// A light field coded with one quality. Speeds are million samples a second of one core's processor time, so that
-/// other work on the machine matters little.
+/// A light field coded with one quality. Speeds are million samples per second of processor time, so that other work on
+/// the machine has little influence.
 struct RatePoint {
     double pixels_per_bit, sqnr, encoding, decoding;
 };
@@ -21,8 +21,8 @@ struct RateCurve {
     std::string name;
     std::vector<RatePoint> points;
 
-    /// The point of that SQNR, or of that many pixels per bit, interpolated linearly in SQNR and in the logarithms of
-    /// the others. Nothing outside the range of the points.
+    /// The point with that SQNR, or that number of pixels per bit, interpolated linearly in SQNR and in the logarithms
+    /// of the others. Nothing if it is outside the range of the points.
     std::optional<RatePoint> at(double sqnr) const;
     std::optional<RatePoint> at_rate(double pixels_per_bit) const;
 };

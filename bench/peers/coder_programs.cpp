@@ -18,7 +18,7 @@
 namespace hogel::bench {
 namespace {
 
-// A coder of ffmpeg. {} in `encoder` stands for one of the qualities, of which the best is first.
+// A coder of ffmpeg. {} in `encoder` is replaced by one of the qualities, which begin with the best.
 struct FfmpegCoder {
     const char *name, *needs, *encoder, *file;
     std::vector<double> qualities;
@@ -50,7 +50,7 @@ const std::vector<FfmpegCoder>& ffmpeg_coders() {
     return all;
 }
 
-// Processor time of all programs that were run and have ended.
+// Processor time of all child programs that have ended.
 double processor_seconds_of_programs() {
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
@@ -70,7 +70,8 @@ std::string quoted(const std::filesystem::path& path) {
     return result + "'";
 }
 
-// The hogels as pictures of whole numbers, in rows of alternating direction, so that each follows a neighbour.
+// The hogels as pictures of whole numbers, in rows of alternating direction, so that consecutive pictures are
+// neighbours.
 class Pictures {
   public:
     Pictures(const LightFieldBuffer& field, bool video) : field_(field), video_(video), top_(video ? 1023 : 65535) {
@@ -79,7 +80,7 @@ class Pictures {
             signal_ += static_cast<double>(value) * value;
         }
     }
-    // Video coders need chrominance too; it is half as wide and as high, and constant.
+    // Video coders need chrominance too, which has half the width and height and is constant.
     std::size_t samples_of_picture() const {
         const std::size_t luminance = field_.grid().directions();
         return video_ ? luminance + luminance / 2 : luminance;
@@ -93,7 +94,7 @@ class Pictures {
             file.write(reinterpret_cast<const char*>(picture.data()), std::streamsize(2 * picture.size()));
         }
     }
-    // The SQNR of a file as write() makes them, against the light field as floats.
+    // The SQNR of a file in the format of write(), compared with the light field in floats.
     double sqnr_of(const std::filesystem::path& path) const {
         std::ifstream file(path, std::ios::binary);
         std::vector<std::uint16_t> picture(samples_of_picture());
@@ -164,7 +165,7 @@ double bytes_in(const std::filesystem::path& folder) {
     return sum;
 }
 
-// zfp on the array of floats, with absolute tolerances. Axes of one sample are left out.
+// Measures zfp on the array of floats, with absolute tolerances. Axes of one sample are left out.
 std::optional<RateCurve> measure_zfp(const LightFieldBuffer& field, const QualityRange& range) {
     if (!run("command -v zfp")) return std::nullopt;
     const TemporaryFolder folder;
@@ -184,7 +185,7 @@ std::optional<RateCurve> measure_zfp(const LightFieldBuffer& field, const Qualit
     double signal = 0;
     for (const float value : truth) signal += static_cast<double>(value) * value;
     const double samples = static_cast<double>(truth.size());
-    // zfp's errors stay far below its tolerance.
+    // The errors of zfp are far below its tolerance.
     double tolerance = std::sqrt(signal / samples) * std::pow(10, -range.high / 20);
     RateCurve curve{"zfp", {}};
     std::vector<float> decoded(truth.size());
@@ -208,7 +209,7 @@ std::optional<RateCurve> measure_zfp(const LightFieldBuffer& field, const Qualit
     return curve;
 }
 
-// The programs of OpenJPEG on a picture for each hogel, with compression ratios relative to 16 bits a sample.
+// Measures the programs of OpenJPEG on one picture per hogel, with compression ratios relative to 16 bits per sample.
 std::optional<RateCurve> measure_openjpeg(const LightFieldBuffer& field, const QualityRange& range) {
     if (!run("command -v opj_compress && command -v opj_decompress")) return std::nullopt;
     const TemporaryFolder folder;
@@ -241,7 +242,7 @@ std::optional<RateCurve> measure_openjpeg(const LightFieldBuffer& field, const Q
     return curve;
 }
 
-// A coder of ffmpeg on the hogels as pictures.
+// Measures a coder of ffmpeg on the hogels as pictures.
 std::optional<RateCurve> measure_ffmpeg(const LightFieldBuffer& field, const FfmpegCoder& coder,
                                         const QualityRange& range) {
     if (!run(fmt::format("ffmpeg -hide_banner -h encoder={} | grep -q '^Encoder {}'", coder.needs, coder.needs)))

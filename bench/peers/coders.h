@@ -9,7 +9,7 @@
 
 namespace hogel::bench {
 
-/// Coders of other projects.
+/// The names of coders of other projects.
 std::vector<std::string> coder_peers();
 
 /// Measures a peer on a light field of one channel:
@@ -18,11 +18,11 @@ std::vector<std::string> coder_peers();
 ///   - the others code hogels as pictures, in rows of alternating direction, of 10 bits for video and 16 bits for still
 ///     pictures. OpenJPEG is run by its own programs, the rest by ffmpeg.
 /// @param name  one of coder_peers()
-/// Nothing where the program is not installed or lacks the coder. Throws Error(cancelled) after an interrupt.
+/// Returns nothing if the program is not installed or lacks the coder. Throws Error(cancelled) after an interrupt.
 std::optional<RateCurve> measure_coder_peer(const LightFieldBuffer& field, const std::string& name,
                                             const QualityRange& range);
 
-/// As above, by OpenEXR's lossy compression.
+/// As above, for OpenEXR's lossy compression.
 /// @param compression   dwaa or dwab
 std::optional<RateCurve> measure_openexr(const LightFieldBuffer& field, const std::string& compression,
                                          const QualityRange& range);

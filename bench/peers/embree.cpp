@@ -73,7 +73,7 @@ class EmbreePeer final : public RenderPeer {
 
   private:
     static constexpr std::size_t rays = side * side;
-    static constexpr std::size_t rows_of_squares = 64 / side;  // that a thread traces as one task
+    static constexpr std::size_t rows_of_squares = 64 / side;  // traced as one task
 
     void trace(HogelPlace hogel, std::size_t v0, std::size_t u0, float* values) const {
         const std::size_t nv = std::min(side, grid_.directions_v - v0), nu = std::min(side, grid_.directions_u - u0);
@@ -90,7 +90,7 @@ class EmbreePeer final : public RenderPeer {
             batch.ray.dir_y[i] = V - static_cast<float>(v) * step_v;
             batch.ray.dir_z[i] = 1;
             batch.ray.tnear[i] = 0;
-            // Rays beyond the border are switched off: they end before they begin.
+            // Rays beyond the border are disabled: they end before they begin.
             batch.ray.tfar[i] = u < nu && v < nv ? std::numeric_limits<float>::infinity() : -1;
             batch.ray.time[i] = 0, batch.ray.mask[i] = ~0u, batch.ray.id[i] = 0, batch.ray.flags[i] = 0;
             batch.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;

@@ -102,7 +102,7 @@ void replace(std::string& text, const std::string& what, const std::string& with
     text.replace(text.find(what), what.size(), with);
 }
 
-// What every context draws. Positions are in widths of the hologram.
+// The geometry that every context draws. Positions are in widths of the hologram.
 struct Geometry {
     std::vector<float> vertices;  // position and radiance
     std::vector<std::uint32_t> indices;
@@ -146,7 +146,7 @@ class Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    // To be called once, on the thread that will draw.
+    // Must be called once, on the thread that will draw.
     void prepare() {
         make_current();
         const auto* renderer = reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER));
@@ -241,7 +241,7 @@ class Context {
         gl_.EnableVertexAttribArray(1);
     }
 
-    // A layer of colours and one of depths for each view. The colours stay bound, to be read.
+    // Makes a layer of colours and one of depths for each view. The colours stay bound for reading.
     void make_layers() {
         GLuint frame = 0;
         std::array<GLuint, 2> layers{};
@@ -301,8 +301,9 @@ class LlvmpipePeer final : public RenderPeer {
     float max_radiance() const override { return 1; }
 
   private:
-    // Opened once for the whole program; Mesa reads these variables then. A context sets up all its triangles on the
-    // thread that draws, so each thread has a context of its own, which rasterises on that thread (LP_NUM_THREADS=0).
+    // Opens the display once for the whole program, when Mesa reads these variables. A context sets up all its
+    // triangles on the thread that draws, so each thread has its own context, which also rasterises on that thread
+    // (LP_NUM_THREADS=0).
     static EGLDisplay open_display() {
         static const EGLDisplay display = [] {
             setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);

@@ -20,8 +20,8 @@ constexpr std::array levels{2, 10, 45, 200, 1000, 5000, 20000, 100000};
 constexpr int channels = 2;
 constexpr const char* file_name = "a.exr";  // the file is kept in memory
 
-// All hogels side by side as one picture of floats. Its channel has a name that OpenEXR codes lossily. OpenImageIO does
-// not do so with a single channel, so there is a second one of zeros, which takes hardly any bytes.
+// All hogels side by side as one picture of floats. Its channel has a name that OpenEXR codes lossily. With a single
+// channel OpenImageIO would not do so; therefore there is a second one of zeros, which takes hardly any bytes.
 class Sheet {
   public:
     explicit Sheet(const LightFieldBuffer& field)
@@ -37,7 +37,7 @@ class Sheet {
                         samples_.push_back(0);
                     }
     }
-    // Nothing where this OpenEXR lacks the compression.
+    // The compressed bytes; nothing if this OpenEXR lacks the compression.
     std::optional<std::vector<unsigned char>> coded(const std::string& compression) const {
         OIIO::ImageSpec spec = spec_;
         spec["compression"] = compression;

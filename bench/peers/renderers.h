@@ -13,8 +13,8 @@
 
 namespace hogel::bench {
 
-/// Another project's renderer, used as well as it can be: the samples of a light field hogel by hogel, of triangles
-/// with the interpolated radiance of their vertices before the scene's background, on thread_count() threads.
+/// A renderer of another project, used in its fastest way. It renders the samples of a light field hogel by hogel, of
+/// triangles with interpolated vertex radiance in front of the scene's background, on thread_count() threads.
 class RenderPeer {
   public:
     virtual ~RenderPeer() = default;
@@ -22,9 +22,9 @@ class RenderPeer {
     virtual std::size_t min_hogels() const = 0;
     /// Renders hogels into memory, for sample().
     virtual void render(std::span<const HogelPlace> hogels) = 0;
-    /// Row v, column u of hogel i of those that were rendered last.
+    /// The sample at row v, column u of hogel i of the last call of render().
     virtual Rgb sample(std::size_t i, std::size_t v, std::size_t u) const = 0;
-    /// How much its samples differ from the true ones by their format alone.
+    /// The error of its samples due to their format.
     virtual float rounding() const { return 0; }
     /// The radiance above which its format clips samples.
     virtual float max_radiance() const { return std::numeric_limits<float>::infinity(); }
@@ -34,9 +34,10 @@ class RenderPeer {
 /// of 16. Its tree is built with the best quality that Embree has.
 std::unique_ptr<RenderPeer> make_embree_peer(const ShadedScene& scene, const LightFieldGrid& grid, std::size_t side);
 
-/// Mesa's software rasteriser, by OpenGL without a window. Renders `views` hogels at once: instances of one draw call,
-/// each into a layer of its own of 8 bits a channel, which is then read back. The scene must lie behind the hologram,
-/// and the grid must be the front face's. Throws Error(not_built_in) where Mesa or its header files are missing.
+/// Mesa's software rasteriser, through OpenGL without a window. It renders `views` hogels at once as instances of one
+/// draw call, each into its own layer of 8 bits per channel, which is then read back. The scene must be behind the
+/// hologram, and the grid must be that of the front face. Throws Error(not_built_in) if Mesa or its header files are
+/// missing.
 std::unique_ptr<RenderPeer> make_llvmpipe_peer(const ShadedScene& scene, const LightFieldGrid& grid, std::size_t views);
 
 struct RenderPeerInfo {

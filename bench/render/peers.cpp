@@ -19,7 +19,7 @@ std::string cell(const Racer& racer) {
     return fmt::format(" {:.3g} ({:.3g}–{:.3g}) |", racer.median, racer.min, racer.max);
 }
 
-// Peers draw no textures.
+// The scene without textures, which peers do not draw.
 std::shared_ptr<const ShadedScene> untextured(const std::shared_ptr<const ShadedScene>& scene) {
     auto plain = std::make_shared<ShadedScene>(*scene);
     plain->textures.clear();
@@ -79,7 +79,7 @@ void measure_peers(const RenderOptions& options, const Session& session) {
         const auto scene = untextured(bench_scene(session, name, light_field));
         for (const Counts& count : hogels) {
             light_field.hogels = count;
-            // Enough rows that threads share them as evenly as they would those of the whole light field.
+            // Enough rows for threads to share them as evenly as those of the whole light field.
             constexpr std::size_t max_hogels = 2160, max_rows = 16;
             limits.rows = std::clamp<std::size_t>(max_hogels / count.columns, 1, max_rows);
             const LightFieldGrid grid = light_field.grid();

@@ -15,8 +15,8 @@
 namespace hogel::bench {
 namespace {
 
-// Share of samples that differ by more than 1/64, beyond the rounding of the peer's format. The tolerance leaves room
-// for rays that pass an edge between triangles of nearly the same radiance on the other side.
+// The share of samples that differ by more than 1/64 plus the rounding of the peer's format. The tolerance ignores rays
+// that pass an edge between triangles of nearly equal radiance on the other side.
 double differing(const HogelRows& rows, const RenderPeer& peer, const std::vector<HogelPlace>& hogels,
                  const LightFieldGrid& grid) {
     const float tolerance = 1.0f / 64 + peer.rounding();
@@ -32,10 +32,10 @@ double differing(const HogelRows& rows, const RenderPeer& peer, const std::vecto
     return static_cast<double>(different) / static_cast<double>(hogels.size() * grid.directions());
 }
 
-// A racer with its times.
+// A racer and its times.
 struct Lane {
     Racer racer;
-    std::unique_ptr<RenderPeer> peer;  // null for our renderer
+    std::unique_ptr<RenderPeer> peer;  // null for hogel's renderer
     std::vector<HogelPlace> hogels;
     std::vector<double> wall, processor;
 
@@ -46,7 +46,7 @@ struct Lane {
     }
 };
 
-// How many hogels a peer renders within the seconds, estimated from as few as it takes.
+// The number of hogels that a peer renders within `seconds`, estimated from the minimum number that it renders.
 std::size_t affordable_hogels(RenderPeer& peer, const HogelRows& rows, double seconds) {
     const std::size_t least = std::min(peer.min_hogels(), rows.hogels());
     const std::vector<HogelPlace> first = rows.some(least);
@@ -56,7 +56,7 @@ std::size_t affordable_hogels(RenderPeer& peer, const HogelRows& rows, double se
     return std::clamp(batches * least, least, rows.hogels());
 }
 
-// Share of the hogels' rays that meet something.
+// The share of the hogels' rays that meet something.
 double share_covered(const LightFieldSource& source, const std::vector<HogelPlace>& hogels) {
     std::ptrdiff_t hits = 0;
     std::size_t rays = 0;
@@ -69,7 +69,7 @@ double share_covered(const LightFieldSource& source, const std::vector<HogelPlac
     return static_cast<double>(hits) / static_cast<double>(rays);
 }
 
-// A peer that has rendered the same picture as we, or nothing where this machine lacks it.
+// Prepares a peer and checks that it renders the same picture; nothing if this machine lacks it.
 std::optional<Lane> prepare(const Session& session, const std::string& algorithm, const RenderPeerInfo& info,
                             const ShadedScene& scene, const HogelRows& rows, const LightFieldGrid& grid,
                             double seconds) {

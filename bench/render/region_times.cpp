@@ -10,8 +10,8 @@
 namespace hogel::bench {
 namespace {
 
-// Of the calling thread, which renders the tile that it asks for.
-// @param cached  whether the scene has a radiance cache, which a first reading fills
+// Processor time of reading a tile on the calling thread.
+// @param cached  whether the scene has a radiance cache, which a first, unmeasured reading fills
 double time_of_reading(const LightFieldSource& source, LightFieldTile& tile, bool cached) {
     if (cached) source.read(tile);
     const double began = thread_seconds();
@@ -19,7 +19,7 @@ double time_of_reading(const LightFieldSource& source, LightFieldTile& tile, boo
     return thread_seconds() - began;
 }
 
-// Mean seconds of single hogels that are spread evenly over the hologram.
+// Mean seconds for single hogels, spread evenly over the hologram.
 double time_of_hogels(const LightFieldSource& source, double budget, bool cached) {
     const LightFieldGrid& grid = source.grid();
     constexpr std::size_t min_hogels = 3, max_hogels = 64;
@@ -40,19 +40,19 @@ double time_of_hogels(const LightFieldSource& source, double budget, bool cached
     return seconds / static_cast<double>(hogels);
 }
 
-// One in `part` of the scene's runs of consecutive triangles, which share vertices and look alike; no triangle for part
-// 0.
+// One in `part` of the scene's runs of consecutive triangles, which share vertices and are similar; no triangle for
+// part 0.
 std::shared_ptr<const ShadedScene> thinned(const ShadedScene& scene, std::size_t part) {
     auto few = std::make_shared<ShadedScene>(scene);
     few->triangles.clear();
-    few->radiance_cache = nullptr;  // it goes by the numbers of triangles
+    few->radiance_cache = nullptr;  // it is indexed by the numbers of triangles
     constexpr std::size_t run = 16;
     for (std::size_t i = 0; part > 0 && i < scene.triangles.size(); ++i)
         if (i / run % part == 0) few->triangles.push_back(scene.triangles[i]);
     return few;
 }
 
-// The smallest power of two, 1 as a rule, for which one in so many triangles of a hogel is rendered within the seconds.
+// The smallest power of two n, usually 1, for which a hogel with one in n triangles is rendered within `seconds`.
 std::size_t affordable_part(const std::string& algorithm, const ShadedScene& scene, const LightFieldGrid& grid,
                             double seconds) {
     constexpr std::size_t guess = 64;

@@ -13,28 +13,28 @@ namespace hogel::bench {
 /// When to stop making regions larger.
 struct RegionLimits {
     std::size_t side = 0;  ///< of the largest region, in hogels
-    double seconds = 0;    ///< that a region may be expected to take
-    double bytes = 0;      ///< that a region may take, counted as 20 a ray: three values and a depth buffer
+    double seconds = 0;    ///< maximum expected time of a region
+    double bytes = 0;      ///< maximum of a region, 20 per ray: three values and a depth buffer
 };
 
-/// A renderer's times, and how they were measured.
+/// The times of a renderer, and how they were measured.
 struct RegionTimes {
     Curve curve;           ///< side of the region, milliseconds for each hogel
-    double bytes = 0;      ///< the most memory held, beyond the scene
-    std::size_t part = 1;  ///< one in so many triangles was rendered
+    double bytes = 0;      ///< maximum memory without the scene
+    std::size_t part = 1;  ///< one in this number of triangles was rendered
 };
 
-/// Milliseconds of one core for each hogel of a light field, shading included, against the side of the region that the
-/// renderer is given at once. The regions are
+/// Measures milliseconds of one core per hogel of a light field, including shading, against the side of the region that
+/// is rendered at once. The regions are
 ///   - squares of 1, 2, 4 … hogels in the middle of the hologram, for most renderers;
 ///   - rows of 1, 2, 4 … hogels, for `simplex3d` and `mvr`, which render each row by itself;
 ///   - single hogels all over the hologram, whose mean is taken, for `raytrace` and `zbuffer`.
-/// Times are processor time, so that other work on the machine matters little. Where the scene has a radiance cache, a
-/// first reading fills it, which is not counted.
+/// Times are processor time, so that other work on the machine has little influence. If the scene has a radiance cache,
+/// a first reading, which is not measured, fills it.
 ///
-/// Where a single hogel would take longer than a region may, one in n triangles is rendered, without a cache, and what
-/// that takes beyond an empty scene counts n times. This suits renderers whose work is a sum over triangles, as it is
-/// for all that take so long. The curve is dashed then.
+/// If a single hogel would exceed the limit, one in n triangles is rendered, without a cache, and the time in excess of
+/// that of an empty scene is multiplied by n. This is right for renderers whose work is a sum over triangles, which
+/// includes all slow ones. The curve is then dashed.
 RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
                          const LightFieldGrid& grid, const RegionLimits& limits);
 

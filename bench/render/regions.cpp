@@ -16,10 +16,10 @@ namespace {
 
 struct ThesisScene {
     const char *name, *shading, *note;
-    double faster;  // how many times as fast as 2D the best 4D renderer is there; 0 where the text gives no number
+    double faster;  // speed of the best 4D renderer relative to 2D there; 0 if the text gives no number
 };
-// The scenes of [K] fig. 5.26 to 5.30, shaded as there. The notes are what its text says of the curves, which it gives
-// no points of.
+// The scenes of [K] fig. 5.26 to 5.30, shaded as there. The notes quote its text on the curves, for which it gives no
+// numbers.
 constexpr std::array thesis_scenes{
     ThesisScene{"church", "direct",
                 "[K] fig. 5.26, one 120 MHz processor, axis to 40 s: \"only a marginal improvement\"", 0},
@@ -38,7 +38,7 @@ const ThesisScene* thesis_scene(const std::string& name) {
     return known != thesis_scenes.end() ? known : nullptr;
 }
 
-// Moves a scene behind the hologram, `gap` from it.
+// Moves a scene behind the hologram, at a distance of `gap`.
 Scene behind(Scene scene, double gap) {
     const double back = bounds(scene).high.z + gap;
     for (Mesh& mesh : scene.meshes)
@@ -82,7 +82,7 @@ std::vector<std::string> notes(const std::string& scene, const std::vector<Regio
     return lines;
 }
 
-// A scene's name, and into how many parts the sides of its triangles are to be cut.
+// A scene's name, and the number of parts into which the sides of its triangles are cut.
 std::pair<std::string, std::size_t> named_scene(const std::string& name) {
     const std::size_t colon = name.rfind(':');
     if (colon == std::string::npos || colon + 1 == name.size() ||

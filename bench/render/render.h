@@ -17,12 +17,12 @@ struct RenderDefaults {
     std::size_t few_hogels = 64;  ///< along a side: --scaling, and the first table row of a scene with --peers
     std::size_t stream_hogels = 512;
     std::size_t many_directions = 256;  ///< --peers, --stream
-    double seconds = 8;                 ///< that a region may take
-    double peer_seconds = 1;            ///< that a peer may take in a round
+    double seconds = 8;                 ///< limit for a region
+    double peer_seconds = 1;            ///< limit for a peer in a round
 };
 inline constexpr RenderDefaults render_defaults;
 
-/// The options of `hogel-bench render`. What is not given depends on what is measured.
+/// The options of `hogel-bench render`. The defaults of options that are not given depend on the measurement.
 struct RenderOptions {
     std::string output;   ///< folder for plots; empty: none
     std::string shading;  ///< empty: that of the thesis for its scenes, `vertex` for others
@@ -33,35 +33,35 @@ struct RenderOptions {
     double size = 20_mm;
     Angles field_of_view{40_deg, 40_deg};
     std::size_t max_side = 128;  ///< of a region, in hogels
-    double gigabytes = 6;        ///< that a region may take, see RegionLimits
+    double gigabytes = 6;        ///< limit for a region, see RegionLimits
     std::size_t rounds = 5;
 
     /// @param hogels, directions  along a side, where they are not given
     LightFieldOptions light_field(std::size_t default_hogels, std::size_t default_directions) const;
-    /// The model of shading that was asked for, or the one that the thesis used for its scene.
+    /// The requested shading model, or the one that the thesis used for its scene.
     std::string shading_of(const std::string& scene) const;
     /// The first of the algorithms.
     std::string algorithm() const { return algorithms.empty() ? default_algorithm : algorithms.front(); }
-    /// Creates the folder for plots, if there is to be one.
+    /// Creates the folder for plots, if there is one.
     void prepare_output() const;
     /// Writes a plot as KIND_SCENE.svg, if there is a folder for plots.
     void write_plot(const std::string& kind, const std::string& scene, const PlotText& text,
                     const std::vector<Curve>& curves) const;
 };
 
-/// A scene pushed behind the hologram, where every renderer can see it, with its light. A name like `pumpkin:10` is the
-/// scene whose triangles are each cut into 10².
+/// A shaded scene, moved behind the hologram, where every renderer can see it. A name like `pumpkin:10` is the scene
+/// with each triangle cut into 10².
 std::shared_ptr<const ShadedScene> bench_scene(const Session& session, const std::string& name,
                                                const LightFieldOptions& options);
 
-/// Prints how long renderers take for a hogel against the side of the region that they are given at once.
+/// Prints the time of renderers per hogel against the side of the region that is rendered at once.
 void measure_regions(const RenderOptions& options, const Session& session);
-/// `--peers`: prints how fast renderers of others are beside one of hogel's, a table row as soon as it is there.
+/// `--peers`: prints the speed of other projects' renderers beside that of one of hogel's, row by row.
 void measure_peers(const RenderOptions& options, const Session& session);
-/// `--scaling`: prints how the time grows with hogels, directions and triangles, what a second thread gains, and how
-/// near the renderer is to the speed of plain writing.
+/// `--scaling`: prints how the time grows with hogels, directions and triangles, the gain of a second thread, and the
+/// speed relative to plain writing of memory.
 void measure_scaling(const RenderOptions& options, const Session& session);
-/// `--stream`: prints how long whole light fields take, which may be larger than memory and are not kept.
+/// `--stream`: prints the time of whole light fields, which may be larger than memory and are not kept.
 void measure_stream(const RenderOptions& options, const Session& session);
 
 }  // namespace hogel::bench

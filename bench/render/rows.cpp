@@ -28,7 +28,7 @@ std::vector<HogelPlace> HogelRows::some(std::size_t count) const {
     const std::size_t width = source_.grid().hogels_s;
     std::vector<HogelPlace> hogels;
     for (std::size_t i = 0; i < count; ++i) {
-        // Columns advance by the golden ratio, so that no row repeats those of another.
+        // Columns advance by the golden ratio, so that no row repeats the columns of another.
         const double along = (static_cast<double>(i) + 0.5) * std::numbers::phi;
         const auto column = static_cast<std::size_t>((along - std::floor(along)) * static_cast<double>(width));
         hogels.push_back({column, places_[(2 * i + 1) * places_.size() / (2 * count)]});

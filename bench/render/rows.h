@@ -13,8 +13,8 @@ struct HogelPlace {
 };
 
 /// Rows of hogels spread over a light field, with their samples. They are rendered on all threads in tiles of the width
-/// that the renderer prefers: enough for an epipolar renderer to reach its full speed, in little memory. The tiles are
-/// kept from run to run.
+/// that the renderer prefers, with which an epipolar renderer reaches its full speed in little memory. The tiles are
+/// reused in each run.
 class HogelRows {
   public:
     HogelRows(const LightFieldSource& source, std::size_t rows);
@@ -22,7 +22,7 @@ class HogelRows {
     void render();
     std::size_t hogels() const { return places_.size() * source_.grid().hogels_s; }
     double rays() const { return static_cast<double>(hogels() * source_.grid().directions()); }
-    /// That many of the hogels, spread evenly over all of them.
+    /// `count` of the hogels, spread evenly over all of them.
     std::vector<HogelPlace> some(std::size_t count) const;
     /// A sample of one of the hogels; the light field must have three channels.
     Rgb sample(HogelPlace hogel, std::size_t v, std::size_t u) const;

@@ -16,7 +16,7 @@
 namespace hogel::bench {
 namespace {
 
-// Rows of hogels that are rendered. More of them where threads share them, for one row may take twice as long as
+// The number of rows of hogels that are rendered: more if threads share them, because one row may take twice as long as
 // another.
 constexpr std::size_t few_rows = 2, rows_for_threads = 16;
 
@@ -28,7 +28,7 @@ Times times_of(const std::string& algorithm, const std::shared_ptr<const ShadedS
     return median_time_of([&] { some.render(); }, rounds);
 }
 
-// How many times the processor time of the first point each takes.
+// Processor times relative to that of the first point.
 Curve relative(const std::string& name, const std::vector<std::pair<double, double>>& seconds) {
     Curve curve{name, {}};
     for (const auto& [size, time] : seconds) curve.points.emplace_back(size, time / seconds.front().second);
@@ -89,16 +89,16 @@ std::shared_ptr<const ShadedScene> wall(double size) {
     return scene;
 }
 
-// Prints million samples a second of two triangles that fill the view, and of plain writing of as many samples.
+// Prints million samples per second for two triangles that fill the view, and for plain writing of as many samples.
 void print_limits(const std::string& algorithm, const LightFieldGrid& grid, double size, std::size_t rounds) {
     const auto source = make_renderer(algorithm, wall(size), grid);
-    // Rows that take far more memory than caches hold.
+    // Rows of far more memory than the caches.
     constexpr std::size_t min_bytes = std::size_t{1} << 29;
     const std::size_t row_bytes = grid.hogels_s * grid.directions() * grid.channels * sizeof(float);
     HogelRows some(*source, std::clamp<std::size_t>(min_bytes / row_bytes, few_rows, grid.hogels_t));
     some.render();
     const double rendering = median_time_of([&] { some.render(); }, rounds).processor;
-    // Some processors write cache lines of zeros without moving any data, twice as fast as others.
+    // Some processors write cache lines of zeros without moving data, twice as fast as other values.
     constexpr int not_zero = 0x3f;
     const double writing = median_time_of(
                                [&] {

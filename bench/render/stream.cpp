@@ -16,8 +16,8 @@
 namespace hogel::bench {
 namespace {
 
-// Rounds samples to half floats, as a file would, and keeps nothing of them but a checksum, which is the same for any
-// tiling and any number of threads.
+// Rounds samples to half floats, as a file does, and keeps only a checksum, which does not depend on the tiling and the
+// number of threads.
 class ConsumingSink final : public LightFieldSink {
   public:
     explicit ConsumingSink(const LightFieldGrid& grid) : grid_(grid) {}

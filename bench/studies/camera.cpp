@@ -68,8 +68,8 @@ void plane_to_plane(std::size_t rounds) {
                 whole.wall, whole.processor, bare.wall, bare.processor);
 }
 
-// A full photograph, and its transforms alone: those of the hologram's rows in its window and of the band's columns,
-// from them to the lens, from its opening to plane waves, and from these to the plane in focus.
+// Measures a photograph by the full camera and its transforms alone: of the hologram's rows in its window and of the
+// band's columns, from there to the lens, from its opening to plane waves, and from these to the plane in focus.
 void full_camera(std::size_t rounds) {
     const Field field = noise(4096);
     const Grid& plane = field.grid().plane;
@@ -78,7 +78,7 @@ void full_camera(std::size_t rounds) {
     camera.pupil = 6_mm;
     camera.focus_depth = -3_mm;
     camera.picture = {400, 400, plane.size_x() / 400, plane.size_y() / 400, 0, 0};
-    const Times whole = best_time_of([&] { photograph_fully(field, {&camera, 1}); }, rounds);
+    const Times whole = best_time_of([&] { photograph_by_plane_waves(field, {&camera, 1}); }, rounds);
 
     const double pupil = room * camera.pupil;
     const Grid window = optics::padded(plane, plane.size_x() + pupil, plane.size_y() + pupil);

@@ -36,7 +36,7 @@ def padded(field, n):
 
 
 def elsewhere(window, z):
-    """The wave on the plane z further on; directions that would leave the window are dropped."""
+    """The wave propagated by z; directions that would leave the window are dropped."""
     f, fz, travels = frequencies(window.shape[0])
     reach = 0.5 * window.shape[0] * PITCH
     with np.errstate(divide="ignore"):

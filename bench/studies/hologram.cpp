@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/measure.h"
@@ -26,7 +27,7 @@ namespace {
 constexpr double wavelength = 633e-9, pitch = 3e-6;
 constexpr std::size_t hogel_side = 16;  // samples
 
-// A square of 24 × 24 cells with a wavy pattern.
+// Adds a square of 24 × 24 cells with a wavy pattern.
 void add_plane(ShadedScene& scene, double half, double left, double right, double depth, double slope, float level) {
     constexpr std::uint32_t cells = 24;
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
@@ -78,7 +79,7 @@ Image by_rays(const ShadedScene& scene, const Camera& camera) {
     return image;
 }
 
-// A scene, and the depth that the camera is focused on.
+// A scene, and the depth of the camera's focus.
 struct Test {
     std::shared_ptr<const ShadedScene> scene;
     double focus;
@@ -99,7 +100,7 @@ Test point(double depth, double half) {
     return {scene, depth};
 }
 
-// A surface of one radiance wider than the hologram: parallel light in all directions alike.
+// A surface of uniform radiance wider than the hologram.
 Test uniform(double depth, double half) {
     auto scene = std::make_shared<ShadedScene>();
     add_plane(*scene, 3 * half, -3 * half, 3 * half, depth, 0, 0);
@@ -115,32 +116,29 @@ Test occluding(double depth, double half) {
     return {scene, depth - 1e-3};
 }
 
-// A method with its options: from the scene to a hologram, directly or by way of a light field.
+// A method with its options, from the scene to a hologram, either directly or through a light field.
 struct MeasuredMethod {
     std::string name;
-    std::string scene_method;  // empty: by way of a light field
+    std::string scene_method;  // empty: through a light field
     HologramOptions stereogram;
 };
 
 std::vector<MeasuredMethod> methods() {
     std::vector<MeasuredMethod> all;
-    const auto add = [&](const char* name, Method method, Phases phases) {
+    const auto add = [&](const std::string& name, const HologramMethod& method) {
         HologramOptions options;
-        options.wavelength = wavelength;
+        options.channel.wavelength = wavelength;
         options.pitch = pitch;
         options.method = method;
-        options.phases = phases;
         all.push_back({name, "", options});
     };
-    add("fourier", Method::fourier, Phases::random);
-    add("fourier, designed", Method::fourier, Phases::designed);
-    add("basis", Method::basis, Phases::fixed);
-    add("phase-added", Method::fourier, Phases::phase_added);
-    add("phase-added-exact", Method::fourier, Phases::phase_added_exact);
-    add("olas", Method::overlap_add, Phases::random);
-    for (const char* name : {"points", "points-visible", "points-tiled", "points-hpo", "edges", "lines", "fraunhofer",
-                             "fresnel", "planes", "polygons", "polygons-visible"})
-        all.push_back({name, name, {}});
+    for (const HologramMethodInfo& info : hologram_methods().rows()) {
+        if (std::holds_alternative<Lines>(info.method)) continue;  // horizontal parallax only: another light field
+        add(info.name, info.method);
+        if (std::holds_alternative<Fourier>(info.method))
+            add(info.name + ", designed", Fourier{.phases = Phases::designed});
+    }
+    for (const std::string& name : scene_hologram_methods().names()) all.push_back({name, name, {}});
     return all;
 }
 
@@ -150,21 +148,22 @@ Field make(const MeasuredMethod& method, const ShadedScene& scene, const LightFi
         SceneHologramOptions options;
         options.seed = seed;
         options.spacing = 20e-6;
-        return find_scene_method(method.scene_method)
-            ->make(scene, {{samples, samples, pitch, pitch, 0, 0}, wavelength}, options, {});
+        return scene_hologram_methods()
+            .find(method.scene_method)
+            .make(scene, {{samples, samples, pitch, pitch, 0, 0}, wavelength}, options, {});
     }
     HologramOptions options = method.stereogram;
     options.seed = seed;
-    const auto source = make_hologram(*light_field, options);
+    const auto source = make_hologram(borrow(*light_field), options);
     Field field(source->grid());
     copy(*source, field);
     return field;
 }
 
-// What a method reads: as many directions as a hogel shows, within what the pitch diffracts to.
+// The light field for a method: as many directions as a hogel shows, limited to those to which the pitch diffracts.
 LightFieldBuffer light_field_for(const MeasuredMethod& method, const std::shared_ptr<const ShadedScene>& scene,
                                  std::size_t samples) {
-    const bool windows = method.stereogram.method == Method::overlap_add;
+    const bool windows = std::holds_alternative<OverlapAdd>(method.stereogram.method);
     const double tangent = 0.98 * std::tan(std::asin(wavelength / (2 * pitch)));
     const std::size_t n = windows ? samples / 2 : samples / hogel_side, d = windows ? 9 : hogel_side;
     const LightFieldGrid grid{n, n, double(samples) * pitch / double(n), d, d, Perspective{tangent, tangent}, 3};
@@ -182,13 +181,13 @@ Camera camera_focused_on(double depth, double size) {
     return camera;
 }
 
-// Processor time of the holograms that were made.
+// The processor time of the holograms.
 struct Cost {
     double seconds = 0;
     int holograms = 0;
 };
 
-// Prints one cell of the table: how near the mean photograph is to that by rays.
+// Prints one cell of the table: the similarity of the mean photograph to that by rays.
 void measure(const MeasuredMethod& method, const Test& test, const HologramStudy& study, Cost& cost) {
     const Camera camera = camera_focused_on(test.focus, double(study.samples) * pitch);
     std::optional<LightFieldBuffer> light_field;

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Overlapping windows on a textured plane: the hologram carried back to the plane's depth, against the texture.
+"""Overlapping windows on a textured plane: the hologram propagated to the plane's depth, compared with the texture.
 
 usage: olas_on_a_plane.py HOGEL      HOGEL: the program, built for release
 
-520 nm, 6.4 um, a hogel a sample, views over all that the pitch diffracts to. The light field is made here from the
-texture in closed form, and the field is carried back here, by the band-limited angular spectrum on twice the width.
+520 nm, 6.4 um, one hogel per sample, views over the whole range of diffraction. The light field is made here from the
+texture in closed form, and the field is propagated here, by the band-limited angular spectrum on twice the width.
 """
 import subprocess
 import sys
@@ -33,7 +33,7 @@ def write_light_field(path, plane, depth, views):
     radiance = np.empty((1, SAMPLES, SAMPLES, views, views), "f4")
     for l in range(views):
         for k in range(views):
-            # Row 0 of the directions is the highest V, and rows of the picture run down.
+            # Row 0 of the directions is the highest V, and rows of the picture are counted downwards.
             at = [rows - u[views - 1 - l] * depth / PITCH, columns + u[k] * depth / PITCH]
             radiance[0, :, :, l, k] = map_coordinates(plane, at, order=1)
     with h5py.File(path, "w", libver="v108") as file:
@@ -58,7 +58,7 @@ def carried_back(field, depth):
 
 
 def psnr(truth, seen):
-    """Of two pictures, the second scaled to the first."""
+    """The PSNR of two pictures, the second scaled to the first."""
     scale = (truth * seen).sum() / (seen * seen).sum()
     return -10 * np.log10(np.mean((truth - scale * seen) ** 2))
 

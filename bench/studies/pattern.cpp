@@ -39,7 +39,7 @@ LightFieldBuffer wavy_picture(std::size_t samples) {
     return light_field;
 }
 
-// Divides by the mean, so that pictures of any efficiency compare.
+// Divides by the mean, so that pictures of different efficiency can be compared.
 Image normalised(Image image) {
     double mean = 0;
     for (const float value : image.pixels.elements()) mean += value / double(image.pixels.size());
@@ -58,10 +58,10 @@ void report(const char* name, Image mean, const Image& truth, double efficiency,
 
 Field hologram_of(const LightFieldBuffer& light_field, std::uint64_t seed) {
     HologramOptions options;
-    options.wavelength = wavelength;
+    options.channel.wavelength = wavelength;
     options.pitch = pitch;
     options.seed = seed;
-    const auto source = make_hologram(light_field, options);
+    const auto source = make_hologram(borrow(light_field), options);
     Field field(source->grid());
     copy(*source, field);
     return field;
@@ -72,7 +72,7 @@ void add(Image& sum, const Image& image) {
     for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels.data()[i] += image.pixels.data()[i];
 }
 
-// The light behind the modulator, its order turned straight ahead.
+// The field behind the modulator, with its order rotated to straight ahead.
 Field light_of(const Pattern& pattern, const Encoding& encoding, Field field) {
     field.samples = transmission(pattern, encoding);
     const double frequency = std::sin(pattern.reference_angle) * pitch / wavelength;
@@ -124,12 +124,12 @@ void study_pattern(const PatternStudy& study) {
     for (std::uint64_t look = 1; look <= looks; ++look)
         add(complex, photograph(hologram_of(light_field, look), std::span(&camera, 1))[0]);
     report("the complex field", complex, truth, 1, 1, 0);
-    for (const auto& [name, encoding] : encodings()) {
+    for (const EncodingInfo& info : encodings().rows()) {
         try {
-            measure(name, encoding, light_field, camera, truth, study);
+            measure(info.name, info.encoding, light_field, camera, truth, study);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) throw;
-            std::printf("| `%s` | refused: %s |\n", name.c_str(), error.what());
+            std::printf("| `%s` | refused: %s |\n", info.name.c_str(), error.what());
         }
     }
 }

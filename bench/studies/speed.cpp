@@ -39,7 +39,7 @@ ShadedScene displaced_sphere(std::size_t triangles) {
     return scene;
 }
 
-// Eight wavy sheets one behind the other, which fill the view; the first hides the others.
+// Eight wavy sheets, one behind the other, which fill the view; the first hides the others.
 ShadedScene sheets(std::size_t triangles) {
     const std::size_t side = static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles) / 16));
     ShadedScene scene;
@@ -78,7 +78,7 @@ Speed measure(const LightFieldSource& source, std::vector<LightFieldTile>& tiles
     return {samples / times.wall, samples / times.processor};
 }
 
-// Two rows of hogels of the grid, in tiles of that width.
+// Tiles of that width for two rows of hogels of the grid.
 std::vector<LightFieldTile> two_rows(const LightFieldGrid& grid, std::size_t width) {
     std::vector<LightFieldTile> tiles;
     for (std::size_t row = 0; row < 2; ++row)

@@ -14,17 +14,17 @@
 namespace hogel::bench {
 namespace {
 
-// Prints a table row. The two measurements take turns in every round.
+// Prints a table row. The two measurements alternate in every round.
 void measure(std::size_t side, std::size_t directions, std::size_t across, std::size_t rounds) {
     const std::size_t hogels = across / side;
     HologramOptions options;
     options.pitch = 2e-6;
-    const double tangent = 0.98 * std::tan(std::asin(options.wavelength / (2 * options.pitch)));
+    const double tangent = 0.98 * std::tan(std::asin(options.channel.wavelength / (2 * options.pitch)));
     LightFieldBuffer rays(
         {hogels, hogels, double(side) * options.pitch, directions, directions, Perspective{tangent, tangent}, 1});
     std::minstd_rand random(1);
     for (float& ray : rays.radiance.elements()) ray = float(random() % 1024) / 1024;
-    const auto stereogram = make_hologram(rays, options);
+    const auto stereogram = make_hologram(borrow(rays), options);
     Field field(stereogram->grid());
     Array<std::complex<float>, 3> squares({hogels * hogels, side, side});
     for (auto& value : squares.elements()) value = {float(random() % 1024) - 512, float(random() % 1024) - 512};

@@ -5,26 +5,24 @@
 #include <string>
 #include <vector>
 
-// Measurements of one part of the library each, on inputs that they make themselves. Each prints a table or a few
-// lines.
+// Measurements, each of one part of the library on inputs that it makes itself. Each prints a table or a few lines.
 namespace hogel::bench {
 
 struct CameraStudy {
-    std::size_t samples = 6144;  ///< across the hologram that the narrow band takes in
+    std::size_t samples = 6144;  ///< across the hologram of the narrow-band measurement
     std::size_t rounds = 3;
 };
 /// Speed of the cameras and of propagation on fields of noise in memory, against the bare Fourier transforms that they
 /// need. Prints for each the best time of the rounds, in brackets the processor time:
-///   - how fast the narrow band takes a hologram in;
-///   - a photograph of 1024 × 1024 pixels after a new focus, from a film of about as many samples;
-///   - 2048 × 2048 samples to another plane;
-///   - a photograph of 4096 × 4096 samples by the full camera.
+///   - the speed of reading a hologram into the narrow band; - a photograph of 1024 × 1024 pixels after a new focus,
+///   from a film of about as many samples; - 2048 × 2048 samples to another plane; - a photograph of 4096 × 4096
+///   samples by the full camera.
 void study_camera(const CameraStudy& study);
 
 struct HologramStudy {
     std::size_t samples = 256;         ///< along a side of the hologram
     std::size_t looks = 2;             ///< photographs of independent phases that are averaged
-    std::vector<std::string> methods;  ///< by the names that the table shows; empty: all
+    std::vector<std::string> methods;  ///< names as in the table; empty: all
 };
 /// Quality of the photograph and time of every hologram method on the same scenes: a small patch, a wide surface of one
 /// radiance, a textured plane tilted by 15 degrees, and a near plane that hides half of a far one, at depths from −20
@@ -39,8 +37,8 @@ struct PatternStudy {
 };
 /// Quality of the photograph, light efficiency and time of every encoding for a modulator, of the same hologram: a wavy
 /// picture 10 mm behind a hologram with a pitch of 8 µm at 633 nm, made of hogels of 16 samples whose light fills 15 %
-/// of what the pitch diffracts to. The photograph of the pattern's order, turned straight ahead, through a lens of 3
-/// mm, 300 mm away, is compared with that of the light field by rays, both scaled to the same mean. So is the
+/// of what the pitch diffracts to. The photograph of the pattern's order, rotated to straight ahead, through a lens of
+/// 3 mm, 300 mm away, is compared with that of the light field by rays, both scaled to the same mean. So is the
 /// photograph of the complex field itself: its speckle limits every encoding.
 void study_pattern(const PatternStudy& study);
 
@@ -49,7 +47,7 @@ struct StereogramStudy {
     std::size_t rounds = 5;
 };
 /// Speed of plain stereograms, on one thread, beside the bare Fourier transforms that they need. For each size of hogel
-/// prints million samples a second of processor time, the best of the rounds: of the stereogram with random phases,
+/// prints million samples per second of processor time, the best of the rounds: of the stereogram with random phases,
 /// from a light field of noise in memory to a field in memory, whose directions fill what the pitch diffracts to; and
 /// of the transforms of as many squares of that size, one after the other over a whole hologram, in place.
 void study_stereogram(const StereogramStudy& study);
@@ -64,8 +62,8 @@ struct SpeedStudy {
     std::vector<std::string> algorithms;  ///< empty: all
 };
 /// Samples a second of renderers, with all channels of a ray counted as one sample: per second of wall time and of
-/// processor time, medians over the rounds. The renderers take turns in every round, so that other work on the machine
-/// disturbs all alike.
+/// processor time, medians over the rounds. The renderers alternate in every round, so that other work on the machine
+/// affects all alike.
 void study_speed(const SpeedStudy& study);
 
 }  // namespace hogel::bench

@@ -11,6 +11,7 @@
 
 namespace hogel {
 
+/// The extents of an array, first axis first.
 template <std::size_t Rank>
 using Shape = std::array<std::size_t, Rank>;
 
@@ -22,12 +23,13 @@ constexpr std::size_t count(const Shape<Rank>& shape) {
     return n;
 }
 
-/// Memory aligned to a cache line; large blocks in huge pages where the system grants them, because each page that is
-/// touched costs a look-up in the processor's page table. Throws std::bad_alloc.
+/// Allocates memory aligned to a cache line. Large blocks use huge pages where the system grants them, which saves
+/// page-table look-ups. Throws std::bad_alloc.
 HOGEL_API void* allocate_lines(std::size_t bytes);
+/// Frees memory from allocate_lines().
 HOGEL_API void free_lines(void* memory);
 
-/// Allocates at multiples of a cache line, on which vector code and FFT plans rely.
+/// A standard allocator whose memory is aligned to a cache line, as vector code and FFT plans require.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
@@ -46,7 +48,7 @@ class View {
   public:
     View() = default;
     View(T* data, const Shape<Rank>& shape) : data_(data), shape_(shape) {}
-    /// A view of mutable elements is also a view of constant ones.
+    /// Converts a view of mutable elements into a view of constant ones.
     template <class U>
     requires(std::is_same_v<const U, T> && !std::is_same_v<U, T>) View(const View<U, Rank>& other)
         : data_(other.data()), shape_(other.shape()) {}

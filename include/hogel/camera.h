@@ -12,18 +12,21 @@ namespace hogel {
 struct Camera {
     Vec3 eye{0, 0, 0.3};     ///< centre of the lens, metres; z > 0
     double focus_depth = 0;  ///< ζ of the plane in focus, metres: 0 on the hologram plane, positive behind it; > -eye.z
-    double focus_slope_x = 0, focus_slope_y = 0;  ///< dζ/dx and dζ/dy of that plane, as by a tilted film
+    double focus_slope_x = 0, focus_slope_y = 0;  ///< dζ/dx and dζ/dy of that plane; not zero with a tilted film
     double pupil = 5e-3;  ///< diameter of the lens opening, a disc parallel to the hologram, metres
-    Grid picture;         ///< pixels laid over the hologram plane
+    Grid picture;         ///< the pixels, projected from the eye onto the hologram plane
+
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-/// Along the line of sight through the hologram's point (x, y): the distance from the eye to the plane in focus, ζ =
-/// focus_depth + focus_slope_x x + focus_slope_y y, divided by the distance to that point. 1 + focus_depth/eye.z where
-/// the plane is parallel to the hologram; not positive where the plane is not in front of the eye.
+/// On the line of sight through the point (x, y) of the hologram plane: the distance from the eye to the plane in
+/// focus, divided by the distance from the eye to that point. The plane in focus is ζ = focus_depth + focus_slope_x x +
+/// focus_slope_y y. Where it is parallel to the hologram, the ratio is 1 + focus_depth/eye.z; where it is not in front
+/// of the eye, the ratio is not positive.
 HOGEL_API double focus_ratio(const Camera& camera, double x, double y);
 
-/// Throws Error(usage) naming what is wrong: an eye on or behind the hologram, a focus behind the eye somewhere in the
-/// picture, no pixels, no pupil.
+/// Throws Error(usage), naming what is wrong: an eye on or behind the hologram, a plane in focus that lies behind the
+/// eye for a part of the picture, no pixels, or no pupil.
 HOGEL_API void validate(const Camera& camera);
 
 }  // namespace hogel

@@ -8,17 +8,18 @@
 
 namespace hogel {
 
-/// What kind of failure an Error is, for programs to act on. The value is the exit status of the command line.
+/// The kind of a failure, on which programs can act. The value is also the exit status of the command-line program.
 enum class ErrorCode {
     usage = 2,         ///< the request makes no sense: wrong unit, contradicting or impossible options
     bad_input = 3,     ///< a file or a scene is missing, damaged, or not what it claims to be
     cannot_write = 4,  ///< an output cannot be created, or the disk is full
     not_built_in = 5,  ///< this build lacks the feature
-    cancelled = 6,     ///< the caller asked to stop, by its Progress
+    cancelled = 6,     ///< the caller stopped the work through its Progress
     internal = 70,     ///< a condition that the library itself should have ensured: a bug
 };
 
-/// The one exception type of the library. `what()` is a single line: what, where, what was expected.
+/// The one exception type of the library. `what()` is a single line that says what is wrong, where, and what was
+/// expected.
 class HOGEL_API Error : public std::runtime_error {
   public:
     Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

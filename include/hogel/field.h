@@ -2,17 +2,21 @@
 #pragma once
 
 #include <complex>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "hogel/array.h"
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
+#include "hogel/provenance.h"
 
 namespace hogel {
 
-/// A monochromatic complex field on a plane z = 0: where it is sampled and its wavelength. Time factor e^{-iωt}: a wave
-/// that travels in direction n is e^{+ik n·x}. |F|² is normalised so that a wave of amplitude A carries the radiance
-/// that it would in the light field's units (docs/notation.md).
+/// The sampling and the wavelength of a monochromatic complex field F on the plane z = 0. The time factor is e^{-iωt}:
+/// a wave that travels in direction n is e^{+ik n·x}. |F|² is normalised to the radiance of the light field
+/// (docs/notation.md, section 3).
 struct FieldGrid {
     Grid plane;             ///< samples F[y][x]
     double wavelength = 0;  ///< metres
@@ -20,42 +24,48 @@ struct FieldGrid {
     friend bool operator==(const FieldGrid&, const FieldGrid&) = default;
 };
 
-/// Throws Error(code) naming `what` and the member that is wrong: no samples, a pitch or a wavelength that is not
-/// positive and finite, more samples than can be addressed.
+/// Throws Error(code), naming `what` and the member that is wrong: zero samples, a pitch or a wavelength that is not
+/// positive and finite, or more samples than can be addressed.
 HOGEL_API void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
 
-/// Throws Error(usage) when a region is empty or leaves the grid, or an array for it does not have its shape.
+/// Throws Error(usage) if the region is empty or leaves the grid, or if `array` is not (height, width) of the region.
 HOGEL_API void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array);
 
 /// A source of fields: memory, a file, or a synthesis on demand. A source may offer several looks: statistically
 /// independent fields (other random phases) of the same object, whose photographs are averaged against speckle.
-/// read() may be called from several threads at once and gives the same value for a sample whatever the region.
+/// read() may be called from several threads at once; the value of a sample does not depend on the region that is read.
 class HOGEL_API FieldSource {
   public:
     virtual ~FieldSource() = default;
     virtual const FieldGrid& grid() const = 0;
     virtual std::size_t looks() const { return 1; }
-    /// Regions that start at multiples of this many samples and span multiples of it are read without repeated work.
+    /// Where the field comes from: the provenance stored in its file, or that of the light field that it shows.
+    virtual const Provenance& provenance() const;
+    /// Regions whose positions and sizes are multiples of this number of samples are read without repeated work.
     virtual std::size_t alignment() const { return 1; }
-    /// Fills out[y][x] (shape: region height × width) with look number `look` of the samples of the region.
+    /// Fills out[y][x] (shape: height × width of the region) with the region's samples in look number `look`.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
 };
 
-/// A destination of fields. write() may be called from several threads at once, each sample once.
+/// The fields of a hologram, one for each wavelength. Ownership is shared, so copies are cheap.
+using Fields = std::vector<std::shared_ptr<const FieldSource>>;
+
+/// A destination of fields. write() may be called from several threads at once, once for each sample.
 class HOGEL_API FieldSink {
   public:
     virtual ~FieldSink() = default;
     virtual void write(const Region& region, View<const std::complex<float>, 2> values) = 0;
-    /// The storage of all samples, [y][x], if the field is whole in memory: a writer may fill it instead of calling
-    /// write(). Otherwise no elements.
+    /// The storage of all samples, [y][x], if the field is completely in memory; a writer may fill it instead of
+    /// calling write(). Otherwise no elements.
     virtual View<std::complex<float>, 2> in_memory() { return {}; }
-    /// Whether the sink continues an interrupted run in which this very region was written; then it counts as written.
+    /// Whether the sink continues an interrupted run in which exactly this region was written; then it counts as
+    /// written, and the caller skips it.
     virtual bool has_already(const Region&) { return false; }
     /// Called once after the last region; a file appears under its own name only now.
     virtual void finish() {}
 };
 
-/// A field that is whole in memory: source and sink.
+/// A field that is completely in memory, both source and sink.
 class HOGEL_API Field final : public FieldSource, public FieldSink {
   public:
     explicit Field(const FieldGrid& grid);
@@ -63,14 +73,17 @@ class HOGEL_API Field final : public FieldSource, public FieldSink {
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;
     void write(const Region& region, View<const std::complex<float>, 2> values) override;
     View<std::complex<float>, 2> in_memory() override { return samples; }
+    const Provenance& provenance() const override { return provenance_; }
+    void set_provenance(Provenance provenance) { provenance_ = std::move(provenance); }
 
     Array<std::complex<float>, 2> samples;  ///< [y][x]
 
   private:
     FieldGrid grid_;
+    Provenance provenance_;
 };
 
-/// Streams one look of a field from a source to a sink region by region on all threads. Calls finish().
+/// Streams one look of a field from a source to a sink, region by region on all threads, then calls finish().
 HOGEL_API void copy(const FieldSource& source, FieldSink& sink, std::size_t look = 0, const Progress& progress = {});
 
 }  // namespace hogel

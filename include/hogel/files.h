@@ -24,60 +24,58 @@ enum class SampleType { half, single };
 
 /// Opens a light field with all faces that the file holds: a compressed one (.hgl), or one in an HDF5 file with a
 /// dataset "radiance" [c][t][s][v][u] (half or single floats) and optionally a dataset "depth" [t][s][v][u] (single,
-/// metres) for each face. The sampling is in attributes of "radiance"; docs/files.md names them all. Opening reads the
-/// header alone. Datasets in one contiguous piece, as hogel writes them, are read by all threads at once, chunked or
-/// compressed ones by one at a time. Throws Error(bad_input) for a file that is missing, damaged, truncated,
-/// inconsistent or of another kind.
+/// metres) for each face. The sampling is in attributes of "radiance"; docs/files.md names them all. Opening reads only
+/// the header. Contiguous datasets, as hogel writes them, are read by all threads at once, chunked or compressed ones
+/// by one thread at a time. Throws Error(bad_input) for a file that is missing, damaged, truncated, inconsistent or of
+/// another kind.
 HOGEL_API LightField open_light_field(const std::filesystem::path& path);
 
+/// Options of create_light_field().
 struct LightFieldFileOptions {
     SampleType type = SampleType::half;
     bool with_depth = false;
-    Metadata metadata;  ///< string attributes of the file: the options and the version that made it
-    /// If given, interrupted work can be resumed: the unfinished file X stays as "X.part" beside "X.part.journal", and
-    /// creating X again with the same options continues it, has_already() being true of the tiles that are done. The
-    /// text identifies inputs that metadata does not, such as a file by its date. Creating throws Error(usage) where
-    /// the unfinished file belongs to other work.
+    Metadata metadata;  ///< string attributes of the file: the version and the options that made it
+    /// If given, interrupted work can be resumed. The unfinished file X stays as "X.part" beside "X.part.journal";
+    /// creating X again with the same options continues it, and has_already() is true for the tiles that are done. The
+    /// text identifies inputs that `metadata` does not, such as the date of an input file. Creating throws Error(usage)
+    /// if the unfinished file belongs to other work.
     std::optional<std::string> resume = std::nullopt;
 };
 
 /// Creates a light field in an HDF5 file: one sink for each face, the front first. The file appears under its name when
-/// the last of them is finished; before that it is a temporary beside it, removed with the sinks unless it can be
-/// resumed. Room on the disk is reserved at once, so that a disk that is too small fails before the work. In half
-/// floats, values beyond 65504 are infinite. Throws Error(usage) where the grids are not those of one light field,
+/// all sinks are finished; until then it is a temporary file in the same folder, which is removed with the sinks unless
+/// it can be resumed. Disk space is reserved at once, so that a full disk is reported before the work begins. Half
+/// floats beyond 65504 become infinite. Throws Error(usage) if the grids are not those of one light field, and
 /// Error(cannot_write).
 HOGEL_API std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
                                                                           std::span<const LightFieldGrid> grids,
                                                                           const LightFieldFileOptions& options = {});
 
-/// A hologram in an HDF5 file: one field for each wavelength, for instance red, green and blue. Field number i is the
-/// dataset "field<i>/samples", [y][x] of compounds {r, i} (single floats), which h5py reads as complex64, or [y][x][2]
-/// of half floats, with its sampling and wavelength in attributes (docs/files.md).
-struct HologramFile {
-    std::vector<std::shared_ptr<const FieldSource>> fields;
-    Metadata metadata;
-};
+/// Opens a hologram in an HDF5 file: one field for each wavelength, for instance red, green and blue. Field number i is
+/// the dataset "field<i>/samples", [y][x] of compounds {r, i} (single floats), which h5py reads as complex64, or
+/// [y][x][2] of half floats, with its sampling and wavelength in attributes (docs/files.md). Throws Error(bad_input) as
+/// open_light_field() does.
+HOGEL_API Fields open_hologram(const std::filesystem::path& path);
 
-/// Opens a hologram. Throws Error(bad_input) as open_light_field() does.
-HOGEL_API HologramFile open_hologram(const std::filesystem::path& path);
-
+/// Options of create_hologram().
 struct HologramFileOptions {
-    /// Halves keep 11 bits of numbers from 6·10⁻⁵ to 65504 and take half the space.
+    /// Half floats keep 11 significant bits of numbers from 6·10⁻⁵ to 65504 and take half the space.
     SampleType type = SampleType::single;
     Metadata metadata = {};                            ///< as in LightFieldFileOptions
     std::optional<std::string> resume = std::nullopt;  ///< as in LightFieldFileOptions
 };
 
-/// Creates a hologram in an HDF5 file: one sink for each field. The file appears under its name when the last of them
-/// is finished. A sink of halves throws Error(usage) for samples beyond 65504. Throws Error(cannot_write).
+/// Creates a hologram in an HDF5 file: one sink for each field. The file appears under its name when all sinks are
+/// finished. A sink of half floats throws Error(usage) for samples beyond 65504. Throws Error(cannot_write).
 HOGEL_API std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
                                                                   std::span<const FieldGrid> grids,
                                                                   const HologramFileOptions& options = {});
 
+/// The kinds of files that hogel distinguishes.
 enum class FileKind { light_field, hologram, picture, mesh, unknown };
 
-/// What a file is: by its contents where it is HDF5 or a compressed light field, by its extension (file_formats())
-/// otherwise. Throws Error(bad_input) for a file that is missing or cannot be read.
+/// The kind of a file: by its contents for HDF5 and compressed light fields, otherwise by its extension
+/// (file_formats()). Throws Error(bad_input) for a file that is missing or cannot be read.
 HOGEL_API FileKind file_kind(const std::filesystem::path& path);
 
 /// A file format, for help texts and for recognising pictures and meshes by their extensions.
@@ -85,31 +83,30 @@ struct FileFormat {
     std::string name;                     ///< "hdf5"
     std::vector<std::string> extensions;  ///< in lower case: ".h5", ".hdf5"
     std::string text;                     ///< what it is, one line
-    std::vector<FileKind> reads, writes;  ///< kinds that the library reads from it and writes to it
+    std::vector<FileKind> reads, writes;  ///< the kinds of content that the library reads and writes in this format
 };
 
 /// The file formats of light fields, fields, pictures and meshes.
 HOGEL_API Table<FileFormat>& file_formats();
 
-/// What a light field or hologram file says about itself: names and values, in SI units.
+/// Facts about a light field or hologram file: names and values, in SI units.
 struct FileSummary {
     FileKind kind = FileKind::unknown;
     std::vector<std::pair<std::string, std::string>> text;  ///< facts that are texts, with the metadata
     std::vector<std::pair<std::string, double>> numbers;    ///< facts that are numbers
 };
 
-/// Reads the header of a file. Of other kinds than light fields and holograms, only kind and size are given. Throws
-/// Error(bad_input).
+/// Reads the header of a file. For kinds other than light fields and holograms only the kind and the size are given.
+/// Throws Error(bad_input) for a file that is missing, damaged or cannot be read.
 HOGEL_API FileSummary summarize(const std::filesystem::path& path);
 
-/// What a file of another program does not tell about the field that it holds.
+/// What must be known about a field in a file of another program, because the file does not say it.
 struct ExternalField {
     double pitch_x = 0, pitch_y = 0;  ///< metres between samples
     double wavelength = 0;            ///< metres
 
-    /// What the numbers of the file are: complex values; amplitudes of phase zero; or phases of amplitude one, in
-    /// radians where they are floating point numbers and in units of 2π/2ⁿ where they are whole numbers of n = 8 or 16
-    /// bits.
+    /// The meaning of the file's numbers: complex values; amplitudes, with phase zero; or phases, with amplitude one.
+    /// Floating-point phases are in radians, whole numbers of n = 8 or 16 bits are in units of 2π/2ⁿ.
     enum class Values { complex, amplitude, phase };
     Values values = Values::complex;
 
@@ -118,16 +115,16 @@ struct ExternalField {
     bool conjugate = false;           ///< true where the file's time factor is e^{+iωt}
 };
 
-/// Opens a field of another program: an array in NumPy's format (.npy) or MATLAB's (.mat, up to version 7.3), or a
-/// picture of amplitudes, of phases, or of real parts beside one of imaginary parts. Row 0 is at the top, column 0 at
-/// the left, and the middle of the array lies at x = y = 0. NPY files are read where they are asked for, others are
-/// read whole at once. Throws Error(bad_input) for a file that is damaged or of another kind, and Error(usage) where
-/// `what.values` does not suit its numbers.
+/// Opens a field written by another program: a NumPy array (.npy), a MATLAB array (.mat, up to version 7.3), or a
+/// picture of amplitudes, of phases, or of real parts with a second one of imaginary parts. Row 0 is at the top, column
+/// 0 at the left, and the middle of the array is at x = y = 0. NPY files are read region by region on demand, others
+/// completely when opened. Throws Error(bad_input) for a file that is damaged or of another kind, and Error(usage) if
+/// `what.values` does not match the file's numbers.
 HOGEL_API std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path,
                                                                  const ExternalField& what);
 
-/// Whether a file begins as an array that open_external_field() reads does. Throws Error(bad_input) for a file that is
-/// missing.
+/// Whether a file begins like an array file (.npy or .mat) that open_external_field() reads. Throws Error(bad_input)
+/// for a file that is missing.
 HOGEL_API bool is_external_array(const std::filesystem::path& path);
 
 /// Writes samples[y][x] as an array of complex64 in NumPy's format. The file appears under its name when it is

@@ -36,14 +36,14 @@ struct Rgb {
     friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// Where samples lie on a plane parallel to the hologram, arranged as a picture seen by the viewer: column 0 at the
-/// left, row 0 at the top.
+/// The positions of samples on a plane parallel to the hologram, arranged as the viewer sees them: column 0 at the
+/// left, row 0 at the top. x(), y(), column() and row() convert between indices and metres.
 struct Grid {
     std::size_t width = 0;   ///< samples in x
     std::size_t height = 0;  ///< samples in y
     double pitch_x = 0;      ///< metres between columns
     double pitch_y = 0;      ///< metres between rows
-    double center_x = 0;     ///< of the middle of all samples, metres
+    double center_x = 0;     ///< x of the middle of all samples, metres
     double center_y = 0;
 
     double x(double column) const { return center_x + (column + 0.5 - 0.5 * static_cast<double>(width)) * pitch_x; }
@@ -65,14 +65,14 @@ struct Region {
     friend bool operator==(const Region&, const Region&) = default;
 };
 
-/// The samples of a region, as a grid of their own.
+/// The grid of the samples of a region, at the same positions.
 inline Grid part(const Grid& grid, const Region& region) {
     const double middle_column = static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5;
     const double middle_row = static_cast<double>(region.y0) + 0.5 * static_cast<double>(region.height) - 0.5;
     return {region.width, region.height, grid.pitch_x, grid.pitch_y, grid.x(middle_column), grid.y(middle_row)};
 }
 
-/// A rectangle of a plane, metres; points on its left and lower edge belong to it.
+/// A rectangle in a plane, metres. Points on its left and lower edges belong to it, those on the other two do not.
 struct Rectangle {
     double left = 0, right = 0, bottom = 0, top = 0;
 

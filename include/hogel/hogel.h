@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Everything that hogel offers. Each header may be included by itself; examples/ shows how they work together.
+// All public headers. Each may be included by itself; examples/ shows how they work together.
 
 #include "hogel/array.h"
 #include "hogel/bake.h"
@@ -19,6 +19,7 @@
 #include "hogel/pipeline.h"
 #include "hogel/progress.h"
 #include "hogel/propagate.h"
+#include "hogel/provenance.h"
 #include "hogel/ray_photograph.h"
 #include "hogel/renderer.h"
 #include "hogel/resources.h"

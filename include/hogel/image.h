@@ -6,71 +6,75 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hogel/array.h"
 #include "hogel/export.h"
+#include "hogel/provenance.h"
 
 namespace hogel {
 
 /// A picture in linear light: pixels[y][x][c], row 0 at the top, one or three channels (R, G, B).
-struct Image {
+struct HOGEL_API Image {
     Array<float, 3> pixels;
+    Provenance provenance;  ///< includes the camera that took the picture, if any
 
     Image() = default;
     Image(std::size_t width, std::size_t height, std::size_t channels) : pixels(Shape<3>{height, width, channels}) {}
+    /// Makes all pixels black and removes the provenance. A picture that already has this shape keeps its memory.
+    void reset(std::size_t width, std::size_t height, std::size_t channels);
     std::size_t width() const { return pixels.extent(1); }
     std::size_t height() const { return pixels.extent(0); }
     std::size_t channels() const { return pixels.extent(2); }
 };
-
-/// Keys and texts that are kept inside a file: the options and the version that made it.
-using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 /// The sRGB transfer curve (IEC 61966-2-1) from linear light to display value and back; both clamp to 0..1.
 HOGEL_API float srgb_encode(float linear);
 HOGEL_API float srgb_decode(float display);
 
 /// Writes a picture in the format of the name's extension: .exr as linear half floats, .png and .tif as 8-bit sRGB of
-/// linear values times `exposure`. The file appears under its name when it is complete. Throws Error(cannot_write), or
-/// Error(usage) for an unknown extension or an exposure that is not positive and finite.
+/// linear values times `exposure`, with `metadata` and the picture's provenance. The file appears under its name when
+/// it is complete. Throws Error(cannot_write), or Error(usage) for an unknown extension or an exposure that is not
+/// positive and finite.
 HOGEL_API void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
                            const Metadata& metadata = {});
 
 /// Throws Error(usage) for a name whose extension write_image() would refuse.
 HOGEL_API void require_picture_name(const std::filesystem::path& path);
 
-/// The bytes of an 8-bit sRGB PNG file, for pages that carry their pictures inside.
+/// The bytes of an 8-bit sRGB PNG file, for HTML pages with embedded pictures.
 HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
 /// Reads any picture that OpenImageIO reads into linear light, with one or three channels: integers of 8 and 16 bits
-/// are taken as sRGB, alpha is dropped, of two channels the first is kept. Throws Error(bad_input), naming the file,
-/// for one that is missing, damaged or has more than `max_pixels`.
+/// are taken as sRGB, alpha is dropped, and the first of two channels is kept. The texts in the file are its
+/// provenance. Throws Error(bad_input), naming the file, for one that is missing, damaged or has more than
+/// `max_pixels`.
 HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// As read_image(), from the bytes of a picture file in memory, such as a texture inside a glTF file.
 HOGEL_API Image decode_image(std::span<const unsigned char> bytes, const std::string& name,
                              std::size_t max_pixels = std::size_t{1} << 28);
 
-/// The pixels of a picture as plain numbers rather than light: values[y][x] as they stand in the file.
+/// The pixels of a picture as plain numbers instead of light: values[y][x] as stored in the file.
 struct RawPixels {
     Array<float, 2> values;
-    std::size_t levels = 0;  ///< 256 or 65536 for whole numbers below it, 0 for floating point numbers
+    std::size_t levels =
+        0;  ///< 256 or 65536: the values are whole numbers below this; 0: they are floating-point numbers
 };
-/// Throws Error(bad_input) as read_image() does, and for a picture whose colour channels differ.
+/// Reads the pixels of a picture without a transfer curve. Throws Error(bad_input) as read_image() does, and for a
+/// picture whose colour channels differ.
 HOGEL_API RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
-/// The texts that a picture file carries, from write_image() or other programs; write_image() puts them into a TIFF
-/// file as lines of its "ImageDescription". Throws Error(bad_input) as read_image() does.
+/// Reads the texts stored in a picture file by write_image() or other programs. In a TIFF file write_image() stores
+/// them as lines of "ImageDescription". Throws Error(bad_input) as read_image() does.
 HOGEL_API Metadata read_metadata(const std::filesystem::path& path);
 
-/// The exposure that brings the brightest parts, the 99.5th percentile of each pixel's largest channel, to display
-/// white.
+/// The exposure that maps the brightest parts of a picture to display white: the 99.5th percentile of each pixel's
+/// largest channel.
 HOGEL_API double automatic_exposure(const Image& image);
 
 /// The difference of two pictures. PSNR, SSIM and the largest error are those of display values, sRGB of linear values
-/// times the exposure, clamped to 0..1, because an eye compares what a display shows.
+/// times the exposure, clamped to 0..1, because that is what an eye compares.
 struct ImageComparison {
     double psnr = 0;         ///< dB, peak 1; +infinity for equal pictures
     double ssim = 0;         ///< of luma; mean over all whole Gaussian windows of 11 pixels, σ 1.5 (Wang et al. 2004)
@@ -82,8 +86,8 @@ struct ImageComparison {
 /// positive and finite.
 HOGEL_API ImageComparison compare(const Image& a, const Image& b, double exposure = 1);
 
-/// Writes the drive levels of a display or modulator, levels[y][x][c], as they are, with no transfer curve: one channel
-/// or three of 8 bits, as .png, .bmp or .tif by the name. The file appears under its name when it is complete. Throws
+/// Writes the drive levels of a display or modulator, levels[y][x][c], unchanged and without a transfer curve, as a
+/// .png, .bmp or .tif of 8 bits with one or three channels. The file appears under its name when it is complete. Throws
 /// Error(cannot_write), or Error(usage) for another extension.
 HOGEL_API void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels,
                                 const Metadata& metadata = {});

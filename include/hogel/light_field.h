@@ -16,23 +16,25 @@
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/progress.h"
+#include "hogel/provenance.h"
+
 namespace hogel {
 
-/// The sides of a hemicube around a hogel ([K] 4.1): each looks at a part of the directions in a perspective of its
-/// own. The front looks along +ζ, right and left along +x and −x, top and bottom along +y and −y. Of the four sides
-/// only the half with ζ > 0 is used.
+/// The faces of a hemicube around a hogel ([K] 4.1). Each is a perspective picture of a part of the directions: the
+/// front looks along +ζ, right and left along +x and −x, top and bottom along +y and −y. Only the half with ζ > 0 of
+/// the four sides is used.
 enum class Face { front, left, right, top, bottom };
 
 inline constexpr std::array all_faces{Face::front, Face::left, Face::right, Face::top, Face::bottom};
 
-/// The word for a face, as in files.
+/// The name of a face, as stored in files.
 constexpr std::string_view face_name(Face face) {
     constexpr std::array<std::string_view, 5> names{"front", "left", "right", "top", "bottom"};
     return names[static_cast<std::size_t>(face)];
 }
 
-/// (x, y, ζ), relative to a hogel, as the face sees it: to the right in its picture, up, and forward. A rotation; the
-/// five pictures side by side, the front in the middle, continue each other without a jump.
+/// Rotates a vector (x, y, ζ) from a hogel into the frame of a face: right in its picture, up, and forward. Laid out as
+/// a cross with the front in the middle, the five pictures continue each other without a jump.
 constexpr Vec3 to_face(Face face, Vec3 p) {
     switch (face) {
         case Face::left:
@@ -49,7 +51,7 @@ constexpr Vec3 to_face(Face face, Vec3 p) {
     return p;
 }
 
-/// The way back: what the face sees right, up and forward, as (x, y, ζ).
+/// The inverse of to_face(): rotates (right, up, forward) of a face into (x, y, ζ).
 constexpr Vec3 from_face(Face face, Vec3 q) {
     switch (face) {
         case Face::left:
@@ -74,42 +76,46 @@ struct DirectionRange {
     friend bool operator==(const DirectionRange&, const DirectionRange&) = default;
 };
 
-/// Directions of a picture in perspective: uniform in the tangents U and V. On a side of a hemicube these are those of
-/// the face's own picture, right/forward and up/forward.
+/// Directions of a perspective picture, uniform in the tangents U and V. On a side of a hemicube U and V are those of
+/// the face's own frame: right/forward and up/forward.
 struct Perspective : DirectionRange {
     Face face = Face::front;
 
     friend bool operator==(const Perspective&, const Perspective&) = default;
 };
 
-/// Directions uniform in their sines, U and V over √(1 + U² + V²), as the frequencies of one wavelength's plane waves
-/// are: [K] 4.1. All that is said of U and V elsewhere is said of these sines. Of the front alone.
+/// Directions uniform in the sines U/√(1 + U² + V²) and V/√(1 + U² + V²), like the frequencies of the plane waves of
+/// one wavelength ([K] 4.1). In a grid with these directions, U and V stand for these sines everywhere. For the front
+/// face only.
 struct Frequencies : DirectionRange {
     friend bool operator==(const Frequencies&, const Frequencies&) = default;
 };
 
-/// A perspective that spans a full angle (radians), around the axis that is `toward` from the perpendicular. Throws
-/// Error(usage) for an angle outside 0 … π, and for one that reaches π/2 from the perpendicular while `toward` is not
-/// 0.
+/// The perspective that spans the full angles `across` and `down` (radians) around an axis that is tilted from the
+/// perpendicular by `toward_right` and `toward_up` (radians). Throws Error(usage) for an angle outside 0 … π, and for a
+/// tilted range that reaches π/2 from the perpendicular.
 HOGEL_API Perspective field_of_view(double across, double down, double toward_right = 0, double toward_up = 0);
+/// As above, for the same full angle (radians) across and down.
 inline Perspective field_of_view(double angle) { return field_of_view(angle, angle); }
 
-/// How a light field L[c][t][s][v][u] is sampled (docs/notation.md, section 1). A ray crosses the hologram plane at the
-/// centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. Which rays a hogel has, `view` says.
+/// The sampling of a light field L[c][t][s][v][u] (docs/notation.md, section 1). A ray crosses the hologram plane at
+/// the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. `view` gives the directions (U, V) of each
+/// hogel.
 struct HOGEL_API LightFieldGrid {
     std::size_t hogels_s = 0, hogels_t = 0;          ///< S columns, T rows of hogels
     double pitch = 0;                                ///< d, metres between hogels
     std::size_t directions_u = 0, directions_v = 0;  ///< n_U, n_V samples of direction
-    std::variant<Perspective, Frequencies> view;     ///< where they lie; a fixed focal plane will be a third kind
+    std::variant<Perspective, Frequencies> view;     ///< their range and spacing
     std::size_t channels = 3;                        ///< 1, or 3 for R, G, B
 
     double width() const { return static_cast<double>(hogels_s) * pitch; }   ///< of the hologram, metres
     double height() const { return static_cast<double>(hogels_t) * pitch; }  ///< likewise
+    /// The centre of a hogel on the hologram, metres: s of column i, t of row j. Columns run to the right, rows down.
     double s(double i) const { return (i + 0.5 - 0.5 * static_cast<double>(hogels_s)) * pitch; }
     double t(double j) const { return (0.5 * static_cast<double>(hogels_t) - j - 0.5) * pitch; }
 
     bool is_perspective() const { return view.index() == 0; }
-    /// In whose picture directions are uniform.
+    /// The face in whose picture directions are uniform.
     Face face() const { return is_perspective() ? std::get_if<Perspective>(&view)->face : Face::front; }
     const DirectionRange& range() const {
         if (const auto* perspective = std::get_if<Perspective>(&view)) return *perspective;
@@ -122,6 +128,7 @@ struct HOGEL_API LightFieldGrid {
     double center_v() const { return range().center_v; }
     double step_u() const { return 2 * half_u() / static_cast<double>(directions_u); }  ///< ΔU
     double step_v() const { return 2 * half_v() / static_cast<double>(directions_v); }  ///< ΔV
+    /// The direction of column k or row l of directions. Columns run to the right, rows down.
     double u(double k) const { return center_u() + (k + 0.5 - 0.5 * static_cast<double>(directions_u)) * step_u(); }
     double v(double l) const { return center_v() + (0.5 * static_cast<double>(directions_v) - l - 0.5) * step_v(); }
     /// The inverse of u and v: the column of directions at U, the row at V, whole numbers at samples.
@@ -129,10 +136,10 @@ struct HOGEL_API LightFieldGrid {
         return (U - center_u()) / step_u() + (0.5 * static_cast<double>(directions_u) - 0.5);
     }
     double row(double V) const { return (0.5 * static_cast<double>(directions_v) - 0.5) - (V - center_v()) / step_v(); }
-    /// The direction (x, y, ζ) of the ray (U, V), one step forward as the face looks: (U, V, 1) for the front; zero
-    /// where sines are those of no ray.
+    /// The direction (x, y, ζ) of the ray (U, V), scaled to a component of 1 along the axis of the face: (U, V, 1) for
+    /// the front. Zero for sines to which no ray belongs.
     Vec3 direction_of(double U, double V) const;
-    /// Whether a direction (x, y, ζ) from a hogel is one of the directions, or in the cell around one.
+    /// Whether a direction (x, y, ζ) lies in the cell around one of the sampled directions.
     bool covers(Vec3 direction) const;
     std::size_t directions() const { return directions_u * directions_v; }
     std::size_t hogels() const { return hogels_s * hogels_t; }
@@ -140,23 +147,24 @@ struct HOGEL_API LightFieldGrid {
     friend bool operator==(const LightFieldGrid&, const LightFieldGrid&) = default;
 };
 
-/// Throws Error(code) naming `what` and the member that is wrong: nothing to sample, not finite, not positive, or more
-/// samples than can be addressed.
+/// Throws Error(code), naming `what` and the member that is wrong: zero samples, a value that is not finite or not
+/// positive, or more samples than can be addressed.
 HOGEL_API void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
-/// Throws Error(code) where directions are uniform in sines, which `what` cannot do.
+/// Throws Error(code) if the directions are uniform in sines. The message says that `what` needs a perspective.
 HOGEL_API void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
-/// Whether two light fields have the same hogels in the same places, and as many channels.
+/// Whether two light fields have the same hogels at the same positions and the same number of channels.
 HOGEL_API bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
 
-/// The five faces of a hemicube around the hogels of `grid`, front first: all directions with ζ > 0, the front |U|, |V|
-/// <= 1 with the directions of `grid`, the sides with as many along the front's edges and half as many away from it.
-/// Of one row of directions a hemisquare, for horizontal parallax only: the front and its sides left and right, each
-/// with the row V = 0. Throws Error(usage) unless the numbers of directions are even, or that of rows one.
+/// The grids of the five faces of a hemicube around the hogels of `grid`, front first; together they hold all
+/// directions with ζ > 0. The front has |U|, |V| <= 1 and as many directions as `grid`; a side has as many along the
+/// front's edge and half as many away from it. From one row of directions it makes a hemisquare, for horizontal
+/// parallax only: the front, left and right, each with the row V = 0. Throws Error(usage) unless the numbers of
+/// directions are even; the number of rows may also be one.
 HOGEL_API std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid);
 
-/// A rectangle of hogels with all their directions: the unit of work.
+/// A rectangle of hogels with all their directions, the unit of work.
 struct HogelRange {
     std::size_t s0 = 0, t0 = 0;  ///< first column and row of hogels
     std::size_t ns = 0, nt = 0;  ///< columns and rows of hogels
@@ -166,7 +174,7 @@ struct HogelRange {
 };
 
 /// The values of a range of hogels. `radiance` has shape [c][nt][ns][n_V][n_U]; `depth` (ζ in metres, +infinity where
-/// the ray meets nothing) has shape [nt][ns][n_V][n_U], or no elements where nobody asked for it.
+/// the ray meets nothing) has shape [nt][ns][n_V][n_U], or no elements if the tile was made without depth.
 struct HOGEL_API LightFieldTile {
     HogelRange range;
     Array<float, 5> radiance;
@@ -176,46 +184,47 @@ struct HOGEL_API LightFieldTile {
     LightFieldTile(const LightFieldGrid& grid, const HogelRange& r, bool with_depth);
 };
 
-/// Throws Error(usage) when a tile's range is empty or leaves the grid, or its arrays do not have the range's shapes.
+/// Throws Error(usage) if a tile's range is empty or leaves the grid, or if its arrays do not have the range's shapes.
 HOGEL_API void validate(const LightFieldTile& tile, const LightFieldGrid& grid);
 
-/// The size of tile that suits most sources: as many hogels as about 16 MiB of samples hold, 1×1 at least.
+/// The size of tile that suits most sources: about 16 MiB of samples, at least one hogel.
 HOGEL_API HogelRange default_tile(const LightFieldGrid& grid);
 
-/// Copies the hogels that two tiles have in common, with depth where both have it: of `from` the directions from row
-/// first_v and column first_u on, as many as `to` has.
+/// Copies the hogels that two tiles have in common, with depth if both have it. `to` receives as many directions as it
+/// has, starting at row first_v and column first_u of `from`.
 HOGEL_API void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t first_v = 0,
                            std::size_t first_u = 0);
 
-/// Where light fields come from: memory, a file, a decoder, a renderer working on demand. read() may be called from
-/// several threads at once and gives the same values for a hogel whatever the range it is asked for in.
+/// A source of light fields: memory, a file, a decoder, or a renderer that works on demand. read() may be called from
+/// several threads at once; the values of a hogel do not depend on the range that is read.
 class HOGEL_API LightFieldSource {
   public:
     virtual ~LightFieldSource() = default;
     virtual const LightFieldGrid& grid() const = 0;
     virtual bool has_depth() const { return false; }
-    /// The size of tile (s0 = t0 = 0) that this source reads at the least cost per hogel; any other works too.
+    /// The size of tile (s0 = t0 = 0) that this source reads at the lowest cost per hogel. Any other size works too.
     virtual HogelRange preferred_tile() const { return default_tile(grid()); }
-    /// All radiances where they lie, [c][t][s][v][u], if they are whole in memory; otherwise no elements.
+    /// A view of all radiances, [c][t][s][v][u], if the light field is completely in memory; otherwise no elements.
     virtual View<const float, 5> in_memory() const { return {}; }
-    /// Fills the tile's radiance for tile.range, and its depth where the tile has room for it and has_depth().
+    /// Fills the tile's radiance for tile.range, and its depth if the tile has an array for it and has_depth() is true.
     virtual void read(LightFieldTile& tile) const = 0;
 };
 
-/// Where light fields go. write() may be called from several threads at once, each hogel once.
+/// A destination of light fields. write() may be called from several threads at once, once for each hogel.
 class HOGEL_API LightFieldSink {
   public:
     virtual ~LightFieldSink() = default;
     virtual void write(const LightFieldTile& tile) = 0;
-    /// Whether write() has a use for depth.
+    /// Whether write() uses depth.
     virtual bool wants_depth() const { return true; }
-    /// Whether the sink goes on with earlier work in which this very tile was written; then it counts as written now.
+    /// Whether the sink continues an interrupted run in which exactly this tile was written; then it counts as written,
+    /// and the caller skips it.
     virtual bool has_already(const HogelRange&) { return false; }
     /// Called once after the last tile; a file appears under its own name only now.
     virtual void finish() {}
 };
 
-/// A light field that is whole in memory: source and sink.
+/// A light field that is completely in memory, both source and sink.
 class HOGEL_API LightFieldBuffer final : public LightFieldSource, public LightFieldSink {
   public:
     explicit LightFieldBuffer(const LightFieldGrid& grid, bool with_depth = false);
@@ -233,8 +242,8 @@ class HOGEL_API LightFieldBuffer final : public LightFieldSource, public LightFi
     LightFieldGrid grid_;
 };
 
-/// A light field: a front, or all three or five faces of a hemicube with the front first. A value: copies share the
-/// sources, which live as long as anybody holds the light field or something made of it.
+/// A light field: a front alone, or the three or five faces of a hemisquare or hemicube, front first. It behaves as a
+/// value: copies share the sources, which live as long as any copy or any object made from one.
 class HOGEL_API LightField {
   public:
     using Source = std::shared_ptr<const LightFieldSource>;
@@ -244,48 +253,54 @@ class HOGEL_API LightField {
     LightField(std::shared_ptr<S> front) : LightField(std::vector<Source>{std::move(front)}) {}
     template <std::derived_from<LightFieldSource> S>
     LightField(std::unique_ptr<S> front) : LightField(std::vector<Source>{Source(std::move(front))}) {}
-    /// All faces. Throws Error(usage) unless the first is a front, no face stands twice, and all have the same hogels
+    /// All faces. Throws Error(usage) unless the first is a front, no face occurs twice, and all have the same hogels
     /// and channels.
-    explicit LightField(std::vector<Source> faces);
+    explicit LightField(std::vector<Source> faces, Provenance provenance = {});
 
     const LightFieldSource& front() const { return *faces_.front(); }
     std::span<const Source> faces() const { return faces_; }
-    /// How the front is sampled.
+    /// The grid of the front.
     const LightFieldGrid& grid() const { return front().grid(); }
-    /// How each face is.
+    /// The grids of all faces.
     std::vector<LightFieldGrid> grids() const;
     bool has_sides() const { return faces_.size() > 1; }
     /// Whether every face has depth.
     bool has_depth() const;
-    /// Of all faces.
+    /// The number of samples of all faces.
     double samples() const;
-    /// The light field whose faces are make(face), a LightFieldSource each: the same light field wrapped.
+    /// Where the light field comes from, according to its file or its renderer.
+    const Provenance& provenance() const { return provenance_; }
+    /// The same light field with another provenance.
+    LightField with(Provenance provenance) const { return LightField(faces_, std::move(provenance)); }
+    /// The light field whose faces are make(face), for each face of this one. make() returns a LightFieldSource,
+    /// usually one that wraps the face.
     template <std::invocable<const Source&> Make>
     LightField wrapped(const Make& make) const {
         std::vector<Source> wrapped;
         for (const Source& face : faces_) wrapped.push_back(make(face));
-        return LightField(std::move(wrapped));
+        return LightField(std::move(wrapped), provenance_);
     }
 
   private:
     std::vector<Source> faces_;
+    Provenance provenance_;
 };
 
-/// A light field of a source that somebody else owns, and that must outlive all that is made of it.
+/// A light field of a source that the caller owns. The source must outlive the light field and everything made from it.
 HOGEL_API LightField borrow(const LightFieldSource& front);
 HOGEL_API LightField borrow(std::span<const LightFieldSource* const> faces);
 
-/// Throws Error(usage) where grids are not those of one light field: see LightField.
+/// Throws Error(usage) unless the grids are those of one light field: see LightField.
 HOGEL_API void require_faces(std::span<const LightFieldGrid> faces);
 
-/// Streams a face of a light field from a source to a sink in the source's preferred tiles on all threads; memory: a
-/// tile a thread. Calls finish().
+/// Streams one face of a light field from a source to a sink in the source's preferred tiles, on all threads, then
+/// calls finish(). Memory: one tile per thread.
 HOGEL_API void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
 
-/// The same light field, for readers whose tiles suit the sources badly, such as narrow ones of a renderer that is fast
-/// in long rows: it is read in tiles that suit, and those used last are kept, `bytes` of them at most. Where the tiles
-/// that a reader asks for would not fit, it reads from the source itself. Depths are kept if `with_depth`, else read
-/// from the source.
+/// The same light field behind a cache of tiles, for readers whose tiles do not suit the sources: a renderer that is
+/// fast in long rows, for example, read in narrow tiles. The sources are read in their preferred tiles, and the tiles
+/// used last are kept, at most `bytes` in all. A read that needs more than that bypasses the cache. Depths are cached
+/// if `with_depth`, otherwise read from the source.
 HOGEL_API LightField cached_tiles(const LightField& light_field, double bytes, bool with_depth = false);
 
 }  // namespace hogel

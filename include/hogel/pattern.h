@@ -12,12 +12,12 @@
 
 namespace hogel {
 
-/// A spatial light modulator: what a pattern must fit.
+/// A spatial light modulator.
 struct Modulator {
     std::string name;
     std::size_t width = 0, height = 0;  ///< pixels
     double pitch = 0;                   ///< metres between pixels
-    unsigned levels = 256;              ///< that a pixel can show, evenly spaced
+    unsigned levels = 256;              ///< number of evenly spaced levels of a pixel
 
     friend bool operator==(const Modulator&, const Modulator&) = default;
 };
@@ -25,63 +25,70 @@ struct Modulator {
 /// Common modulators by name, from their makers' data sheets, and those that a program adds.
 HOGEL_API Table<Modulator>& modulators();
 
-/// How a complex field becomes the values that a modulator shows: phases 0..2π, or transmitted amplitudes 0..1.
+/// The way to represent a complex field F by the pixels of a modulator: phases 0..2π or transmitted amplitudes 0..1.
 enum class Encoding {
-    phase,             ///< phase: the field's own, its modulus forgotten (kinoform)
+    phase,             ///< phase: that of the field; its modulus is ignored (kinoform)
     double_phase,      ///< phase: the modulus as two phases φ ± acos|F| on a checkerboard (Hsueh and Sawchuk 1978)
     gerchberg_saxton,  ///< phase: alternating projections between the modulator and the field's local spectra
-    gradient,    ///< phase: stochastic gradient descent towards the field's local spectra, wherever they are taken
+    gradient,    ///< phase: stochastic gradient descent towards the field's local spectra, taken at random positions
     intensity,   ///< amplitude: |F + R|² with a plane reference wave R
-    bipolar,     ///< amplitude: 2 Re(F R*), raised to be positive
+    bipolar,     ///< amplitude: 2 Re(F R*) plus a constant that makes it positive
     burckhardt,  ///< amplitude: three real components, 120° apart, in successive columns (Burckhardt 1970)
     lee,         ///< amplitude: four real components, 90° apart, in successive columns (Lee 1970)
-    binary,      ///< amplitude: one where Re(F R*) > 0, zero elsewhere
+    binary,      ///< amplitude: 1 where Re(F R*) > 0, 0 elsewhere
 };
 
+/// Whether an encoding is for modulators of phase; the others are for modulators of amplitude.
 HOGEL_API bool is_phase_only(Encoding encoding);
 
+/// A row of encodings().
 struct EncodingInfo {
     std::string name;
     std::string text;  ///< one line
     Encoding encoding;
-    bool phase_only = false;  ///< for a modulator of phases; otherwise of amplitudes
+    bool phase_only = false;  ///< true: for modulators of phase; false: of amplitude
 };
 
 /// All encodings by name: phase, double-phase, gerchberg-saxton, gradient, intensity, bipolar, burckhardt, lee, binary.
 HOGEL_API Table<EncodingInfo>& encodings();
 
+/// Options of encode_pattern().
 struct PatternOptions {
     Encoding encoding = Encoding::phase;
     Modulator modulator;
-    /// Of R, radians in the plane of x and z, for the encodings with R; 0: the middle of the angles that keep the
-    /// orders apart.
+    /// Angle of the reference wave R, radians in the plane of x and z, for the encodings with R. 0: the middle of the
+    /// range of angles that keep the diffraction orders apart.
     double reference_angle = 0;
-    double clip = 0.001;          ///< share of the samples whose modulus may be cut to the largest that is shown
-    std::size_t window = 32;      ///< side in pixels of the squares whose spectra iterated phases keep: a hogel
-    std::size_t iterations = 40;  ///< of Gerchberg–Saxton, or steps of the descent
-    std::uint64_t seed = 1;       ///< of the descent, which draws where its squares lie
+    double clip = 0.001;  ///< share of the samples whose modulus is clipped to the largest that is shown
+    std::size_t window =
+        32;  ///< side in pixels of the squares whose spectra are the local spectra; best the side of a hogel
+    std::size_t iterations = 40;  ///< of Gerchberg–Saxton, or steps of the gradient descent
+    std::uint64_t seed = 1;       ///< of the random positions of squares in the gradient descent
 };
 
 /// The values of a modulator's pixels for one wavelength.
 struct Pattern {
-    Array<float, 2> values;         ///< cycles of phase [0, 1), or amplitudes [0, 1], before rounding to levels; [y][x]
-    Array<std::uint8_t, 2> levels;  ///< 0 .. 255, in steps of the modulator's levels: for phases 256 would be 2π
-    double efficiency = 0;  ///< share of the light on the modulator that goes into the wave F, as rounded to levels
-    /// Phases: the share of the light on the modulator that makes the moduli of the field's local spectra, in squares
-    /// of the window's side. It is the measure for a light field, where the phases between directions are free.
+    Array<float, 2> values;  ///< [y][x]: phases in cycles [0, 1), or amplitudes [0, 1], before rounding to levels
+    Array<std::uint8_t, 2>
+        levels;  ///< [y][x]: 0 to 255, rounded to the modulator's levels; for phases 256 is equivalent to 2π
+    double efficiency = 0;  ///< share of the light on the modulator that goes into the wave F, after rounding to levels
+    /// For phases, the share of the light on the modulator that reproduces the moduli of the field's local spectra, in
+    /// squares of `window` pixels. This is the measure for light fields, where the phases between directions are
+    /// arbitrary.
     double light_field_efficiency = 0;
-    double reference_angle = 0;  ///< of R, or of the order that successive columns diffract into; 0 without
+    /// Of the reference wave, radians; 0 without one. The order that shows the hologram leaves at the opposite angle,
+    /// also where successive columns make it.
+    double reference_angle = 0;
 };
 
-/// Encodes look 0 of a field for a modulator: its middle part, or all with a dark border. The whole modulator is in
-/// memory.
-/// Throws Error(usage) where pitches differ, and where a reference wave cannot keep its orders apart, naming the angle
-/// or the pitch that would do.
+/// Encodes look 0 of a field for a modulator. A field larger than the modulator is cropped to its middle, a smaller one
+/// gets a dark border. The whole modulator is in memory. Throws Error(usage) if the pitches differ, and if a reference
+/// wave cannot keep the orders apart, naming the angle or the pitch that suffices.
 HOGEL_API Pattern encode_pattern(const FieldSource& field, const PatternOptions& options,
                                  const Progress& progress = {});
 
-/// The complex transmission of a pattern, e^{2πi v} or v of its rounded levels: the field of a uniform laser beam
-/// behind the modulator.
+/// The complex transmission of a pattern [y][x], e^{2πi v} for phases or v for amplitudes, with v its values rounded to
+/// levels. It is the field behind the modulator in a uniform laser beam.
 HOGEL_API Array<std::complex<float>, 2> transmission(const Pattern& pattern, Encoding encoding);
 
 }  // namespace hogel

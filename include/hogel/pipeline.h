@@ -20,6 +20,7 @@
 #include "hogel/light_field.h"
 #include "hogel/photograph.h"
 #include "hogel/progress.h"
+#include "hogel/propagate.h"
 #include "hogel/ray_photograph.h"
 #include "hogel/renderer.h"
 #include "hogel/scenes.h"
@@ -27,30 +28,29 @@
 
 namespace hogel {
 
-/// The whole recipe, from a scene or a file to photographs, with every default. The command line is a thin layer over
-/// it, and so are bindings: what two of them would need stands here.
+/// The whole chain from a scene or a file to photographs, with all defaults. The command line is a thin layer over it,
+/// as language bindings would be; whatever two such layers need is here.
 
-/// Every number that the recipe takes where the caller says none; lengths in metres, angles in radians. The hologram's
-/// side, its hogels and the sharpness of a photograph belong together: a hogel is as wide as what the camera resolves,
-/// λR/A, or less.
+/// The defaults of all parameters; lengths in metres, angles in radians. The side of the hologram, the number of hogels
+/// and the camera belong together: a hogel is at most as wide as the camera's resolution cell λR/A.
 struct Defaults {
     // light field
     std::string_view renderer = "epi";
     std::string_view shading = "vertex";
-    std::size_t shadow_map = 512;  ///< texels along a side of each of the six faces around a lamp
-    double cache_spacing = 0.25;   ///< of the points of the radiance cache, in widths of a ray on the surface
+    std::size_t shadow_map = 512;  ///< texels along a side of each of the six faces around a point light
+    double cache_spacing = 0.25;   ///< distance of the radiance cache's points, in widths of a ray on the surface
     double size = 20e-3;           ///< side of the hologram
     std::size_t hogels = 400, directions = 32;
     double field_of_view = 16 * 3.14159265358979323846 / 180;  ///< full angle, 2θ
-    double front = 0.3;                                        ///< how much of a fitted mesh stands before the plane
-    double sqnr = 40;                                          ///< decibels of a compressed light field
-    double tone_decades = 1;                                   ///< decades of luminance left by histogram tone mapping
+    double front = 0.3;       ///< share of a fitted mesh's depth in front of the hologram plane
+    double sqnr = 40;         ///< decibels of a compressed light field
+    double tone_decades = 1;  ///< decades of luminance left by histogram tone mapping
 
     // baking
     std::size_t bake_rays = 256, bake_bounces = 5;
 
     // hologram
-    double pitch = 1.5625e-6;  ///< 32 samples a hogel; blue must still be diffracted over the field of view
+    double pitch = 1.5625e-6;  ///< 32 samples per hogel; small enough to diffract blue over the field of view
     std::string_view basis = "cdf97";
     double spacing = 10e-6;  ///< of points on surfaces, for methods without a light field
     std::size_t planes = 16;
@@ -59,20 +59,20 @@ struct Defaults {
     // camera
     double eye_distance = 300e-3;
     double pupil = 6e-3;
-    double focal_length = 50e-3;     ///< of a lens whose opening is given as an f-number
-    double frame_rate = 12;          ///< of a film, frames a second
+    double focal_length = 50e-3;     ///< of a lens whose opening is given by an f-number
+    double frame_rate = 12;          ///< of a movie, frames per second
     std::size_t resolution = 400;    ///< pixels across a photograph
-    std::size_t looks = 16;          ///< photographs averaged against speckle
+    std::size_t looks = 16;          ///< photographs averaged to reduce speckle
     std::size_t pupil_samples = 64;  ///< points of the pupil in a photograph by rays
 };
 inline constexpr Defaults defaults;
 
-/// How a scene is put before the hologram and becomes a light field.
+/// How a scene is placed at the hologram and rendered as a light field.
 struct HOGEL_API LightFieldRequest {
     std::string renderer{defaults.renderer};  ///< a name in renderers()
     ShadingOptions shading;
-    /// Distance of the radiance cache's points in parts of the width of a ray on the surface, where light is evaluated
-    /// at samples (shading models direct and shadowed); 0: light is evaluated anew for each ray.
+    /// Distance of the radiance cache's points, in widths of a ray on the surface; 0: no cache, light is evaluated for
+    /// each ray. Used by shading models that evaluate light at samples (direct and shadowed).
     double cache_spacing = defaults.cache_spacing;
     LightFieldGrid grid{
         defaults.hogels,     defaults.hogels,     defaults.size / static_cast<double>(defaults.hogels),
@@ -81,16 +81,16 @@ struct HOGEL_API LightFieldRequest {
     SamplesPerRay samples;
     bool cull_back_faces = false;
     bool fit = true;                ///< whether a mesh file is scaled and moved to fill the hologram
-    double front = defaults.front;  ///< how much of a fitted mesh's depth stands before the plane: see Fit
+    double front = defaults.front;  ///< share of a fitted mesh's depth in front of the plane: see Fit
 
-    /// The grids of all faces. Throws Error(usage) where they make no sense.
+    /// The grids of all faces. Throws Error(usage) if they are invalid.
     std::vector<LightFieldGrid> grids() const;
 };
 
-/// How a light field becomes holograms, one a channel.
+/// How a light field becomes holograms, one per channel.
 struct HologramRequest {
     std::vector<Channel> channels = rgb(defaults.red, defaults.green, defaults.blue);
-    double pitch = defaults.pitch;  ///< of the samples, metres; rounded to divide a hogel
+    double pitch = defaults.pitch;  ///< of the samples, metres; rounded so that a hogel has a whole number of samples
     HologramMethod method = Fourier();
     std::size_t looks = 1;
     std::uint64_t seed = 1;
@@ -100,93 +100,90 @@ struct HologramRequest {
     HologramOptions options(const Channel& channel) const { return {channel, pitch, method, looks, seed}; }
 };
 
-/// What may stand for an input: the name of a built-in scene, a mesh file, a light field or a hologram in a file.
+/// The kind of an input. A scene is the name of a built-in one or a mesh file; light fields and holograms are files.
 enum class InputKind { scene, light_field, hologram };
 
-/// Throws Error(usage) for an unknown name, with the nearest that exists, and Error(bad_input) for a file that is
-/// missing or none of these.
+/// The kind of the input of that name. Throws Error(usage) for an unknown name, with the nearest that exists, and
+/// Error(bad_input) for a file that is missing or of another kind.
 HOGEL_API InputKind input_kind(const std::string& name);
 
-/// The light field in a file, for holograms. Where the request is for basis fringes and the file holds coefficients of
-/// such fringes, these, and the request then says so.
-/// @param any_transform  whether the request takes over the transform that the file's coefficients are of
+/// Opens the light field in a file for holograms. If the request is for basis fringes and the file holds coefficients
+/// of such fringes, opens the coefficients and sets request.of_coefficients.
+/// @param any_transform  whether to set the request's transform to that of the file's coefficients
 HOGEL_API LightField open_for_holograms(const std::filesystem::path& path, HologramRequest& request,
                                         bool any_transform);
 
-/// The scene of that name as large as the request's hologram, or a mesh file fitted to it (or as it is), with lights.
+/// Makes the built-in scene of that name in the size of the request's hologram, or reads a mesh file, fits it if
+/// request.fit, and adds lights if it has none.
 HOGEL_API Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress = {});
 
-/// The scene ready for renderers: shaded, and with a radiance cache that suits the request's rays.
+/// Shades a scene for renderers and adds a radiance cache that suits the request's rays.
 HOGEL_API std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFieldRequest& request,
                                                          const Progress& progress = {});
 
-/// The light field of a scene, rendered where it is read.
+/// The light field of a scene, rendered when it is read.
 HOGEL_API LightField render_light_field(std::shared_ptr<const ShadedScene> scene, const LightFieldRequest& request);
 HOGEL_API LightField render_light_field(const Scene& scene, const LightFieldRequest& request,
                                         const Progress& progress = {});
 
-/// A light field that will be read several times, in tiles that suit the reader, such as holograms, which read it once
-/// a channel: whole in memory where it fits into a modest part of it, otherwise in tiles that suit its source, the last
-/// of which are kept. With its depths if asked.
+/// Prepares a light field for readers that read it several times and in tiles of their own, as holograms do once per
+/// channel. If it is read more than once and is small enough, it is copied into memory; otherwise it is wrapped by
+/// cached_tiles(). If `with_depth`, depths are kept too.
 HOGEL_API LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
                                          const Progress& progress = {});
 
-/// Writes all faces of a light field into one HDF5 file, in tiles, on all threads. Errors as create_light_field().
+/// Writes all faces of a light field into one HDF5 file, tile by tile on all threads. Throws as create_light_field().
 HOGEL_API void write_light_field(const std::filesystem::path& path, const LightField& light_field,
                                  const LightFieldFileOptions& options, const Progress& progress = {});
 
-/// Writes one look of holograms into one HDF5 file, likewise. Errors as create_hologram().
-HOGEL_API void write_holograms(const std::filesystem::path& path,
-                               std::span<const std::shared_ptr<const FieldSource>> holograms,
+/// Writes one look of holograms into one HDF5 file, region by region on all threads. Throws as create_hologram().
+HOGEL_API void write_holograms(const std::filesystem::path& path, const Fields& holograms,
                                const HologramFileOptions& options, const Progress& progress = {});
 
-/// Throws Error(usage) where a light field sampled like this cannot become such holograms, or these cameras cannot
-/// photograph them: too coarse a pitch, say. To be asked before work begins.
+/// Checks a request before work begins. Throws Error(usage) if a light field with these grids cannot become such
+/// holograms or if these cameras cannot photograph them, for example because the pitch is too coarse.
 HOGEL_API void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                  std::span<const Camera> cameras = {});
 
-/// A sentence for the user where holograms can be made of a light field but will show it badly; otherwise empty. Reads
-/// the depths of a light field for overlapping windows.
+/// A sentence for the user if holograms of the light field are possible but will show it badly; otherwise empty. With
+/// the method OverlapAdd it reads the light field's depths.
 HOGEL_API std::string warning_about(const LightField& light_field, const HologramRequest& request);
 
-/// One hologram a channel, made from the light field where it is read.
-HOGEL_API std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField& light_field,
-                                                                         const HologramRequest& request);
+/// One hologram per channel, computed from the light field when it is read.
+HOGEL_API Fields make_holograms(const LightField& light_field, const HologramRequest& request);
 
-/// Photographs holograms of one or three wavelengths by wave optics and joins the colours. With options for it by the
-/// full chain of plane waves, otherwise by the narrow-band camera.
-HOGEL_API std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
-                                                std::span<const Camera> cameras,
+/// Photographs holograms of one or three wavelengths by wave optics and combines the colours: by
+/// photograph_by_plane_waves() if `full` is given, otherwise by the narrow-band camera, photograph().
+HOGEL_API std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
                                                 const std::optional<PlaneWaveCameraOptions>& full = {},
                                                 const Progress& progress = {});
 
-/// A camera on the axis that frames a hologram of this size (metres) with so many pixels across.
+/// A camera on the axis that frames a hologram of this size (metres) with `resolution` pixels across.
 HOGEL_API Camera camera_for(double width, double height, std::size_t resolution = defaults.resolution);
 
-/// As many looks as make speckle as fine as the usual camera's usual number does. A wide pupil sees finer speckle, of
-/// which the pixels average more by themselves.
+/// The number of looks that reduces speckle as much as Defaults::looks does for the default camera. A wider pupil needs
+/// fewer, because its speckle is finer and each pixel averages more of it.
 HOGEL_API std::size_t enough_looks(const Camera& camera);
 
-/// How alike two sets of samples are.
+/// Measures of the difference of two sets of samples.
 struct SampleComparison {
     double sqnr = 0;       ///< 10 log10(Σ|f|² / Σ|f − f'|²), decibels; +infinity for equal samples
-    double psnr = 0;       ///< the same with N max |f|² for the signal
+    double psnr = 0;       ///< the same with N max |f|² in place of Σ|f|², for N samples
     double max_error = 0;  ///< max |f − f'|
 };
 
-/// Compares all faces of two light fields, or all fields of two holograms (their first look). Throws Error(usage) where
+/// Compares all faces of two light fields, or all fields of two holograms (their first look). Throws Error(usage) if
 /// they are sampled differently.
 HOGEL_API SampleComparison compare(const LightField& a, const LightField& b, const Progress& progress = {});
-HOGEL_API SampleComparison compare(std::span<const std::shared_ptr<const FieldSource>> a,
-                                   std::span<const std::shared_ptr<const FieldSource>> b,
-                                   const Progress& progress = {});
+HOGEL_API SampleComparison compare(const Fields& a, const Fields& b, const Progress& progress = {});
 
-/// How a light field becomes pictures for a hologram printer.
+/// Options of pictures for a hologram printer.
 struct PrinterImageOptions {
-    bool rows = false;       ///< one picture a row of hogels, side by side, rather than one a hogel
-    bool serpentine = true;  ///< whether every second row runs from the right, as a head does that goes back and forth
-    double exposure = 1;     ///< what linear values are multiplied by, the same in all pictures
-    Metadata provenance = {};  ///< kept in the pictures of rows; those of hogels are small and many
+    bool rows = false;       ///< true: one picture per row of hogels, side by side; false: one per hogel
+    bool serpentine = true;  ///< whether every second row runs from the right, for a print head that moves both ways
+    double exposure = 1;     ///< factor of linear values, the same for all pictures
+    Metadata metadata = {};  ///< in addition to the light field's provenance; stored only in pictures of rows, because
+                             ///< those of hogels are many
 };
 
 /// Writes the directions of each hogel of the front as PNG files in a folder, numbered in the order of printing
@@ -197,39 +194,45 @@ HOGEL_API std::vector<std::filesystem::path> write_printer_images(const std::fil
                                                                   const PrinterImageOptions& options,
                                                                   const Progress& progress = {});
 
-/// Throws Error(cannot_write), before hours of work, for an output whose folder is missing or not writable, or that is
-/// there and is no plain file.
+/// Checks an output before long work. Throws Error(cannot_write) if its folder is missing or not writable, or if it
+/// exists and is not a regular file.
 HOGEL_API void require_writable(const std::filesystem::path& file);
 
-/// Writes a whole file, which appears under its name when it is complete. Throws Error(cannot_write).
+/// Writes a text file, which appears under its name when it is complete. Throws Error(cannot_write).
 HOGEL_API void write_text(const std::filesystem::path& file, const std::string& text);
 
-/// What tells an input of work that is resumed from another: its name, and the size and date of a file, or a checksum
-/// of all that a scene shows.
+/// Identifies an input for work that can be resumed (LightFieldFileOptions::resume): its name, with the size and date
+/// of a file or the checksum of a scene.
 HOGEL_API std::string describe_input(const std::string& name);
 HOGEL_API std::string describe_input(const std::string& name, const Scene& scene);
 
-/// What work will take, before it begins.
+/// Estimated resources of work.
 struct Plan {
-    double memory = 0;   ///< bytes at most at any time
-    double disk = 0;     ///< bytes of the files that it writes
-    double seconds = 0;  ///< estimated, on as many threads as loops use at present
+    double memory = 0;   ///< maximum of bytes held at any time
+    double disk = 0;     ///< bytes of the output files
+    double seconds = 0;  ///< wall time on thread_count() threads
 };
 
-/// What it takes to render a light field and write it to a file, uncompressed.
+/// Resources to render a light field and write it to an uncompressed file.
 /// @param rendered   from render_light_field(), not yet read
 /// @param triangles  of its scene
 HOGEL_API Plan plan_light_field(const LightField& rendered, const LightFieldRequest& request, std::size_t triangles,
                                 const LightFieldFileOptions& file = {});
-/// What it takes to synthesise holograms of a light field that is at hand and write them.
+/// Resources to make holograms of an existing light field and write them to a file.
 HOGEL_API Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                               const HologramFileOptions& file = {});
-/// What it takes to photograph holograms that are not stored, by the narrow-band camera.
+/// Resources to photograph holograms that are computed on demand, by the narrow-band camera.
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
 
-/// Throws Error(usage) with the numbers where `what` needs more memory than the machine has left, or more disk than is
-/// free where `file` will stand.
+/// Resources to compress a light field, without the cost of reading it. For an SQNR, the disk space is an upper
+/// bound: the size without any prediction.
+HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
+/// Resources to propagate fields one after the other and write them to a file.
+HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options = {});
+
+/// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than
+/// is free at `file`.
 HOGEL_API void require_resources(const Plan& plan, const std::string& what, const std::filesystem::path& file = {});
 
 }  // namespace hogel

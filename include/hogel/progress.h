@@ -10,20 +10,21 @@
 
 namespace hogel {
 
-/// How a caller follows and stops long work: the last argument of every function that may take long. A stop asked of
-/// the token ends the work with Error(cancelled) within a second: every parallel loop looks at it. A callback that
-/// returns false ends it at once, but is called only now and then.
+/// Reports the progress of long work to a caller and lets the caller stop it: the last argument of every function that
+/// may take long. Both ways to stop end the work with Error(cancelled). A stop request to the token takes effect within
+/// a second, because every parallel loop checks the token; a callback can stop the work by returning false, but only
+/// when it is called.
 class Progress {
   public:
     /// Receives the fraction done, 0 to 1, on one thread at a time. Returns false to stop the work.
     using Callback = std::function<bool(double fraction)>;
 
-    /// Work that is neither followed nor stopped.
+    /// No callback and no way to stop.
     Progress() = default;
-    /// Stops when the token's source is asked to, by any thread at any time; calls the callback if there is one.
+    /// Stops when a stop is requested from the token's source, on any thread; calls the callback if there is one.
     explicit Progress(std::stop_token stop, Callback callback = {})
         : stop_(std::move(stop)), callback_(std::move(callback)) {}
-    /// From a callback alone, which returns whether to go on, or nothing.
+    /// From a callback alone, which returns either nothing or whether to continue.
     template <std::invocable<double> F>
     requires(!std::same_as<std::remove_cvref_t<F>, Progress>) Progress(F callback)
         : callback_([f = std::move(callback)](double fraction) {
@@ -35,13 +36,13 @@ class Progress {
               }
           }) {}
 
-    /// Whether there is a callback, or a token that can be asked to stop.
+    /// Whether there is a callback or a token through which a stop can be requested.
     explicit operator bool() const { return stop_.stop_possible() || callback_; }
     const std::stop_token& stop() const { return stop_; }
 
-    /// Calls the callback, and returns whether to go on.
+    /// Calls the callback and returns whether to continue.
     bool operator()(double fraction) const { return !stop_.stop_requested() && (!callback_ || callback_(fraction)); }
-    /// Calls the callback, and throws Error(cancelled) where the work is to stop.
+    /// Calls the callback and throws Error(cancelled) if the work is to stop.
     void report(double fraction) const {
         if (!(*this)(fraction)) throw Error(ErrorCode::cancelled, "stopped on request");
     }

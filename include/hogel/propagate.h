@@ -11,19 +11,20 @@
 
 namespace hogel {
 
+/// Options of propagate().
 struct PropagateOptions {
-    std::size_t look = 0;                  ///< of the field
-    ScratchOptions scratch{SIZE_MAX, {}};  ///< for the arrays of the work; by default they are in memory
+    std::size_t look = 0;                  ///< the look of the field to propagate
+    ScratchOptions scratch{SIZE_MAX, {}};  ///< for work arrays; by default they are in memory
 };
 
-/// The field on a parallel plane `distance` metres farther along +z, on the same grid, whole in memory. By the angular
-/// spectrum, [K] 6.1.1, with room around the field: the result has all directions that bring light from one end of the
-/// grid to the other; steeper ones fade out and do not wrap around. Throws Error(usage) for a distance that is not
-/// finite.
+/// Propagates a field to a parallel plane, `distance` metres farther along +z (backwards if negative). The result is on
+/// the same grid and completely in memory. Angular spectrum method, [K] 6.1.1, on a zero-padded grid: the result has
+/// all directions that lead from any point of the grid to any other; steeper ones fade out and do not wrap around.
+/// Throws Error(usage) for a distance that is not finite.
 HOGEL_API Field propagate(const FieldSource& field, double distance, const PropagateOptions& options = {},
                           const Progress& progress = {});
 
-/// Writes the propagated field to a sink, which need not be in memory. Calls finish().
+/// As above, but writes the propagated field to a sink, which need not be in memory, and calls finish().
 HOGEL_API void propagate(const FieldSource& field, double distance, FieldSink& sink,
                          const PropagateOptions& options = {}, const Progress& progress = {});
 

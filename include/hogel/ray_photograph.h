@@ -11,17 +11,24 @@
 
 namespace hogel {
 
+/// Options of photograph() of light fields.
 struct RayPhotographOptions {
     std::size_t pupil_samples = 64;  ///< points of the pupil, spread evenly over the disc
 };
 
-/// The photograph of a light field by geometric optics: for each pixel the mean radiance over the pupil of the rays
-/// that meet at the pixel's point of the plane in focus. The truth that a hologram's photograph is compared with.
-/// Linear interpolation in all four dimensions; rays outside the hologram or the field of view are black. Of a hemicube
-/// a ray is looked up in the first face that has its direction.
-/// Memory: one picture a camera and a tile of hogels. Cost: pupil samples × (hogels + pixels) a camera.
-/// Throws Error(usage) for a camera that makes no sense, and for a tilted plane in focus.
+/// Photographs a light field by geometric optics, one image per camera. A pixel is the mean radiance, over the pupil,
+/// of the rays that meet at the pixel's point of the plane in focus. This is the reference with which photographs of
+/// holograms are compared. Rays are interpolated linearly in all four dimensions; rays outside the hologram or the
+/// field of view are black. In a hemicube a ray is looked up in the first face that has its direction. Memory: one
+/// picture per camera and a tile of hogels. Cost: pupil samples × (hogels + pixels) per camera. Throws Error(usage) for
+/// a camera that makes no sense, and for a tilted plane in focus.
 HOGEL_API std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
                                         const RayPhotographOptions& options = {}, const Progress& progress = {});
+
+/// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
+/// throws Error(usage) for another number of pictures.
+HOGEL_API void photograph_into(const LightField& light_field, std::span<const Camera> cameras,
+                               const RayPhotographOptions& options, std::span<Image> pictures,
+                               const Progress& progress = {});
 
 }  // namespace hogel

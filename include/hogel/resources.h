@@ -9,7 +9,7 @@
 
 namespace hogel {
 
-/// Limits the parallel loops of the whole process to a number of threads while it lives; 0: no limit.
+/// While this object exists, the parallel loops of the whole process use at most this number of threads; 0: no limit.
 class HOGEL_API ThreadLimit {
   public:
     explicit ThreadLimit(std::size_t threads);
@@ -22,13 +22,13 @@ class HOGEL_API ThreadLimit {
     std::unique_ptr<Limit> limit_;
 };
 
-/// How many threads parallel loops use at present: those of the machine, or fewer by a ThreadLimit.
+/// The number of threads that parallel loops use at present: all of the machine, or fewer under a ThreadLimit.
 HOGEL_API std::size_t thread_count();
 
 /// Where to keep large arrays that may not fit into memory.
 struct ScratchOptions {
     std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this is kept in a file
-    std::filesystem::path folder;               ///< of that file; where it is empty, such an array is an Error(usage)
+    std::filesystem::path folder;  ///< of that file; if empty, an array that needs a file throws Error(usage)
 };
 
 }  // namespace hogel

@@ -19,7 +19,7 @@ struct Material {
     Rgb base_color{0.8f, 0.8f, 0.8f};                 ///< linear reflectance
     float reflectance = 0;                            ///< of the lobe at normal incidence; 0.04 for glass and lacquer
     float metallic = 0;                               ///< 1: no diffuse light, and a lobe in the base colour
-    float roughness = 1;                              ///< of the lobe; the lobe is about as wide as the square of this
+    float roughness = 1;                              ///< of the lobe, whose width is about the square of this
     Rgb emission{0, 0, 0};                            ///< radiance that the surface emits
     std::shared_ptr<const Image> base_color_texture;  ///< linear, repeats; may be null
 
@@ -49,11 +49,11 @@ struct Mesh {
 struct Light {
     /// A point light has a position, a directional one a direction.
     enum class Kind { point, directional };
-    Kind kind = Kind::directional;  ///< which of the members below matter
+    Kind kind = Kind::directional;  ///< decides which of the members below are used
     Vec3 position;                  ///< of a point light, metres
     Vec3 direction;                 ///< in which the light of a directional light travels, unit length
     Rgb intensity;                  ///< point: radiant intensity; directional: irradiance at normal incidence
-    bool casts_shadows = true;      ///< false: it lights surfaces through others
+    bool casts_shadows = true;      ///< false: surfaces do not block it
 };
 
 /// Surfaces, lights, and the radiance of rays that meet nothing.
@@ -77,11 +77,11 @@ HOGEL_API Bounds bounds(const Scene& scene);
 /// The number of triangles of all meshes.
 HOGEL_API std::size_t triangle_count(const Scene& scene);
 
-/// A checksum of everything visible: surfaces, materials, the pixels of textures, lights. Names do not matter.
+/// A checksum of everything visible: surfaces, materials, the pixels of textures, lights. Names are not included.
 HOGEL_API std::uint32_t checksum(const Scene& scene);
 
-/// Gives every mesh without normals smooth ones: area-weighted means over the triangles that share a vertex position.
-/// Vertices are split where faces meet at more than `crease` radians.
+/// Adds smooth normals to every mesh without normals: area-weighted means over the triangles that share a vertex
+/// position. Vertices are split where faces meet at more than `crease` radians.
 HOGEL_API void add_missing_normals(Scene& scene, double crease);
 
 /// Throws Error(bad_input), which names the mesh, the element and what was expected, for an index out of range, a

@@ -13,18 +13,19 @@
 
 namespace hogel {
 
+/// Options of SceneHologramMethod::make().
 struct SceneHologramOptions {
-    std::size_t channel = 0;  ///< of the scene's colours, the one that this wavelength shows
+    std::size_t channel = 0;  ///< the channel of the scene's colours that this wavelength shows
     std::uint64_t seed = 1;   ///< of the random phases that make surfaces diffuse
-    double spacing = 10e-6;   ///< of points on surfaces and along edges, metres
-    std::size_t planes = 16;  ///< methods of depth planes: how many
+    double spacing = 10e-6;   ///< distance of points on surfaces and along edges, metres
+    std::size_t planes = 16;  ///< number of depth planes, for methods that use them
 };
 
-/// A method that computes the field on the hologram's plane from a scene, without a light field, after [K] chapter 3:
-/// references and baselines for stereograms. The field is normalised like a stereogram's (docs/notation.md, section 3),
-/// so a photograph of it shows radiance. make() returns it whole in memory, works on all threads, and gives the same
-/// bytes for any number of them. It throws Error(usage) for a scene or grid that the method cannot take, and names one
-/// that would do.
+/// A method that computes the field on the hologram plane directly from a scene, without a light field, after [K]
+/// chapter 3. These methods are references and baselines for stereograms. The field is normalised like a stereogram's
+/// (docs/notation.md, section 3), so that a photograph of it shows radiance. make() works on all threads, returns a
+/// field completely in memory, and gives the same bytes for any number of threads. It throws Error(usage) for a scene
+/// or grid that the method cannot process, and names one that it can.
 struct SceneHologramMethod {
     std::string name;
     std::string text;  ///< one line

@@ -13,18 +13,19 @@
 
 namespace hogel {
 
-/// A scene that is generated instead of read from a file.
+/// A scene that is generated, not read from a file.
 struct SceneInfo {
     std::string name;  ///< by which make_scene() finds it
     std::string text;  ///< one line
-    /// The scene for a square hologram with the given side (metres), with which its size and depths scale.
+    /// Makes the scene for a square hologram with the given side (metres). Its size and its depths scale with the side.
     std::function<Scene(double hologram_size, const Progress& progress)> make;
 };
 
 /// The built-in scenes by name.
 HOGEL_API Table<SceneInfo>& scenes();
 
-/// Makes the scene of that name. Throws Error(usage) for an unknown name and for a size that is not positive.
+/// Makes the scene of that name for a square hologram with the given side (metres). Throws Error(usage) for an unknown
+/// name and for a size that is not positive.
 HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Progress& progress = {});
 
 /// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
@@ -36,14 +37,14 @@ HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Pr
 /// range; Error(cancelled).
 HOGEL_API Scene import_scene(const std::filesystem::path& path, const Progress& progress = {});
 
-/// The size and position of a fitted scene.
+/// The size and position of a scene that fit_scene() fits to a hologram.
 struct Fit {
     double width = 0;    ///< of the hologram, metres
     double height = 0;   ///< of the hologram, metres
     double fill = 0.85;  ///< share of the hologram's width or height that the scene fills, seen head-on
-    double front = 0;    ///< share of the scene's depth that lies in front of the hologram plane: 0 none (it begins at
-                       ///< the plane), 0.5 the plane cuts through its middle, 1 all of it; −1: it begins its own depth
-                       ///< behind the plane
+    double front = 0;    ///< share of the scene's depth that lies in front of the hologram plane: 0 none (the scene
+                       ///< begins at the plane), 0.5 half of it, 1 all of it; −1: the scene begins behind the plane, at
+                       ///< a distance equal to its depth
 };
 
 /// Scales a scene uniformly and moves it so that it is centred on the hologram, at the depth that `fit` says. Lights
@@ -61,7 +62,7 @@ HOGEL_API void add_default_lights(Scene& scene);
 /// a mesh without radiance, Error(usage) for a name that does not end in .glb, Error(cannot_write).
 HOGEL_API void write_baked_scene(const std::filesystem::path& path, const Scene& scene);
 
-/// Throws Error(usage) for a name that write_baked_scene() would refuse: a check before the scene is baked.
+/// Throws Error(usage) for a name that write_baked_scene() would refuse. To be called before a scene is baked.
 HOGEL_API void require_baked_scene_name(const std::filesystem::path& path);
 
 }  // namespace hogel

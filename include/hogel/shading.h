@@ -24,13 +24,14 @@ namespace shading {
 class RadianceCache;
 }
 
-/// A shading model: where the light on surfaces is evaluated. Source: [K] 5.8.
+/// A shading model, which decides where and how the light on surfaces is evaluated. Source: [K] 5.8.
 struct ShadingInfo {
     std::string name;  ///< of ShadingOptions::model
     std::string text;  ///< one line
-    /// Lights a scene. `shaded` has the scene's geometry and textures and the radiance that meshes bring; the radiance
-    /// of other vertices is zero. The function either sets that and returns null, or returns the lighting of samples.
-    /// `shaded.lighting` is what it returned the last time, and may be taken for its memory.
+    /// Computes the light of a scene. `shaded` has the scene's geometry, its textures and the given radiance of meshes;
+    /// the radiance of all other vertices is zero. The function either sets the latter and returns null, or returns an
+    /// object that evaluates light at samples. `shaded.lighting` is the result of the last call, whose memory may be
+    /// reused.
     std::function<std::shared_ptr<const SampleLighting>(const Scene& scene, const ShadingOptions& options,
                                                         ShadedScene& shaded, const Progress& progress)>
         make;
@@ -39,12 +40,12 @@ struct ShadingInfo {
 };
 
 /// The shading models by name:
-///   vertex    at the vertices, with shadow rays, and interpolated; matt. Radiance = emission + colour · (ambient +
-///             Σ E · max(0, n·l)/π) over the lights that the vertex sees, E = intensity for a directional light and
+///   vertex    at the vertices, with shadow rays, and interpolated; matt. Radiance = emission + colour · (ambient + Σ E
+///             · max(0, n·l)/π) over the lights that the vertex sees, E = intensity for a directional light and
 ///             intensity/r² for a point light. Cost: vertices × lights rays
 ///   direct    at each sample, with shadow maps, and the glossy lobe
-///   shadowed  at the vertices without shadows and interpolated; shadow maps at each sample; matt
-///   given     each vertex brings its radiance
+///   shadowed  at the vertices without shadows, interpolated, and combined with shadow maps at each sample; matt
+///   given     none: the radiance of each vertex is given by the scene
 HOGEL_API Table<ShadingInfo>& shading_models();
 
 /// How shade_scene() evaluates light.
@@ -52,34 +53,33 @@ struct ShadingOptions {
     std::string model = "vertex";   ///< a name of shading_models()
     std::size_t shadow_map = 512;   ///< texels along a side of a shadow map (twice that across a directional light)
     double max_shadow_bytes = 8e9;  ///< of all shadow maps together
-    bool filter_textures = true;    ///< average textures over the area that a sample covers
+    bool filter_textures = true;    ///< whether textures are averaged over the area that a sample covers
 };
 
 /// Bytes that the shadow maps of a scene take: 0 where the model has none. Throws Error(usage) for an unknown model.
 HOGEL_API double shadow_map_bytes(const Scene& scene, const ShadingOptions& options);
 
-/// Makes a scene ready to be rendered. Meshes with given radiance show that in every model. Throws what
-/// validate(Scene) throws; Error(bad_input) for a mesh without normals where there are lights, and, for `given`, for
-/// one without radiance; Error(usage) for an unknown model, and where the shadow maps would take more memory than
-/// allowed.
+/// Makes a scene ready to be rendered. Meshes with given radiance show it in every model. Throws what validate(Scene)
+/// throws; Error(bad_input) for a mesh without normals in a scene with lights and, in the model `given`, for a mesh
+/// without radiance; Error(usage) for an unknown model and for shadow maps larger than allowed.
 HOGEL_API ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options = {},
                                   const Progress& progress = {});
 
-/// The same into `shaded`, whose memory is used again: shading a scene that has changed but not grown allocates little.
-/// A picture behind the same pointer as before is taken as unchanged. `shaded.fronts_only` keeps its value; the
-/// radiance cache is dropped. Where it throws, `shaded` may only be destroyed, assigned or shaded again.
+/// As shade_scene(), but reuses the memory of `shaded`, so that a scene that has changed but not grown allocates
+/// little. A texture behind the same pointer as before is taken as unchanged. `shaded.fronts_only` keeps its value; the
+/// radiance cache is dropped. After an exception `shaded` may only be destroyed, assigned or shaded again.
 HOGEL_API void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedScene& shaded,
                                 const Progress& progress = {});
 
-/// Shading by `vertex` with point sampled textures. Shadow rays start a ten-thousandth of the scene's diagonal above
-/// the surface.
+/// Shades a scene with the model `vertex` and textures that are not filtered. Shadow rays start above the surface, at a
+/// ten-thousandth of the scene's diagonal.
 HOGEL_API ShadedScene shade_scene_vertices(const Scene& scene);
 
-/// A picture on a surface, repeated in both directions, with coarser versions of itself for distant views.
+/// A picture on a surface, repeated in both directions, with optional coarser levels for distant views.
 class HOGEL_API Texture {
   public:
-    /// Point sampled unless `filtered`: then levels of half the size, each the mean of the one before, down to a single
-    /// texel, are made (a third more memory).
+    /// If `filtered`, makes coarser levels, each half the size and the mean of the one before, down to a single texel
+    /// (a third more memory). Otherwise sample() interpolates the finest level alone.
     Texture(std::shared_ptr<const Image> finest, bool filtered = false);
 
     /// The picture interpolated between texels, averaged over about `width` texels of the finest level.
@@ -96,19 +96,19 @@ class HOGEL_API Texture {
     std::vector<Image> coarser_;
 };
 
-/// How a sample looks at a surface.
+/// The view of a surface by one sample.
 struct ViewSample {
     Vec3 to_viewer{0, 0, 1};  ///< unit length
     double footprint = 0;     ///< width of the sample on the surface, metres, over which textures are averaged
 };
 
 /// Lighting that is evaluated for each sample: a pure function of the point that a ray hits and the direction to the
-/// viewer, so that samples do not depend on the order or the tile in which they are read. It has two steps: the light
-/// that falls on a point, which is costly and the same for all rays that see the point; and the radiance that one ray
-/// sees of it.
+/// viewer, so that samples do not depend on the order or the tile in which they are read. There are two steps:
+/// light_on() evaluates the light that falls on a point, which is costly and the same for all rays that see the point;
+/// radiance() evaluates what one ray sees of it.
 class HOGEL_API SampleLighting {
   public:
-    /// The numbers that describe the light on a point.
+    /// How many numbers describe the light on a point.
     struct Size {
         std::size_t values = 0;  ///< non-negative numbers of any size, which come first
         std::size_t shares = 0;  ///< numbers between 0 and 1
@@ -117,24 +117,26 @@ class HOGEL_API SampleLighting {
     };
 
     virtual ~SampleLighting() = default;
-    /// How many numbers describe the light on a mesh; none where the radiance of its vertices is all there is.
+    /// How many numbers describe the light on a mesh; none if its light is completely given by the radiance of its
+    /// vertices.
     virtual Size size_of_light(std::size_t mesh) const = 0;
-    /// Whether these are three numbers: the radiance before the texture, the same for all viewers.
+    /// Whether the light is three numbers, the radiance before the texture, the same for all viewers.
     virtual bool light_is_radiance(std::size_t mesh) const = 0;
-    /// The light on the point of triangle `index` with these weights of its vertices, `size_of_light` numbers. They may
-    /// be interpolated between points of one triangle.
+    /// Evaluates the light on the point of triangle `index` that has these weights of its vertices. `light` has
+    /// size_of_light().sum() elements, which may be interpolated between points of one triangle.
     virtual void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                           std::span<float> light) const = 0;
-    /// The radiance towards the viewer of the point under that light, on a mesh whose light has any numbers. `texture`
-    /// multiplies the base colour and the emission.
+    /// The radiance towards the viewer of that point under that light. Called only for meshes whose size_of_light() is
+    /// not zero. `texture` multiplies the base colour and the emission.
     virtual Rgb radiance(const ShadedScene& /*scene*/, std::size_t /*index*/, const std::array<float, 3>& /*weights*/,
                          std::span<const float> light, Rgb texture, const ViewSample& /*view*/) const {
         return texture * Rgb{light[0], light[1], light[2]};
     }
 };
 
-/// A scene ready for any renderer: one list of triangles, and their light. Without `lighting` the radiance at a point
-/// of a triangle is the interpolated vertex radiance times the texture. Renderers share a scene by a pointer to const.
+/// A scene ready for any renderer: one list of triangles, with their light. Without `lighting` the radiance at a point
+/// of a triangle is the interpolated vertex radiance times the texture. Renderers share a scene through a pointer to
+/// const.
 struct ShadedScene {
     /// Triangle::texture of a triangle without texture.
     static constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
@@ -152,10 +154,10 @@ struct ShadedScene {
     std::vector<Triangle> triangles;                     ///< of all meshes, in the order of the scene
     std::vector<Texture> textures;                       ///< each picture of the scene once
     Rgb background;                                      ///< radiance of rays that meet nothing
-    /// Whether triangles are seen from their front only, where their corners run counterclockwise. Light falls on both
-    /// sides, and both sides cast shadows.
+    /// Whether triangles are visible only from their front, from where their corners run counterclockwise. Light falls
+    /// on both sides, and both sides cast shadows.
     bool fronts_only = false;
-    std::shared_ptr<const SampleLighting> lighting;          ///< null where `radiance` is all there is
+    std::shared_ptr<const SampleLighting> lighting;          ///< null if `radiance` gives all light
     std::shared_ptr<shading::RadianceCache> radiance_cache;  ///< null: light is evaluated anew for each ray
 
     /// Whether light is evaluated at the samples of this triangle instead of at its vertices.

@@ -13,25 +13,26 @@
 
 namespace hogel {
 
-/// The word that a mistyped one was probably meant to be: the nearest by insertions, deletions, replacements and swaps
-/// of letters, of which there may be one for every three letters (and one at least); otherwise the first that begins
-/// with its three or more letters; otherwise an empty text. The first of several that are equally near.
+/// The word that was probably meant by a mistyped one: the nearest by insertions, deletions, replacements and swaps of
+/// letters, of which one is allowed for every three letters (at least one); otherwise the first of `words` that begins
+/// with `word`, if that has three or more letters; otherwise an empty text. If several are equally near, the first of
+/// them.
 HOGEL_API std::string nearest_word(std::string_view word, std::span<const std::string> words);
 
-/// Throws Error(usage): there is no `kind` ("renderer") of that name. The message says which one may have been meant,
-/// and which ones exist.
+/// Throws Error(usage) because no `kind` ("renderer") of that name exists. The message gives the nearest name and all
+/// names that exist.
 [[noreturn]] HOGEL_API void throw_unknown(std::string_view kind, std::string_view name,
                                           std::span<const std::string> known);
 
-/// Throws Error(usage): there is a `kind` of that name already.
+/// Throws Error(usage) because a `kind` of that name already exists.
 [[noreturn]] HOGEL_API void throw_known(std::string_view kind, std::string_view name);
 
-/// Everything of one kind that exists, by name: renderers, coders, scenes. The library fills each table; a program may
-/// add rows while it runs, from any thread. A row has a member `name`. References to rows stay valid.
+/// A registry of everything of one kind by name: renderers, coders, scenes. The library fills each table; a program may
+/// add rows at run time, from any thread. A row has a member `name`. References to rows stay valid.
 template <class Row>
 class Table {
   public:
-    /// @param kind  what a row is, in the singular: "renderer"
+    /// @param kind  what a row is, in the singular, for messages: "renderer"
     Table(std::string kind, std::vector<Row> rows) : kind_(std::move(kind)) {
         for (Row& row : rows) rows_.push_back(std::move(row));
     }
@@ -59,7 +60,7 @@ class Table {
         if (const Row* row = look_up(name)) return *row;
         throw_unknown(kind_, name, names());
     }
-    /// Adds a row. Throws Error(usage) where the name is taken.
+    /// Adds a row. Throws Error(usage) if the name is taken.
     void add(Row row) {
         const std::lock_guard lock(mutex_);
         for (const Row& other : rows_)

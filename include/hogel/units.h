@@ -26,7 +26,7 @@ constexpr double operator""_deg(unsigned long long v) { return static_cast<doubl
 }  // namespace literals
 
 /// Reads "16mm", "-0.5 um", "633nm", "1.2m", "5cm"; µm may be written um or µm. Returns metres.
-/// Throws Error(usage) for text that is no number with a known unit; the message begins with `what`, the name of the
+/// Throws Error(usage) for text that is not a number with a known unit. The message begins with `what`, the name of the
 /// quantity, and shows how lengths are written.
 HOGEL_API double parse_length(std::string_view text, std::string_view what);
 

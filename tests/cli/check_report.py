@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks a folder of `hogel make`: the report stands alone, and tells of the files that are there.
+"""Checks a folder of `hogel make`: the report is self-contained and lists exactly the files of the folder.
 
 usage: check_report.py FOLDER
 """

@@ -174,7 +174,7 @@ class Hogel:
 
 
 def nearest(references, count):
-    """The nearest references (place in the order, i, j) to the left, to the right, above and below."""
+    """The nearest references (index in the order, i, j) to the left, to the right, above and below."""
     def far(side):
         distances = sorted(abs(i + j) for _, i, j in references if (i > 0, i < 0, j > 0, j < 0) == side)
         return distances[:count]
@@ -183,7 +183,7 @@ def nearest(references, count):
 
 
 def order_of(columns, rows, references_a_side):
-    """The hogels in coding order with their references (place in the order, i, j), and the number of the last layer."""
+    """The hogels in coding order with their references (index in the order, i, j), and the number of the last layer."""
     of_column, of_row = layers_of_places(columns), layers_of_places(rows)
     last = max(of_column + of_row)
     wavefronts = [[((columns - 1) // 2, (rows - 1) // 2)]]
@@ -213,7 +213,7 @@ COSINES = np.array([[f32(np.rint((math.sqrt(1 / 8) if k == 0 else 0.5) * math.co
                                  * 2**20) / 2**20) for j in range(8)] for k in range(8)], f32)
 
 
-# Whether a basis has samples along u, and along v.
+# For each basis, whether it has samples (not cosines) along u, and along v.
 BASES = (False, False), (True, True), (False, True), (True, False)
 
 
@@ -742,7 +742,7 @@ def fields_of(source, end):
 
 
 def unmapped(tile, points, values, chrominance):
-    """Radiances [c]... with the mapping undone."""
+    """Inverts the mapping of radiances [c]...."""
     if values is None and chrominance == 1:
         return tile
     mean = (tile[0] + tile[1] + tile[2]) / f32(3) if len(tile) == 3 else tile[0]

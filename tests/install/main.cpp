@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the border of the library must carry: exceptions as themselves, tables that a program extends, values.
+// Tests that exceptions, tables extended by a program, and values cross the boundary of the library.
 #include <cstdio>
 #include <memory>
 #include <stop_token>
@@ -30,7 +30,7 @@ int exceptions() {
     return 1;
 }
 
-// The whole chain in one expression of temporaries: each piece holds what it is made of.
+// The whole chain in one expression of temporaries, because each object shares ownership of its sources.
 int temporaries() {
     const Camera camera = camera_for(8 * 64e-6, 8 * 64e-6, 4);
     const auto field = make_holograms(LightField(std::make_shared<const Uniform>()), {.channels = mono(633e-9)});

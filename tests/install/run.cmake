@@ -28,7 +28,7 @@ run(${WORK_DIR}/prefix/bin/hogel --version)
 if(NOT output MATCHES "^hogel [0-9]+\\.[0-9]+\\.[0-9]+\n$")
   message(FATAL_ERROR "hogel --version printed '${output}'")
 endif()
-# Public headers alone are installed: one flat folder of them.
+# Only public headers are installed, in one flat folder.
 file(GLOB_RECURSE headers RELATIVE ${WORK_DIR}/prefix/include ${WORK_DIR}/prefix/include/*)
 foreach(header ${headers})
   if(NOT header MATCHES "^hogel/[a-z_]+\\.h$")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rate and quality of every coder against a committed table, so that a change that makes files larger or worse is seen.
 //
-//   rates_tests                                  fails where a row is off by more than the tolerance
-//   rates_tests --rows > tests/rates/table.txt   measures all rows anew and prints the table
+//   rates_tests                                  fails if a row differs by more than the tolerance
+//   rates_tests --rows > tests/rates/table.txt measures all rows again and prints the table
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ LightField render(const char* name, double size, const std::vector<LightFieldGri
     return LightField(std::move(faces));
 }
 
-// Waves on a plane behind the hologram and on one in front of it, which no sampling misses.
+// Waves on a plane behind the hologram and on one in front of it, coarse enough for any sampling.
 LightField smooth() {
     const LightFieldGrid grid{16, 16, 0.5_mm, 32, 32, Perspective{0.15, 0.15}, 1};
     auto field = std::make_unique<LightFieldBuffer>(grid);
@@ -99,7 +99,7 @@ StreamLayout layout_of(const std::string& text) {
     throw Error(ErrorCode::usage, "no layout of that name: " + text);
 }
 
-// The row with figures as they are measured now.
+// The row with newly measured figures.
 Row measured(Row row) {
     CompressionOptions options;
     options.method.coder = row.coder;

@@ -1,4 +1,5 @@
-# Configures the project beside this file; with BUILD=ON builds it without optimisation, too, and runs it.
+# Configures the project beside this file. With HOGEL_BUILD_SUBDIRECTORY=1 in the environment, as in `./dev ci`, it is
+# also built, without optimisation, and run, which compiles the whole library again.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -12,7 +13,7 @@ if(LAUNCHER)
 endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR} -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX} ${launcher}
     -D "CMAKE_CXX_FLAGS=-O0 -g0" -D HOGEL_SOURCE_DIR=${SOURCE_DIR} -D BUILD_SHARED_LIBS=OFF)
-if(NOT BUILD)
+if(NOT "$ENV{HOGEL_BUILD_SUBDIRECTORY}" STREQUAL "1")
   return()
 endif()
 run(${CMAKE_COMMAND} --build ${WORK_DIR} --parallel 2 --target contains_hogel)

@@ -20,8 +20,8 @@ using namespace format;
 
 namespace {
 
-// The rule of "lossless": floats as whole numbers in the same order, without the lowest bits that are zero in all
-// samples of a tile.
+// The rule of "lossless": floats are mapped to whole numbers in the same order, without the lowest bits that are zero
+// in all samples of a tile.
 class Ordered {
   public:
     explicit Ordered(int zero_bits) : zero_bits_(zero_bits) {}
@@ -30,7 +30,7 @@ class Ordered {
         const auto bits = std::bit_cast<std::uint32_t>(value);
         return (bits >> 31 ? ~bits : bits | 1u << 31) >> zero_bits_;
     }
-    // The number of the nearest float that has these lowest bits zero.
+    // The number of the nearest float whose lowest bits are zero.
     std::uint32_t nearest(float value) const {
         const std::uint32_t exact = Ordered(0).number(value), half = zero_bits_ > 0 ? 1u << (zero_bits_ - 1) : 0;
         return (exact > ~half ? exact : exact + half) >> zero_bits_;
@@ -48,7 +48,7 @@ class Ordered {
             zero_bits = std::min(zero_bits, std::countr_zero(std::bit_cast<std::uint32_t>(value)));
         return Ordered(zero_bits);
     }
-    // Reads the rule, and whether each hogel has a code of its own rather than each row.
+    // Reads the rule, and whether codes are those of single hogels or of rows of them.
     static std::pair<Ordered, bool> take(ByteReader& reader) {
         const auto bits = reader.take<std::uint8_t>();
         const int zero_bits = bits & (hogels_apart - 1);
@@ -62,7 +62,7 @@ class Ordered {
     // Special means +0.
     Residual residual(float value, float prediction) const {
         if (std::bit_cast<std::uint32_t>(value) == 0) return {0, true};
-        // Differences wrap around at the number of bits that numbers have.
+        // Differences are taken modulo 2 to the number of bits of the numbers.
         const std::uint32_t difference = number(value) - nearest(prediction);
         return {static_cast<std::int32_t>(difference << zero_bits_) >> zero_bits_, false};
     }
@@ -81,14 +81,14 @@ class Ordered {
     int zero_bits_;
 };
 
-// The rule of "bounded": steps of twice the error from the prediction. Special means that the float itself follows.
+// The rule of "bounded": residuals are multiples of twice the error. Special means that the float itself follows.
 class Bounded {
   public:
     explicit Bounded(double max_error) : max_error_(max_error) {}
 
     static constexpr bool keeps_every_bit = false;
     static Bounded for_tile(const LightFieldTile&, double max_error) { return Bounded(max_error); }
-    // A negative bound means that each hogel has a code of its own.
+    // The sign of the bound is a flag: negative if each hogel has a code of its own.
     static std::pair<Bounded, bool> take(ByteReader& reader) {
         const double max_error = reader.take_double();
         if (!(max_error != 0 && std::isfinite(max_error))) reader.damaged("its bound is impossible");
@@ -117,13 +117,13 @@ class Bounded {
     double max_error_;
 };
 
-// With this many bytes or more, a code of its own for each hogel costs less than half a per cent.
+// From this size on, a separate code for each hogel costs less than half a per cent.
 constexpr std::size_t min_own_code = 16384;
 
-// The nearest value that the coder of the prediction takes.
+// The nearest value that the coder of the prediction can code.
 float codable_prediction(float value) { return std::isfinite(value) ? std::clamp(value, -0x1p60f, 0x1p60f) : 0; }
 
-// Calls use(index in the tile, context) for the samples of a hogel, which returns the residual.
+// Calls use(index in the tile, context), which returns the residual, for the samples of a hogel.
 template <class Use>
 void for_each_sample(const LightFieldTile& tile, std::size_t t, std::size_t s, const DirectionCross& counted,
                      Use&& use) {
@@ -147,7 +147,7 @@ struct ExactTile {
     std::span<const std::uint8_t> prediction;
     Rule rule;
     bool hogels_apart;
-    std::vector<std::span<const std::uint8_t>> codes;  // of each hogel, row by row, or of each row of hogels
+    std::vector<std::span<const std::uint8_t>> codes;  // one per hogel, row by row, or one per row of hogels
 
     static ExactTile take(std::span<const std::uint8_t> bytes, const HogelRange& range) {
         ByteReader reader(bytes, "tile");
@@ -162,7 +162,7 @@ struct ExactTile {
         return tile;
     }
 
-    // Decodes the hogels of one code, whose first is (t, s), in place of their prediction.
+    // Decodes the hogels of one code, beginning with (t, s), over their prediction.
     void decode(std::size_t code, LightFieldTile& tile, std::size_t t, std::size_t s,
                 const DirectionCross& counted) const {
         const ByteReader whole({}, "tile");
@@ -180,7 +180,7 @@ struct ExactTile {
     }
 };
 
-// A tile decoded as far as it is read, by hogels or by rows of them. What has been decoded is kept.
+// A tile that is decoded on demand, by hogels or by rows of them. Decoded samples are kept.
 template <class Rule>
 class ExactDecoder final : public TileDecoder {
   public:
@@ -244,14 +244,14 @@ class ExactDecoder final : public TileDecoder {
 template <class Rule>
 class ExactCoder final : public TileCoder {
   public:
-    // @param max_error   for encode(), if the rule has one
+    // @param max_error   used by encode(), if the rule has one
     ExactCoder(const LightFieldGrid& grid, const DirectionCross& counted, double max_error)
         : predictor_(make_hogel_coder(grid, counted)), counted_(counted), max_error_(max_error) {}
 
     HogelRange preferred_tile(const LightFieldGrid& grid) const override { return predictor_->preferred_tile(grid); }
     std::size_t max_at_once() const override { return predictor_->max_at_once(); }
     bool takes_any_value() const override { return true; }
-    // Those of the prediction, and the residuals.
+    // The layers of the prediction, and one of residuals.
     std::size_t layers(const HogelRange& tile) const override { return predictor_->layers(tile) + 1; }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
@@ -294,7 +294,7 @@ class ExactCoder final : public TileCoder {
         return predictor_->open({bytes.begin(), bytes.end()}, grid, range, levels);
     }
 
-    // Returns the decoded prediction, and where its layers end.
+    // Returns the decoded prediction and the ends of its layers.
     std::pair<LightFieldTile, std::vector<std::size_t>> encode_prediction(const LightFieldTile& tile, double step,
                                                                           ByteWriter& writer) const {
         LightFieldTile prediction = tile;
@@ -316,7 +316,8 @@ class ExactCoder final : public TileCoder {
         return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= min_own_code * bytes.size();
     }
 
-    // Codes the hogels begin to end of a row. `decoded` gets their samples; it may be null, or the prediction.
+    // Codes hogels `begin` to `end` of a row. `decoded` receives their samples; it may be null, or the prediction
+    // itself.
     std::vector<std::uint8_t> encode_code(const LightFieldTile& tile, const Rule& rule,
                                           const LightFieldTile& prediction, std::size_t t, std::size_t begin,
                                           std::size_t end, LightFieldTile* decoded) const {

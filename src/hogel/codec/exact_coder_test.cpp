@@ -84,7 +84,7 @@ TEST(Lossless, random_bits_take_at_most_a_tenth_more) {
     EXPECT_LT(double(result.bytes), 1.1 * 4 * 6 * 6 * 32 * 24);
 }
 
-// They take fewer than their 16 bits, as they are predicted; the other 16 bits of a float take none.
+// Prediction makes them shorter than 16 bits, and the other 16 bits of a float take none.
 TEST(Lossless, half_floats_take_less_than_16_bits) {
     LightFieldBuffer field = textured_planes(8, 8, 32, 32, 1);
     for (float& value : field.radiance.elements()) value = ten_bits(value);
@@ -144,7 +144,7 @@ TEST(Exact, other_coders_are_refused) {
     EXPECT_THROW(compress(field, folder / "a.hgl", bounded(-1)), Error);
 }
 
-// Large hogels have codes of their own, small ones one for each row.
+// Large hogels have a code each, small ones a code per row.
 TEST(Exact, any_range_has_the_samples_of_the_whole) {
     const TestFolder folder;
     for (const std::size_t directions : {std::size_t{16}, std::size_t{128}}) {
@@ -163,7 +163,7 @@ TEST(Exact, any_range_has_the_samples_of_the_whole) {
     }
 }
 
-// Decoding ends with a tile or in an Error(bad_input).
+// Decoding gives a tile or throws Error(bad_input).
 TEST(Exact, damaged_bytes_do_no_harm) {
     const LightFieldBuffer field = with_odd_values(1);
     LightFieldTile tile(field.grid(), {0, 0, 2, 1}, false);

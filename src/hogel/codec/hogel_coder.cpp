@@ -30,18 +30,18 @@ namespace {
 // Larger tiles gain little (docs/decisions/0035-codec-tile-size.md).
 constexpr std::size_t preferred_side = 32;
 constexpr std::size_t preferred_samples = std::size_t{1} << 27;
-// Growth of the step from one layer to the next. What all hogels share is best coded once and finely, so the growth
-// depends on how much of the first hogel its neighbours share. In a single row of hogels a layer has twice as many as
-// those before it, not four times, so less is inherited.
+// Growth of the step from one layer to the next. Content that all hogels share is best coded once and finely, so the
+// growth depends on how much of the first hogel its neighbours share. In a single row a layer has twice as many hogels
+// as all before it, not four times, so fewer hogels benefit.
 constexpr float expected_growth = 1.35f;
 float growth_for(float shared, bool single_row) {
     const float growth = 1.27f + 0.63f * shared * shared * shared * shared;
     return single_row ? std::cbrt(growth) : growth;
 }
-// References on each side. The nearest ones are best where their blocks can be shifted by fractions of a direction;
-// otherwise more are needed to choose from (docs/decisions/0031-codec-references-per-side.md).
+// References on each side. The nearest ones are best if their blocks can be shifted by fractions of a direction;
+// otherwise a choice of more is better (docs/decisions/0031-codec-references-per-side.md).
 constexpr std::uint8_t max_references = 3;
-constexpr std::size_t counted_hogels = 48;    // of a layer, for the initial states of its models
+constexpr std::size_t counted_hogels = 48;    // hogels of a layer that are counted for the initial states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
 // Σ (picture − truth)² over the directions that count; the truth as red, green and blue.
@@ -56,11 +56,13 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Pictu
     return sum;
 }
 
-// Hogels of the first two layers, for which disparities are estimated: they have no references, or only far ones.
+// Number of hogels in the first two layers. Their disparities are estimated, because they have no references or only
+// distant ones.
 constexpr std::size_t first_hogels = 9;
 using Estimates = std::array<encode::Estimate, first_hogels>;
 
-// Codes a tile layer by layer: decides on all hogels of a layer, and then writes their codes, each independently.
+// Codes a tile layer by layer: first decides on all hogels of a layer, then writes their codes independently of each
+// other.
 class TileEncoder {
   public:
     // @param tile   its radiance is overwritten
@@ -86,7 +88,7 @@ class TileEncoder {
         return estimates;
     }
 
-    // Is asked after each wavefront whether to go on; then run() returns nothing if not.
+    // Called after each wavefront; if it returns false, run() stops and returns nothing.
     using GoOn = std::function<bool(double error, std::size_t bytes)>;
     std::optional<TileCoder::Encoded> run(const Estimates& estimates, const GoOn& go_on = {}) {
         for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = estimates[k].disparities;
@@ -143,7 +145,7 @@ class TileEncoder {
 
     // Writes the hogels of a layer, from begin to end.
     void write(std::size_t begin, std::size_t end) {
-        // Some of the hogels are enough for the states of the models.
+        // A part of the hogels suffices to determine the states of the models.
         const std::size_t apart = 1 + (end - begin) / counted_hogels;
         std::vector<BitCount> counts(states_.count());
         for (std::size_t k = begin; k < end; k += apart) count_bits(records_[k], counts);
@@ -170,11 +172,11 @@ class TileEncoder {
     TileSetup setup_;
     std::uint8_t references_;
     const std::vector<HogelOrder::Hogel>& order_;
-    std::vector<Picture> pictures_;                                  // of the hogels of the order
+    std::vector<Picture> pictures_;                                  // one per hogel of the order
     std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first hogels
     std::vector<CodedHogel> coded_;
     const BlockModelNumbers numbers_;
-    std::vector<BlockRecorder::Record> records_;  // syntax elements of hogels, until they are written
+    std::vector<BlockRecorder::Record> records_;  // syntax elements of the hogels, until they are written
     std::vector<double> errors_;
     ModelStates states_;
     ByteWriter bytes_;
@@ -203,7 +205,7 @@ class ReferencesTrial {
     ReferencesTrial(const LightFieldTile& tile, const LightFieldGrid& grid, double step)
         : tile_(tile), grid_(grid), step_(step) {}
 
-    // Squared error and weighted bits; infinity where that is more than `most`.
+    // The squared error plus λ times the bits; infinity if that is more than `most`.
     double cost(std::uint8_t references, double most = std::numeric_limits<double>::infinity()) {
         std::array<std::atomic<double>, windows> costs{};
         std::atomic<bool> too_much = false;
@@ -233,11 +235,11 @@ class ReferencesTrial {
     std::array<std::optional<Estimates>, windows> estimates_;
 };
 
-// The best number of references. It is chosen for a rounded step, so that the search for a step sees a function with
-// few jumps.
+// The best number of references, chosen for a rounded step so that the search for a step sees a function with few
+// jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
     ReferencesTrial trial(tile, grid, std::exp2(std::round(2 * std::log2(step)) / 2));
-    // Where the extremes differ by this factor, what lies between is not tried.
+    // If the costs of the extremes differ by this factor, the numbers between them are not tried.
     constexpr double far = 1.1, rounding = 1e-9;
     const double many = trial.cost(max_references), one = trial.cost(1, far * many);
     std::uint8_t best = many < one ? max_references : 1;
@@ -259,7 +261,7 @@ class HogelCoder final : public TileCoder {
     HogelRange preferred_tile(const LightFieldGrid& grid) const override {
         std::size_t side = preferred_side;
         while (side > 1 && side * side * decode::samples_in_blocks(grid) > preferred_samples) --side;
-        // Tiles of nearly equal sizes rather than full ones and a narrow rest.
+        // Makes tiles of nearly equal sizes instead of full ones and a narrow remainder.
         const auto even = [&](std::size_t count) {
             const std::size_t tiles = (count + side - 1) / side;
             return (count + tiles - 1) / tiles;

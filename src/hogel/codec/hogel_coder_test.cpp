@@ -25,7 +25,7 @@ LightFieldTile whole(const LightFieldBuffer& field) {
     return tile;
 }
 
-// A plane with a pattern that directions sample well and a disparity of `disparity` directions.
+// A plane at a disparity of `disparity` directions with a pattern that directions sample well.
 LightFieldBuffer plane_at(double disparity, std::size_t hogels, std::size_t directions, std::size_t directions_v) {
     LightFieldGrid grid{hogels, hogels, 1e-3, directions, directions_v, Perspective{0.3, 0.25}, 1};
     LightFieldBuffer field(grid);
@@ -152,7 +152,7 @@ TEST(Prediction, intra_predictors_continue_directions) {
     }
 }
 
-// In every basis, only along the axes on which it has cosines.
+// For every basis, the transform acts only along the axes on which it has cosines.
 TEST(Blocks, transform_is_the_orthonormal_cosine_transform) {
     BlockSamples block, coefficients, back;
     for (std::size_t k = 0; k < block_samples; ++k) block[k] = static_cast<float>(std::sin(double(k * k)));
@@ -189,7 +189,8 @@ TEST(HogelCoder, single_samples_and_lines_take_few_bits) {
     const auto place = [](std::size_t at, std::uint32_t seed) {
         return 1 + core::philox({static_cast<std::uint32_t>(at / block_side), seed, 0, 0}, {7, 8})[0] % 6;
     };
-    // A sample in each block; a vertical line through all blocks of a column; a horizontal one through those of a row.
+    // One sample in each block; a vertical line through all blocks of a column; a horizontal line through all blocks of
+    // a row.
     EXPECT_LT(bits_of_a_block([&](std::size_t v, std::size_t u) {
                   const std::size_t block = v / block_side * side + u;
                   return v % block_side == place(block, 1) && u % block_side == place(block, 2) ? 1.0f : 0.0f;
@@ -248,7 +249,7 @@ TEST(HogelCoder, a_plane_seen_by_64_hogels_takes_few_more_bytes_than_by_one) {
     EXPECT_LT(all.squared_error / 64, 2 * (alone.squared_error + 96 * 64 * step * step / 12));
 }
 
-// Also for hogels of whole blocks, which are reconstructed in place in the tile.
+// Includes hogels of whole blocks, which are reconstructed in place in the tile.
 TEST(HogelCoder, returns_the_error_that_decoding_gives) {
     for (const auto& [width, height, channels] :
          {std::array<std::size_t, 3>{21, 19, 3}, {24, 16, 3}, {24, 16, 1}, {17, 8, 1}}) {
@@ -269,7 +270,7 @@ TEST(HogelCoder, returns_the_error_that_decoding_gives) {
     }
 }
 
-// Decoding ends with a tile or in an Error(bad_input).
+// Decoding gives a tile or throws Error(bad_input).
 TEST(HogelCoder, damaged_bytes_do_no_harm) {
     const LightFieldBuffer field = textured_planes(5, 4, 20, 12, 1);
     const auto coder = make_hogel_coder(field.grid());
@@ -290,7 +291,7 @@ TEST(HogelCoder, tiles_that_are_too_large_are_refused) {
     LightFieldTile tile(grid, {0, 0, 65, 1}, false);
     EXPECT_THROW(coder->encode(tile, 0.1), Error);
     EXPECT_LE(coder->preferred_tile(grid).ns, 33u);
-    // Tiles of a large light field that fit.
+    // Tiles of a large light field that are within the limits.
     const LightFieldGrid large{128, 128, 1e-3, 512, 512, Perspective{0.3, 0.3}, 3};
     const HogelRange preferred = coder->preferred_tile(large);
     EXPECT_LE(double(preferred.hogels()) * 512 * 512 * 3, 0x1p27);

@@ -42,7 +42,7 @@ TEST(Stream, header_comes_back) {
     EXPECT_EQ(info.metadata, (Metadata{{"what", "a test"}, {"", "Ελλάδα"}}));
 }
 
-// From any thread, and with memory for one tile or for all.
+// Read from several threads, with memory for one tile and for all.
 TEST(Stream, any_range_has_the_samples_of_the_whole) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(7, 5, 8, 6, 3);
@@ -64,7 +64,7 @@ TEST(Stream, any_range_has_the_samples_of_the_whole) {
     }
 }
 
-// Also directions off centre.
+// Includes directions off centre.
 TEST(Stream, keeps_the_grid) {
     const TestFolder folder;
     LightFieldGrid grid{3, 2, 1e-3, 4, 5, Perspective{0.5, 0.7}, 1};
@@ -74,7 +74,7 @@ TEST(Stream, keeps_the_grid) {
     EXPECT_TRUE(open_stream(folder / "a.hgl").grid() == grid);
 }
 
-// The error that reading a file ends in, if there is one.
+// The error that reading a file throws, if any.
 std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
     try {
         const LightField source = open_stream(path);
@@ -110,7 +110,7 @@ TEST(Stream, every_truncation_and_every_flipped_byte_is_noticed) {
     EXPECT_EQ(outcome(folder / "b.hgl"), ErrorCode::bad_input);
 }
 
-// A file that was cut off is refused if more layers are asked for than it has.
+// A truncated file is refused if more layers are requested than it has.
 TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(9, 5, 24, 16, 1);
@@ -150,7 +150,7 @@ TEST(Stream, beginning_of_a_file_is_a_coarser_light_field) {
     }
 }
 
-// With the right checksum; it must not make the reader allocate memory for impossible sizes.
+// The header has a valid checksum. It must not make the reader allocate memory for impossible sizes.
 TEST(Stream, forged_header_does_no_harm) {
     const TestFolder folder;
     compress(textured_planes(4, 3, 4, 4, 1), folder / "a.hgl", small_tiles("threepass", "ai13"));
@@ -186,7 +186,7 @@ TEST(Stream, other_versions_and_other_files_are_refused_by_name) {
     EXPECT_EQ(outcome(folder / "c.hgl"), ErrorCode::bad_input);
 }
 
-// Depths around two values and infinity, in a pattern without coherence.
+// Depths near two values and infinite ones, in an incoherent pattern.
 LightFieldBuffer with_depth(std::size_t hogels) {
     const LightFieldBuffer textured = textured_planes(hogels, 3, 11, 9, 3);
     LightFieldBuffer field(textured.grid(), true);
@@ -228,7 +228,7 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
         }
         EXPECT_GT(finite, field.depth.size() / 2);
     }
-    // A part of it, and a light field of infinite depth.
+    // Reads a part of the light field, and one whose depths are all infinite.
     LightFieldTile part(field.grid(), {1, 1, 3, 2}, true), same(field.grid(), {1, 1, 3, 2}, true);
     open_stream(folder / "d.hgl").front().read(part);
     field.read(same);

@@ -25,8 +25,8 @@ inline bool refuses(const TileCoder& coder, std::span<const std::uint8_t> bytes,
     return false;
 }
 
-/// Cuts the code of a tile at every `cut`-th byte and appends to it, which must be refused, and flips a bit of every
-/// `flip`-th byte, which must end in a tile or be refused.
+/// Truncates the code of a tile at every `cut`-th byte and appends to it, which must be refused; flips a bit of every
+/// `flip`-th byte, which must give a tile or be refused.
 inline void expect_harmless_damage(const TileCoder& coder, const std::vector<std::uint8_t>& good,
                                    const LightFieldTile& tile, std::size_t cut, std::size_t flip) {
     EXPECT_FALSE(refuses(coder, good, tile));
@@ -47,7 +47,7 @@ inline std::size_t end_of_header(const std::vector<std::uint8_t>& stream) {
     return 16 + (stream[12] | std::size_t{stream[13]} << 8);
 }
 
-/// A stream with another number in its header, and a checksum to match.
+/// The stream with a number in its header replaced and the checksum corrected.
 inline std::vector<std::uint8_t> with_number(std::vector<std::uint8_t> stream, std::size_t at, std::uint64_t value) {
     const std::size_t end = end_of_header(stream);
     for (std::size_t i = 0; i < 8; ++i) stream[at + i] = static_cast<std::uint8_t>(value >> (8 * i));

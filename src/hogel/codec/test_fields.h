@@ -99,7 +99,7 @@ inline ErrorCode code_of(const std::function<void()>& call) {
     return ErrorCode{0};
 }
 
-// compress() of local objects, which outlive the call.
+// Calls compress() with a borrowed source.
 inline CompressionResult compress(const LightFieldSource& field, const std::filesystem::path& path,
                                   const CompressionOptions& options) {
     return hogel::compress(borrow(field), path, options);

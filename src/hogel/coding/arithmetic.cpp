@@ -8,7 +8,7 @@ namespace hogel::coding {
 namespace {
 
 constexpr std::uint32_t max_total = 1u << 16;
-constexpr std::uint32_t increment = 32;  // adapts alphabets of hundreds of symbols within some thousand symbols
+constexpr std::uint32_t increment = 32;  // alphabets of hundreds of symbols adapt within some thousand symbols
 
 }  // namespace
 
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> ArithmeticEncoder::finish() {
         const std::uint64_t value = (low_ + mask) & ~mask;
         if (value + mask > low_ + range_ - 1) continue;
         low_ = value;
-        // One shift more than there are significant bytes, which releases the held and pending ones.
+        // One more shift than there are significant bytes, to output the held and pending bytes.
         for (int used = 4 - unused; used >= 0; --used) shift();
         break;
     }

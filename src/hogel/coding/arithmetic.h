@@ -61,7 +61,7 @@ class ArithmeticEncoder {
     void raw(std::uint32_t value, int count);
     /// Bytes so far; finish() adds one to five.
     std::size_t size() const { return bytes_.size() + pending_; }
-    /// Ends the code with as few bytes as decode to everything that was encoded, whatever follows them.
+    /// Ends the code with the fewest bytes that decode correctly whatever bytes follow them.
     std::vector<std::uint8_t> finish();
 
   private:
@@ -71,13 +71,13 @@ class ArithmeticEncoder {
     std::vector<std::uint8_t> bytes_;
     std::uint64_t low_ = 0;  // with the carry in bit 32
     std::uint32_t range_ = 0xFFFFFFFF;
-    std::uint8_t held_ = 0;    // the byte that a carry may still change,
-    std::size_t pending_ = 0;  // and how many 0xFF follow it
+    std::uint8_t held_ = 0;    // the byte that a carry may still change
+    std::size_t pending_ = 0;  // number of 0xFF bytes that follow it
     bool first_ = true;        // nothing is held yet
 };
 
-/// Decodes what an ArithmeticEncoder encoded. As soon as a decision depends on bytes beyond the end, ended() is true;
-/// that decision and all later ones are meaningless, but within their alphabets. So a prefix of a code gives exactly
+/// Decodes the output of an ArithmeticEncoder. As soon as a decision depends on bytes beyond the end, ended() is true;
+/// that decision and all later ones are meaningless but within their alphabets. Thus a prefix of a code gives exactly
 /// the decisions that it determines.
 class ArithmeticDecoder {
   public:
@@ -97,7 +97,7 @@ class ArithmeticDecoder {
     std::span<const std::uint8_t> bytes_;
     std::size_t next_ = 0;
     std::uint32_t range_ = 0xFFFFFFFF, code_ = 0;
-    std::uint32_t unknown_ = 0;  // ones where code_ lacks bits beyond the end
+    std::uint32_t unknown_ = 0;  // ones at the bits of code_ that lie beyond the end
     bool ended_ = false;
 };
 

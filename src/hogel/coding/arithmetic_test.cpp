@@ -95,7 +95,7 @@ TEST(Arithmetic, every_prefix_gives_what_it_determines_and_no_more) {
     EXPECT_GT(before + 60, items.size());
 }
 
-// The last symbols of alphabets in a row bring low close to its top, so that carries run far.
+// Repeating the last symbol of an alphabet brings `low` close to its maximum, so that carries propagate far.
 TEST(Arithmetic, carries_run_through_long_rows_of_ones) {
     for (int last = 0; last < 64; ++last) {
         std::vector<Item> items(400, Item{2, 16, 0xFFFF});
@@ -118,7 +118,7 @@ TEST(Arithmetic, takes_little_more_than_the_entropy) {
         const bool value = random() % 100 < 10;
         bits.bit(bit_model, value);
         bit_entropy += information(value ? 0.1 : 0.9);
-        std::size_t symbol = 0;  // geometric
+        std::size_t symbol = 0;  // geometric distribution
         while (symbol < 15 && random() % 2) ++symbol;
         symbols.symbol(symbol_model, symbol);
         symbol_entropy += symbol < 15 ? static_cast<double>(symbol + 1) : 15;

@@ -29,7 +29,7 @@ struct Models {
     }
 };
 
-// Twice the magnitude in the middle of a coefficient's interval, which is an integer.
+// Twice the magnitude in the middle of a coefficient's interval; it is an integer.
 std::uint32_t found_at(int plane) { return 3u << plane; }
 std::uint32_t refined(std::uint32_t twice, bool bit, int plane) {
     return bit ? twice + (1u << plane) : twice - (1u << plane);
@@ -63,7 +63,7 @@ class Encoding {
         if (limit_.sqnr) now_known(index, refined(twice_[index], bit, plane));
     }
     bool full() {
-        // Bytes on top, so that the end of the code determines all symbols so far.
+        // Five extra bytes, so that the end of the code determines all symbols so far.
         if (!enough_ && limit_.sqnr && error_ <= allowed_) enough_ = encoder_.size() + 5;
         return encoder_.size() >= limit_.bytes || (enough_ && encoder_.size() >= *enough_);
     }

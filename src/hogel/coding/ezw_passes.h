@@ -15,10 +15,10 @@ enum class EzwSymbol { positive, negative, zerotree, isolated };
 
 // The context of a symbol.
 struct EzwContext {
-    bool leaf;            // no isolated zeros
-    bool not_a_zerotree;  // its subtree is known to hold a found coefficient: no zerotrees
+    bool leaf;            // a leaf, which cannot be an isolated zero
+    bool not_a_zerotree;  // its subtree is known to hold a found coefficient, so it cannot be a zerotree
     bool parent_found;
-    bool previous_found;  // the coefficient before it in this pass was
+    bool previous_found;  // whether the previous coefficient of this pass was found
 };
 
 // The passes of EZW over integer magnitudes of `planes` bits, shared by encoder and decoder. Threshold T is 2^plane: a
@@ -56,7 +56,7 @@ void ezw_passes(const Forest& forest, int planes, Coder& coder) {
     }
 }
 
-// The symbols of integer magnitudes and signs.
+// Derives the symbols from integer magnitudes and signs.
 class EzwMagnitudes {
   public:
     EzwMagnitudes(const Forest& forest, std::vector<std::uint32_t> magnitudes, std::vector<bool> negative)

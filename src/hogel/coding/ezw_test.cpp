@@ -57,7 +57,8 @@ TEST(Ezw, figure_4_16_symbol_by_symbol) {
     EXPECT_EQ(figure.passes[2], "POS NEG ZT ZT IZ NEG ZT ");      // T = 32
     EXPECT_EQ(figure.passes[1], "POS ZT POS NEG ZT ZT ZT NEG ");  // T = 16
     EXPECT_EQ(figure.passes[0], "NEG ZT ZT NEG ZT NEG ");         // T = 8
-    // Not printed there. 64 -42 -35 in the upper half (48, 64] of (32, 64]? Then those and 27 26 -30 -24 by eight.
+    // Refinements, which the figure does not print: whether 64, -42, -35 are in the upper half (48, 64] of (32, 64],
+    // then these and 27, 26, -30, -24 in intervals of eight.
     EXPECT_EQ(figure.refinements[1], "100");
     EXPECT_EQ(figure.refinements[0], "1101110");
 }
@@ -109,9 +110,9 @@ TEST(Ezw, any_prefix_decodes_and_more_bytes_are_better) {
         ezw_decode(pyramid, std::span(whole).first(length), decoded);
         const double now = error(values, decoded);
         EXPECT_LE(now, before * 1.01)
-            << length;  // a middle may by chance be further off than that of the whole interval
+            << length;  // the middle of a half may by chance be farther from the value than that of the whole interval
         before = now;
-        // A stream made for this length is this prefix.
+        // A stream encoded with this limit equals this prefix.
         if (length % 100 == 0) {
             const Bytes made = ezw_encode(pyramid, values, {length, {}});
             EXPECT_EQ(made, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
@@ -129,7 +130,7 @@ TEST(Ezw, stops_at_the_sqnr_asked_for) {
         ezw_decode(pyramid, bytes, decoded);
         const double allowed = energy(values) * std::pow(10, -asked / 10);
         EXPECT_LE(error(values, decoded), allowed);
-        // It stops as soon as the SQNR is reached, but for the few bytes of the end.
+        // Encoding stops as soon as the SQNR is reached, apart from a few final bytes.
         ASSERT_GT(bytes.size(), 10u);
         ezw_decode(pyramid, std::span(bytes).first(bytes.size() - 10), decoded);
         EXPECT_GT(error(values, decoded), allowed);

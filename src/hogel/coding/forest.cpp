@@ -11,20 +11,20 @@
 namespace hogel::coding {
 namespace {
 
-// A band along one axis.
+// The extent of a band along one axis.
 struct Side {
     std::size_t begin, extent;
-    std::vector<std::size_t> parents;  // place of the parent along the axis, for each place of the band
+    std::vector<std::size_t> parents;  // for each position in the band, that of the parent along the axis
 };
 
-// A band of one group of axes: a side for each of them.
+// A band of one group of axes: one Side per axis.
 struct GroupBand {
     std::vector<Side> sides;
     int depth;
-    std::size_t parent;  // index of the band in the group; its own for the coarse samples
+    std::size_t parent;  // index of the parent band in the group; for the coarse samples their own index
 };
 
-// Places of the parents of a row of children: two children each, and the last parent has the remainder.
+// Positions of the parents of a row of children: each parent has two, the last one has the remainder.
 std::vector<std::size_t> halved(std::size_t children, std::size_t begin, std::size_t parents) {
     std::vector<std::size_t> places(children);
     for (std::size_t i = 0; i < children; ++i) places[i] = begin + std::min(i / 2, parents - 1);
@@ -34,7 +34,8 @@ std::vector<std::size_t> halved(std::size_t children, std::size_t begin, std::si
 std::vector<GroupBand> bands_of_group(const transform::Pyramid& pyramid, const transform::AxisGroup& group) {
     const std::size_t axes = group.axes.size();
     const auto extent = [&](std::size_t a, int level) { return pyramid.coarse_extent(group.axes[a], level); };
-    // The orientation of a band is the set of axes, as bits, along which it holds details. Axes that a level splits:
+    // The orientation of a band is the set of axes, as bits, along which it holds details. The set of axes that a level
+    // splits:
     const auto halving = [&](int level) {
         std::size_t set = 0;
         for (std::size_t a = 0; a < axes; ++a)
@@ -82,7 +83,7 @@ std::vector<GroupBand> bands_of_group(const transform::Pyramid& pyramid, const t
 Forest::Forest(const transform::Pyramid& pyramid) : strides_(pyramid.strides()), size_(pyramid.size()) {
     const std::size_t rank = pyramid.shape().size();
     if (rank > 8) throw Error(ErrorCode::usage, fmt::format("zerotrees: {} dimensions, expected at most 8", rank));
-    // Axes in no group are groups that are not split.
+    // Axes that belong to no group are treated as groups that are not split.
     std::vector<transform::AxisGroup> groups = pyramid.groups();
     for (std::size_t axis = 0; axis < rank; ++axis)
         if (std::none_of(groups.begin(), groups.end(), [&](const transform::AxisGroup& group) {

@@ -10,12 +10,12 @@
 namespace hogel::coding {
 
 /// The coefficients of a wavelet transform as trees ([K] 4.4.2, fig. 4.15, in any number of dimensions). The parent of
-/// a coefficient is the one at the same place in the same orientation one level coarser; that of the coarsest details
-/// is the coarse sample at their place; coarse samples are roots. With several groups of axes the parent is found in
-/// each group independently; a group that has reached its coarse samples stays there.
+/// a coefficient is the coefficient at the same position and of the same orientation, one level coarser. The parent of
+/// the coarsest details is the coarse sample at their position; coarse samples are roots. With several groups of axes
+/// the parent is found in each group independently; a group that has reached its coarse samples stays there.
 ///
-/// Sizes are arbitrary: where a band has an odd number of children, the last parent has three. Orientations that need
-/// an axis that is not split any more are children of the nearest orientation that does not.
+/// Sizes are arbitrary: if the number of children is odd, the last parent has three. Orientations with details along an
+/// axis that is no longer split are children of the nearest orientation without that axis.
 class Forest {
   public:
     static constexpr std::size_t no_parent = std::numeric_limits<std::size_t>::max();
@@ -24,10 +24,10 @@ class Forest {
     struct Band {
         std::vector<std::size_t> extent;
         std::size_t origin;
-        /// For each axis and place of the box, the offset of its parent in the array; the sum over the axes is the
-        /// index of a parent.
+        /// [axis][position in the box]: the offset of the parent in the array. The sum over the axes is the index of
+        /// the parent.
         std::vector<std::vector<std::size_t>> parents;
-        int depth;  ///< of its coefficients in their trees, 0 for roots
+        int depth;  ///< depth of its coefficients in their trees, 0 for roots
         bool leaf;  ///< none of its coefficients has children
     };
 
@@ -53,7 +53,7 @@ template <class Visit>
 void Forest::for_each(const Band& band, Visit&& visit) const {
     const std::size_t last = band.extent.size() - 1, row_length = band.extent[last];
     const std::size_t* row_parents = band.parents[last].data();
-    std::vector<std::size_t> place(last);  // of the row
+    std::vector<std::size_t> place(last);  // position of the row
     for (bool more = true; more;) {
         std::size_t index = band.origin, parent = 0;
         for (std::size_t axis = 0; axis < last; ++axis) {

@@ -20,12 +20,13 @@ namespace {
 
 constexpr int b_limit = 30;
 constexpr std::size_t header = 5;
-constexpr int own_table = 0x80;  // in the byte of b_max
+constexpr int own_table = 0x80;  // flag in the byte of b_max
 
 struct Models {
     explicit Models(int b_max) : tuples(static_cast<std::size_t>((z_max + 1) * (b_max + 1))) {}
     SymbolModel tuples;
-    // The bit below the leading one, by the number of bits; lower bits are nearly even.
+    // Models of the bit below the leading one, by the number of bits. Lower bits are nearly equally likely and have
+    // none.
     std::array<BitModel, b_limit + 1> second;
 };
 
@@ -67,8 +68,8 @@ std::int32_t read_level(ArithmeticDecoder& decoder, Models& models, int bits) {
     return negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
 }
 
-// Calls take(place, level) for the levels of a block of `count` entries that are not zero. False if the tuples exceed
-// the block.
+// Calls take(position, level) for the levels of a block of `count` entries that are not zero. Returns false if the
+// tuples exceed the block.
 template <class Take>
 bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, Take&& take) {
     for (std::size_t at = 0; at < count && !decoder.ended(); ++at) {
@@ -76,7 +77,7 @@ bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, T
         const int bits = symbol / (z_max + 1), zeros = symbol % (z_max + 1);
         if (bits == 0 && zeros == 0) return true;
         if (bits == 0) {
-            at += static_cast<std::size_t>(zeros) - 1;  // and one by the loop
+            at += static_cast<std::size_t>(zeros) - 1;  // the loop adds one more
             continue;
         }
         at += static_cast<std::size_t>(zeros);
@@ -113,7 +114,7 @@ std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::
         quantisation = own_quantisation(stored_scale, exponents);
         largest = max_level(blocks, values, quantisation);
     }
-    own = own && largest > 0;  // otherwise no table is needed
+    own = own && largest > 0;  // if all values are zero, no table is needed
     const int b_max = std::bit_width(static_cast<std::uint32_t>(largest));
     std::vector<std::uint8_t> bytes;
     put_float(bytes, stored_scale);

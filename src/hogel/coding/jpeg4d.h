@@ -25,11 +25,11 @@ enum class QuantisationTable {
 /// frequencies of the tuples are adaptive. Differs: [K] has no tuple for the end of a block; without one the zeros at
 /// its end would cost most of the stream.
 ///
-/// With JPEG's table steps are its entries times `scale`, and levels are the nearest ones. With a table of its own each
-/// frequency has a step of scale · 2^(e/4), e = 0 … 24, found as in Ratnakar and Livny, "An efficient algorithm for
-/// optimizing DCT quantization", IEEE Trans. Image Processing 9 (2000): the e that makes distortion + λ · rate of its
-/// coefficients least, with λ = 0.12 scale², and the rate by what the tuples of such levels cost. Levels are rounded
-/// up from 0.6 on, because smaller levels cost less.
+/// With JPEG's table, steps are its entries times `scale`, and values are rounded to the nearest level. With a table of
+/// its own, each frequency has a step of scale · 2^(e/4), e = 0 … 24, found as in Ratnakar and Livny, "An efficient
+/// algorithm for optimizing DCT quantization", IEEE Trans. Image Processing 9 (2000): e minimises distortion + λ · rate
+/// of its coefficients with λ = 0.12 scale², the rate estimated from the tuples of such levels. Levels are rounded up
+/// from 0.6 on, because smaller levels cost less.
 ///
 /// Stream: the scale as a float32, little-endian; b_max, one byte, its highest bit set if the stream has a table of its
 /// own; the arithmetic code, first of such a table, then of the blocks.

@@ -18,8 +18,8 @@ namespace hogel::coding {
 // An entry of a block: its frequency along each transformed axis.
 using Frequency = std::vector<std::size_t>;
 
-// All frequencies of a block of 8 along each of `axes` axes, in the zigzag of [K] fig. 4.14 in any number of
-// dimensions: by the sum of the frequencies, and in alternating directions for each sum. In 2D it is JPEG's.
+// All frequencies of a block of 8 along each of `axes` axes in the zigzag order of [K] fig. 4.14, generalised to any
+// number of dimensions: by the sum of the frequencies, in alternating directions for each sum. In 2D it is JPEG's.
 std::vector<Frequency> zigzag(std::size_t axes);
 
 // Index of a frequency in a block of 8 along each axis, row-major.
@@ -29,15 +29,15 @@ std::size_t place_in_block(const Frequency& frequency);
 // An odd last axis has the table's first row.
 double table_entry(const Frequency& frequency);
 
-// The blocks of an array. Those of the same extents are of one kind. Entries of a block are numbered row-major.
+// The blocks of an array. Blocks of equal extents are of one kind. Entries of a block are numbered row-major.
 class Blocks {
   public:
     struct Kind {
         std::vector<std::size_t> offsets;  // of the entries from the first one, in the array
-        std::size_t run = 1;               // number of entries that follow each other in memory
-        std::vector<std::uint16_t> place;  // for each entry its place in zigzag order
-        std::vector<std::uint16_t> entry;  // for each place its entry
-        std::vector<std::uint16_t> whole;  // for each entry place_in_block() of the comparable frequency
+        std::size_t run = 1;               // number of entries that are contiguous in memory
+        std::vector<std::uint16_t> place;  // [entry]: its position in zigzag order
+        std::vector<std::uint16_t> entry;  // [position in zigzag order]: its entry
+        std::vector<std::uint16_t> whole;  // [entry]: place_in_block() of the comparable frequency
     };
     struct Block {
         std::size_t origin;  // offset of its first entry
@@ -47,7 +47,7 @@ class Blocks {
     explicit Blocks(const transform::Pyramid& pyramid);
     std::size_t count() const { return count_; }
     Block operator[](std::size_t number) const;
-    // Kinds that no block has are empty.
+    // Kinds without blocks are empty.
     std::span<const Kind> kinds() const { return kinds_; }
     const Kind& kind(const Block& block) const { return kinds_[block.kind]; }
     // The frequencies of a whole block that blocks of this array can have, in zigzag order.
@@ -58,7 +58,8 @@ class Blocks {
     Kind make_kind(const std::vector<std::size_t>& extents, const std::vector<Frequency>& order) const;
 
     std::vector<std::size_t> shape_, strides_, axes_, grid_;  // grid_: blocks along each axis
-    std::vector<std::size_t> bit_of_axis_;                    // what a shorter block along an axis adds to its kind
+    std::vector<std::size_t>
+        bit_of_axis_;  // [axis]: the bit in the number of the kind of blocks that are shorter along it
     std::vector<Kind> kinds_;
     std::size_t count_ = 1;
 };
@@ -104,7 +105,7 @@ void for_each_large(const Blocks::Kind& kind, const float* block, std::span<cons
 // Quantisation::least() of each entry, for each kind of block.
 std::vector<std::vector<float>> min_values(const Blocks& blocks, const Quantisation& quantisation);
 
-// The levels of a block that are not zero, by their place in zigzag order.
+// The levels of a block that are not zero, by their position in zigzag order.
 class SparseLevels {
   public:
     void clear() { used_ = {}; }

@@ -10,7 +10,7 @@ namespace hogel::coding {
 namespace {
 
 constexpr double round_up = 0.6;
-constexpr double lambda = 0.12;            // squared scales a bit; for fine steps ln 2 / 6 is best
+constexpr double lambda = 0.12;            // in scale² per bit; for fine steps ln 2 / 6 is optimal
 constexpr int candidates = 13;             // steps up to 8 times the scale
 constexpr std::size_t max_sampled = 4096;  // blocks
 constexpr std::size_t max_bits = 31;
@@ -34,8 +34,8 @@ class Prediction {
     const Exponents& exponents_;
 };
 
-// Models of a difference from the prediction: whether there is one (by that of the frequency before), its sign, and its
-// size in unary.
+// Models of a difference from the prediction: whether it is not zero (context: that of the previous frequency), its
+// sign, and its size in unary.
 struct Models {
     std::array<BitModel, 2> differs;
     BitModel sign;
@@ -47,11 +47,11 @@ double bits_of_difference(int difference) { return difference == 0 ? 0.2 : 4 + s
 
 std::size_t bits_of(std::uint32_t magnitude) { return static_cast<std::size_t>(std::bit_width(magnitude)); }
 
-// Only every n-th block is sampled where there are more than max_sampled.
+// If there are more than max_sampled blocks, only every n-th one is sampled.
 std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + max_sampled - 1) / max_sampled; }
 
-// Estimated bits of a level by the number of its bits: its own bits, and the mean cost of the tuples of such levels and
-// of the tuples for zeros before them, by their frequencies when all steps are equal.
+// Estimated cost of a level in bits, by the number of its bits: the level's bits plus the mean cost of the tuples of
+// such levels and of the zeros before them, from their frequencies when all steps are equal.
 class Costs {
   public:
     Costs(const Blocks& blocks, std::span<const float> values, const Quantisation& even) {
@@ -88,7 +88,7 @@ class Costs {
     std::array<double, max_bits + 1> of_bits_{};
 };
 
-// For each frequency of a whole block and each candidate step, distortion + λ · bits of its levels.
+// [frequency of a whole block][candidate step]: distortion + λ · bits of its levels.
 using Prices = std::vector<std::array<double, candidates>>;
 
 Prices prices(const Blocks& blocks, std::span<const float> values, double scale, const Costs& costs) {
@@ -98,7 +98,7 @@ Prices prices(const Blocks& blocks, std::span<const float> values, double scale,
     const auto least = min_values(blocks, finest);
     const double price = lambda * scale * scale, part = 1 / static_cast<double>(stride_of(blocks));
     Prices result(finest.steps.size(), std::array<double, candidates>{});
-    // The distortion of values that are zero with all candidates is the same, and is left out.
+    // Values whose level is zero with every candidate are left out, because their distortion is the same.
     for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);

@@ -10,8 +10,8 @@
 
 namespace hogel::coding {
 
-// A table of a stream's own: for each frequency of a whole block, by place_in_block(), an exponent e; its step is
-// scale · 2^(e/4).
+// The quantisation table of a stream: [place_in_block()] an exponent e for each frequency of a whole block, whose step
+// is scale · 2^(e/4).
 using Exponents = std::vector<std::uint8_t>;
 constexpr int max_exponent = 24;
 
@@ -21,7 +21,7 @@ Quantisation own_quantisation(double scale, const Exponents& exponents);
 Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, double scale);
 
 void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exponents& exponents);
-// False for exponents out of range, and for a code that ends too early.
+// Reads a table. Returns false for exponents out of range and for a code that ends too early.
 bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents& exponents);
 
 }  // namespace hogel::coding

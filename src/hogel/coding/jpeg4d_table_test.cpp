@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Coefficients of blocks, each frequency normal with a spread of its own.
+// Coefficients of blocks; each frequency has a normal distribution with its own spread.
 template <class Spread>
 std::vector<float> noise(const transform::Pyramid& pyramid, Spread&& spread) {
     std::mt19937 random(5);
@@ -36,7 +36,7 @@ double squared_error(const transform::Pyramid& pyramid, const std::vector<float>
     return energy(decoded);
 }
 
-// Bytes for an SQNR, between the codes of the scales around it.
+// Bytes for an SQNR, interpolated between codes with neighbouring scales.
 double bytes_at(const transform::Pyramid& pyramid, const std::vector<float>& values, double sqnr,
                 QuantisationTable table) {
     double before = 0, before_bytes = 0;
@@ -51,7 +51,7 @@ double bytes_at(const transform::Pyramid& pyramid, const std::vector<float>& val
     return HUGE_VAL;
 }
 
-// Any exponents, for all shapes.
+// Random exponents are read back for all shapes.
 TEST(OwnTable, comes_back) {
     std::mt19937 random(2);
     for (const std::vector<std::size_t>& shape :
@@ -73,7 +73,7 @@ TEST(OwnTable, comes_back) {
     }
 }
 
-// Exactly the frequencies that some block of the array has, or that are below one.
+// The table contains exactly the frequencies of some block of the array and those below them.
 TEST(OwnTable, has_the_frequencies_of_the_blocks) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 9, 1, 17}, {3}, {5, 12}, {2, 7, 8}}) {
         const Blocks blocks(transform::Pyramid::interleaved(shape));
@@ -86,7 +86,8 @@ TEST(OwnTable, has_the_frequencies_of_the_blocks) {
     EXPECT_EQ(Blocks(transform::Pyramid::interleaved({4, 2})).frequencies().size(), 7u * 5u);
 }
 
-// Levels are the multiple of scale · 2^(e/4) that is nearest, but smaller up to 0.6 steps above one.
+// Values decode to the nearest multiple of scale · 2^(e/4), except that values up to 0.6 steps above a multiple are
+// rounded down.
 TEST(OwnTable, decodes_to_multiples_of_its_steps) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({16, 24, 11});
     const std::vector<float> values = noise(pyramid, [](std::size_t sum) { return std::exp2(-0.4 * double(sum)); });
@@ -113,8 +114,8 @@ TEST(OwnTable, decodes_to_multiples_of_its_steps) {
     EXPECT_GT(coarser, 0u);
 }
 
-// For squared error a flat table is right where steps are fine: theory's D'(q) = q/6 and R'(q) = -1/(q ln 2) meet at
-// q = scale. Where values lie below half a step, so that zeros cost nothing, coarser steps are.
+// For squared error a flat table is optimal if steps are fine: in theory, D'(q) = q/6 and R'(q) = -1/(q ln 2) balance
+// at q = scale. If most values are below half a step, so that zeros cost nothing, coarser steps are better.
 TEST(OwnTable, is_flat_for_fine_steps_and_coarser_for_coarse_ones) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({64, 64, 8});
     const std::vector<float> values = noise(pyramid, [](std::size_t) { return 1.0; });
@@ -129,7 +130,7 @@ TEST(OwnTable, is_flat_for_fine_steps_and_coarser_for_coarse_ones) {
     EXPECT_GT(mean(3), 1.5);
 }
 
-// Also for a single block: the table costs less than it gains.
+// Even for a single block the table costs less than it gains.
 TEST(OwnTable, takes_fewer_bytes_than_jpegs) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 8, 8, 8}, {64, 64, 8}, {64, 64}}) {
         const transform::Pyramid pyramid = transform::Pyramid::interleaved(shape);

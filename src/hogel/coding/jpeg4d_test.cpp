@@ -18,7 +18,7 @@ namespace {
 using Extents = std::vector<std::size_t>;
 using Bytes = std::vector<std::uint8_t>;
 
-// ISO 10918-1, figure A.6: where each entry of a block comes in the zigzag.
+// ISO 10918-1, figure A.6: the position of each entry of a block in the zigzag order.
 TEST(Jpeg4d, zigzag_of_two_dimensions_is_jpegs) {
     constexpr int sequence[8][8] = {{0, 1, 5, 6, 14, 15, 27, 28},     {2, 4, 7, 13, 16, 26, 29, 42},
                                     {3, 8, 12, 17, 25, 30, 41, 43},   {9, 11, 18, 24, 31, 40, 44, 53},
@@ -78,7 +78,8 @@ TEST(Jpeg4d, tuples_count_zeros_and_bits) {
     EXPECT_EQ(tuples_of(levels).first, (std::vector<Tuple>{{0, 0}}));
     levels[31] = 1;
     levels[39] = 2;
-    EXPECT_EQ(tuples_of(levels).first, (std::vector<Tuple>{{31, 1}, {7, 2}}));  // full to the end: no end of block
+    EXPECT_EQ(tuples_of(levels).first,
+              (std::vector<Tuple>{{31, 1}, {7, 2}}));  // the last entry is not zero: no end of block
 }
 
 std::vector<float> picture(const transform::Pyramid& pyramid) {

@@ -36,8 +36,8 @@ double energy(std::span<const float> values);
 double squared_error(std::span<const float> values, double step);
 
 /// The largest step (to 0.1%) that keeps 10 log10(Σ f² / Σ (f − f')²) at `sqnr` decibels or above; 1 if all values are
-/// zero. For coefficients in nearly orthonormal scaling that is about the SQNR of the signal. Throws Error(usage)
-/// unless 0 < sqnr <= 130, which is as much as floats hold.
+/// zero. For nearly orthonormal coefficients this is about the SQNR of the signal. Throws Error(usage) unless 0 < sqnr
+/// <= 130, the limit of floats.
 double step_for_sqnr(std::span<const float> values, double sqnr);
 
 /// The largest magnitude. Throws Error(usage) if a value is not finite.

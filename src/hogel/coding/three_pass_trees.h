@@ -12,8 +12,8 @@
 
 namespace hogel::coding {
 
-// The passes of the three-pass coder over the trees, shared by encoder and decoder. They use numbers of bits in place
-// of [K]'s p: a level of n bits has p_n = b_max − n, a subtree whose largest level has t bits has p_t = b_max − t.
+// The passes of the three-pass coder over the trees, shared by encoder and decoder. They use numbers of bits instead of
+// [K]'s p: a level of n bits has p_n = b_max − n, and a subtree whose largest level has t bits has p_t = b_max − t.
 
 // Second pass, from leaves to roots: the bits of the largest level in each subtree.
 inline std::vector<std::uint8_t> subtree_bits(const Forest& forest, std::span<const float> values,

@@ -21,7 +21,7 @@ constexpr std::size_t header = 5;
 // Models of the bits of symbols.
 struct Models {
     using Unary = std::array<BitModel, max_planes>;
-    static constexpr std::size_t contexts = 6;  // by the two coefficients before
+    static constexpr std::size_t contexts = 6;  // of the two previous coefficients
     // [bits of the parent's subtree][leaf][context]
     std::array<std::array<std::array<BitModel, contexts>, 2>, max_planes + 1> tree_found;
     std::array<std::array<std::array<Unary, contexts>, 2>, max_planes + 1> tree_less;
@@ -69,7 +69,7 @@ class Symbols {
     Coder coder;
 
   private:
-    // 0 to most − 1.
+    // Codes a symbol from 0 to most − 1.
     int unary(Models::Unary& models, int symbol, int most) {
         int result = 0;
         while (result + 1 < most && coder.bit(models[static_cast<std::size_t>(result)], symbol > result)) ++result;
@@ -112,7 +112,7 @@ struct Decoding {
 
     explicit Decoding(std::span<const std::uint8_t> code) : symbols(BitDecoder{ArithmeticDecoder(code)}) {}
     const ArithmeticDecoder& decoder() const { return symbols.coder.decoder; }
-    // Beyond the end of a truncated stream all are zerotrees, which ends the passes soon.
+    // Beyond the end of a truncated stream every tree is a zerotree, so that the passes end soon.
     int tree(int above, bool leaf) { return decoder().ended() ? -1 : symbols.tree(0, above, leaf); }
     int node(int tree_bits) { return symbols.node(0, tree_bits); }
     std::pair<std::uint32_t, bool> magnitude(int bits) { return symbols.magnitude(0, bits, false); }
@@ -128,8 +128,8 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
                                                   size, pyramid.size()));
 }
 
-// Counts magnitudes in bins that are nearly equally spaced in their logarithm, 32 to an octave: floats without their 18
-// lowest bits.
+// Counts magnitudes in bins that are nearly uniform in the logarithm, 32 per octave: floats without their 18 lowest
+// bits.
 class Histogram {
   public:
     static constexpr int dropped = 18;
@@ -214,7 +214,7 @@ double three_pass_step(std::span<const float> values, double bits, double c) {
 std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values,
                                                     double bits) {
     const double most = max_magnitude(values);
-    // Logarithms of a step that fits and of one that is too fine; those of sizes are nearly linear in them.
+    // Logarithms of a step that fits and of one that is too fine. Logarithms of sizes are nearly linear in them.
     double fits = most > 0 ? std::log2(most) : 0, too_fine = fits - max_planes;
     std::vector<std::uint8_t> best = three_pass_encode(pyramid, values, std::exp2(fits));
     const auto log_size = [](const std::vector<std::uint8_t>& bytes) {
@@ -230,7 +230,7 @@ std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& py
         const double size = log_size(bytes);
         (size <= asked ? fits : too_fine) = step;
         if (size <= asked && size > log_size(best)) best = std::move(bytes);
-        // The secant through the last two, or bisection where that leads out of the interval or advances slowly.
+        // The secant through the last two points, or bisection if that leads out of the interval or advances slowly.
         const double secant = step + (aim - size) * (step - before) / (size - size_before);
         before = step;
         size_before = size;

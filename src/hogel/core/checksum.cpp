@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t at_once = 8;
 
-// Remainders of a byte followed by 0 to 7 zero bytes: eight bytes are looked up at a time, independently of each other
-// ("slicing by 8").
+// Remainders of a byte followed by 0 to 7 zero bytes, so that eight bytes are looked up at a time and independently of
+// each other ("slicing by 8").
 constexpr std::array<std::array<std::uint32_t, 256>, at_once> tables = [] {
     std::array<std::array<std::uint32_t, 256>, at_once> remainders{};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for every SIMD target: from AVX2 on by the processor's own conversions (F16C), elsewhere by loops of
-// half_of() and float_of(), which the compiler makes free of branches.
+// Compiled for every SIMD target: from AVX2 on with the processor's conversions (F16C), otherwise with loops of
+// half_of() and float_of(), which compile to code without branches.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/core/half_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/core/half.h"

@@ -44,7 +44,7 @@ TEST_P(Half, all_65536_values_are_those_of_IEEE_754_and_convert_back) {
 
 TEST(Half, rounds_to_nearest_and_ties_to_even) {
     for (unsigned h = 0; h < 0x7c00; ++h) {
-        // The next half after the largest would be 65536: from 65520 on, half way, the result is infinite.
+        // The half after the largest would be 65536, so from the midpoint 65520 on the result is infinite.
         const double low = value_by_definition(h), high = h == 0x7bff ? 65536 : value_by_definition(h + 1);
         const auto middle = static_cast<float>((low + high) / 2);
         ASSERT_EQ(middle, (low + high) / 2);

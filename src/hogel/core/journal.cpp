@@ -21,7 +21,7 @@ namespace hogel::core {
 namespace {
 
 constexpr std::string_view first_line = "hogel journal 1";
-// The time between writes, and so the work that is lost at most when the machine stops.
+// The time between writes, which is the maximum of work that is lost when the machine stops.
 constexpr std::chrono::seconds between_writes{20};
 
 std::uint32_t checksum_of(std::string_view text) {
@@ -30,7 +30,7 @@ std::uint32_t checksum_of(std::string_view text) {
 
 std::string with_checksum(std::string_view line) { return fmt::format("{:08x} {}\n", checksum_of(line), line); }
 
-// The line without its checksum; false where that is wrong.
+// Removes the checksum from a line. Returns false if it is wrong.
 bool take_checksum(std::string& line) {
     if (line.size() < 9 || line[8] != ' ') return false;
     const std::string sum = line.substr(0, 8);
@@ -68,7 +68,7 @@ Journal::~Journal() {
     try {
         if (file_ >= 0) write_pending();
     } catch (const Error&) {
-        // Parts that are not recorded are done again.
+        // Ignored: parts that are not recorded will only be done again.
     }
     if (file_ >= 0) ::close(file_);
 }
@@ -86,7 +86,7 @@ void Journal::read(const std::string& text) {
                                                       "the file beside it to begin again",
                                                       path_.string()));
     std::size_t known = 0, end = first_line.size() + 1;
-    // Nothing counts from the first line on that is damaged or was being written when the work was stopped.
+    // The first line that is damaged or incomplete, and all lines after it, are ignored.
     while (std::getline(lines, line) && !lines.eof()) {
         const std::size_t length = line.size() + 1;
         if (!take_checksum(line)) break;

@@ -37,7 +37,7 @@ TEST_F(JournalTest, lists_the_parts_done_in_earlier_runs) {
         journal.begin();
         journal.note({0, 1, 2});
         journal.note({7});
-        EXPECT_FALSE(journal.was_done({7}));  // in this run
+        EXPECT_FALSE(journal.was_done({7}));  // done in this run, not before
     }
     Journal journal = open({"scene pumpkin", "two\nlines"});
     EXPECT_TRUE(journal.begun());
@@ -92,7 +92,7 @@ TEST_F(JournalTest, damage_never_makes_a_part_count_as_done) {
                     ASSERT_LT(i, 8u);
                     ASSERT_TRUE(journal.begun());
                 }
-            // Parts added to the damaged file count.
+            // Parts added after the damage are recorded.
             if (!journal.begun()) journal.begin();
             journal.note({1000});
         } catch (const Error& error) {

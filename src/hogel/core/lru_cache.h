@@ -17,19 +17,19 @@
 
 namespace hogel::core {
 
-/// Results by key, of which those asked for last are kept. Several threads may ask at once: the first that asks for a
-/// result makes it, while others that want the same one wait.
+/// A thread-safe cache of results by key, which keeps the results used last. The first thread that asks for a result
+/// computes it; other threads that ask for the same result wait.
 template <class Key, class Result>
 class LruCache {
   public:
-    /// @param kept  how many results to keep, at least one
+    /// @param kept  number of results to keep, at least one
     explicit LruCache(std::size_t kept) : kept_(std::max<std::size_t>(kept, 1)) {}
 
     std::size_t kept() const { return kept_; }
 
-    /// The result of that key, or of make(), which returns std::shared_ptr<const Result>. What make() throws is thrown
-    /// to all that wait for this result, and the next that ask make it anew; but a thread whose own work was not asked
-    /// to stop makes the result itself where the one that it waited for was stopped.
+    /// The cached result of that key, or else the result of make(), which returns std::shared_ptr<const Result>. An
+    /// exception of make() reaches all threads that wait for this result, and the next call makes it again. If the
+    /// thread that makes the result is stopped, a waiting thread that is not stopped makes it itself.
     template <class Make>
     std::shared_ptr<const Result> get(const Key& key, const Make& make) {
         for (;;) {
@@ -50,7 +50,8 @@ class LruCache {
         Future result;
     };
 
-    // The result that is there or being made; or that of the promise, and the number of its new entry.
+    // The future of a result that exists or is being made; otherwise that of `promise`, with the number of its new
+    // entry.
     std::pair<Future, std::optional<std::uint64_t>> look_up(const Key& key, Promise& promise) {
         const std::lock_guard lock(mutex_);
         const auto found = std::ranges::find(entries_, key, &Entry::key);
@@ -67,7 +68,7 @@ class LruCache {
     std::shared_ptr<const Result> keep_promise(Promise& promise, std::uint64_t number, const Make& make) {
         try {
             std::shared_ptr<const Result> result;
-            // A thread that waits inside must not begin to make something else, which may wait for this very result.
+            // While it waits inside make(), this thread must not start other tasks, which may wait for this result.
             isolate([&] { result = make(); });
             promise.set_value(result);
             return result;
@@ -90,7 +91,7 @@ class LruCache {
         std::erase_if(entries_, [&](const Entry& entry) { return entry.number == number; });
     }
 
-    // Null where the thread that was to make the result was stopped, and this one was not.
+    // Waits for a result. Returns null if the thread that makes it was stopped but this one was not.
     static std::shared_ptr<const Result> wait(const Future& future) {
         while (future.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) throw_if_stopped();
         std::shared_ptr<const Result> result = future.get();
@@ -100,7 +101,7 @@ class LruCache {
 
     std::size_t kept_;
     std::mutex mutex_;
-    std::list<Entry> entries_;  // the one used last first
+    std::list<Entry> entries_;  // most recently used first
     std::uint64_t last_number_ = 0;
 };
 

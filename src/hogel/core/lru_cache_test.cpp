@@ -20,7 +20,7 @@ std::shared_ptr<const int> unwanted() {
     return of(-1);
 }
 
-// Work that takes for ever, unless it is stopped.
+// Work that never ends unless it is stopped.
 std::shared_ptr<const int> endless() {
     parallel_for(1000000, [](std::size_t) { std::this_thread::sleep_for(milliseconds(1)); });
     return of(-2);

@@ -8,8 +8,8 @@
 
 namespace hogel::core {
 
-/// Objects that tasks need for a while, such as arrays of a few megabytes: made when none is free and kept for the next
-/// task, because the system clears fresh memory page by page. For any number of threads.
+/// A thread-safe pool of objects that tasks use temporarily, such as arrays of a few megabytes. An object is made if
+/// none is free and kept for the next task, because the system clears new memory page by page.
 template <class T>
 class ObjectPool {
   public:
@@ -31,7 +31,7 @@ class ObjectPool {
         std::unique_ptr<T> object_;
     };
 
-    /// A free object, as its last user left it, or a new one.
+    /// Leases a free object, in the state in which its last user left it, or a new one.
     Lease take() {
         std::unique_ptr<T> object;
         {

@@ -7,13 +7,14 @@
 
 namespace hogel::core {
 
-/// A file that appears under its own name only when it is complete: it is written as a temporary beside the target,
-/// which commit() renames and the destructor removes. A symbolic link is followed, so that its target is replaced.
+/// A file that appears under its name only when it is complete. It is written as a temporary file in the target's
+/// folder, which commit() renames and the destructor removes. A symbolic link is followed, so that its target is
+/// replaced.
 class OutputFile {
   public:
-    /// What happens to a file that is not committed. One that is kept has the name of the target with ".part" appended.
+    /// Whether a file that is not committed is removed, or kept under the target's name with ".part" appended.
     enum class Unfinished { removed, kept };
-    /// Throws Error(cannot_write) when the directory does not exist, or the target is there and is not a plain file.
+    /// Throws Error(cannot_write) if the directory does not exist, or if the target exists and is not a regular file.
     explicit OutputFile(const std::filesystem::path& target, Unfinished unfinished = Unfinished::removed);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -30,7 +31,7 @@ class OutputFile {
     bool committed_ = false;
 };
 
-/// Writes a whole file, which appears under its name when it is complete. Throws Error(cannot_write).
+/// Writes a file, which appears under its name when it is complete. Throws Error(cannot_write).
 void write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
 
 }  // namespace hogel::core

@@ -85,7 +85,7 @@ TEST_F(OutputFileTest, a_full_disk_leaves_the_old_file) {
     write_text(directory_ / "a.txt", "old");
     const pid_t child = fork();
     if (child == 0) {
-        // A limit on the size of files fails like a full disk does.
+        // A limit on the size of files makes writes fail as a full disk does.
         std::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit{1000, 1000};
         setrlimit(RLIMIT_FSIZE, &limit);

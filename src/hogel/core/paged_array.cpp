@@ -19,7 +19,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// A file without a name, mapped: it lives as long as the mapping.
+// Maps a file without a name, which exists as long as the mapping.
 Complex* map_file(std::size_t bytes, const std::filesystem::path& folder) {
     const auto fail = [&](const std::string& what, int reason) {
         throw Error(ErrorCode::cannot_write,
@@ -30,7 +30,7 @@ Complex* map_file(std::size_t bytes, const std::filesystem::path& folder) {
     const int file = mkstemps(name.data(), 4);
     if (file < 0) fail("cannot create a scratch file", errno);
     unlink(name.c_str());
-    // Room is reserved at once, because a disk that fills up under a mapping kills the program.
+    // Disk space is reserved at once, because a full disk under a mapping would kill the program.
     const int taken = posix_fallocate(file, 0, static_cast<off_t>(bytes));
     void* data = taken == 0 ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
     const int reason = taken != 0 ? taken : errno;

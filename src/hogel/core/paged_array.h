@@ -10,13 +10,13 @@
 
 namespace hogel::core {
 
-/// An array of complex values, all zero at first, in memory or in a mapped file without a name, which the system pages
-/// in and out and removes with the array. Work on it by rows, or by blocks of neighbouring columns.
+/// An array of complex values, initially zero, in memory or in a mapped file without a name, which the system pages in
+/// and out and removes with the array. It should be accessed by rows or by blocks of neighbouring columns.
 class PagedArray {
   public:
     PagedArray() = default;
-    /// Throws Error(usage) for an empty array and one of more than scratch.memory bytes where no folder is given, and
-    /// Error(cannot_write) where the file cannot be made or the disk has no room for it.
+    /// Throws Error(usage) for an empty array and for one of more than scratch.memory bytes without a folder, and
+    /// Error(cannot_write) if the file cannot be created or the disk is full.
     PagedArray(const Shape<2>& shape, const ScratchOptions& scratch);
 
     View<std::complex<float>, 2> view() { return {data_.get(), shape_}; }

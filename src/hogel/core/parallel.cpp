@@ -20,10 +20,10 @@
 namespace hogel::core {
 namespace {
 
-// The innermost scope that this thread works in.
+// The innermost scope of this thread.
 thread_local const StopScope* current_scope = nullptr;
 
-// Lets this thread work in the scope of the thread that began a loop.
+// Lets this thread inherit the scope of the thread that began a loop.
 class Inherited {
   public:
     explicit Inherited(const StopScope* scope) : before_(std::exchange(current_scope, scope)) {}
@@ -54,7 +54,7 @@ void throw_if_stopped() {
 #ifdef __SANITIZE_THREAD__
 
 // The distribution's TBB is not instrumented: the thread sanitizer sees neither how work reaches other threads nor how
-// results come back, and reports every loop as a race. Its builds run loops on plain threads instead.
+// results come back, and reports every loop as a race. Builds with it therefore run loops on plain threads.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
@@ -90,7 +90,7 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
         body(i);
     };
     tbb::parallel_for(std::size_t{0}, n, run, tbb::simple_partitioner(), context);
-    // Where the loop around this one has failed, TBB leaves out bodies of this one without a word.
+    // If the enclosing loop has failed, TBB skips bodies of this one silently.
     if (context.is_group_execution_cancelled()) throw_cancelled();
 }
 

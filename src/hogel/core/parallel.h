@@ -12,9 +12,9 @@
 
 namespace hogel::core {
 
-/// While it lives, parallel loops begun by this thread, and loops inside their bodies on any thread, end with
-/// Error(cancelled) when the work's stop token is asked to stop. Every public function that takes a Progress begins
-/// with one, so that code between it and a loop need not pass the token on. Scopes nest: a stop of any of them counts.
+/// While this object exists, parallel loops begun by this thread, and loops inside their bodies on any thread, end with
+/// Error(cancelled) when a stop is requested from the token. Every public function that takes a Progress begins with a
+/// StopScope, so that the token need not be passed down to loops. Scopes nest: a stop of any of them takes effect.
 class StopScope {
   public:
     explicit StopScope(const Progress& progress);
@@ -29,26 +29,26 @@ class StopScope {
     const StopScope* outer_;
 };
 
-/// Throws Error(cancelled) where a scope that this thread works in was asked to stop. For long loops on one thread;
-/// parallel_for() does it before each body.
+/// Throws Error(cancelled) if a stop was requested in any scope of this thread. For long loops on one thread;
+/// parallel_for() calls it before each body.
 void throw_if_stopped();
 
 /// Calls body(i) once for every i in [0, n), on as many threads as the process may use. The order is unspecified, so
-/// bodies write to places of their own. The first exception thrown by a body is rethrown here. Returns only when all
-/// bodies have run: a loop inside the body of another that has failed elsewhere throws Error(cancelled).
+/// bodies must not write to the same memory. The first exception thrown by a body is rethrown. Returns only when all
+/// bodies have run; if an enclosing loop has failed elsewhere, it throws Error(cancelled).
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body);
 
 /// Computes body(i) for every i in [0, n) on all threads and calls merge(i, result) in increasing order of i on the
-/// calling thread, with at most `in_flight` results alive: a sum over tiles is the same for any number of threads.
+/// calling thread, with at most `in_flight` results alive. Thus a sum over tiles is the same for any number of threads.
 template <class Result>
 void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
                       const std::function<void(std::size_t, Result&)>& merge);
 
-/// Runs body on this thread, which while it waits for parallel loops inside does nothing but their work: for code that
-/// holds something (a lock, a promise) that bodies of other loops wait for.
+/// Runs body on this thread; while the thread waits for parallel loops inside body, it executes only their tasks. For
+/// code that holds something, such as a lock or a promise, for which bodies of other loops wait.
 void isolate(const std::function<void()>& body);
 
-/// How many results parallel_ordered may keep alive so that threads seldom wait for the merge.
+/// The number of results that parallel_ordered() keeps alive so that threads seldom wait for the merge.
 inline std::size_t default_in_flight() { return 4 * thread_count(); }
 
 template <class Result>

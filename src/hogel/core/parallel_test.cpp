@@ -23,7 +23,7 @@ bool is_cancelled(const auto& call) {
     return false;
 }
 
-// Asks for a stop from another thread after 30 ms, and notes when.
+// Requests a stop from another thread after 30 ms and records the time.
 class StopSoon {
   public:
     Progress progress() const { return Progress(source_.get_token()); }

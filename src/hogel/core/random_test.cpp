@@ -6,7 +6,7 @@
 namespace hogel::core {
 namespace {
 
-// The known answers published with Random123 (kat_vectors, philox4x32 10).
+// Known-answer tests published with Random123 (kat_vectors, philox4x32 10).
 TEST(Philox, matches_the_published_known_answers) {
     using Words = std::array<std::uint32_t, 4>;
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u}));

@@ -17,7 +17,7 @@ namespace hogel::core {
 namespace {
 
 constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
-constexpr std::size_t max_at_once = std::size_t{1} << 30;  // the system moves a little less than 2 GiB in one call
+constexpr std::size_t max_at_once = std::size_t{1} << 30;  // one system call transfers a little less than 2 GiB
 
 int flags(RawFile::Mode mode) {
     switch (mode) {
@@ -36,7 +36,7 @@ int flags(RawFile::Mode mode) {
 RawFile::RawFile(const std::filesystem::path& path, Mode mode, const std::filesystem::path& name)
     : name_(name), mode_(mode) {
     std::error_code status;
-    // Opening a pipe would wait for its other end.
+    // Opening a pipe would block until its other end is opened.
     if (mode == Mode::read && std::filesystem::exists(path, status) && !std::filesystem::is_regular_file(path, status))
         throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it is not a plain file", name_.string()));
     file_ = ::open(path.c_str(), flags(mode), 0666);

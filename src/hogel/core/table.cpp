@@ -11,7 +11,8 @@
 namespace hogel {
 namespace {
 
-// The insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string alignment).
+// The number of insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string
+// alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;

@@ -9,7 +9,7 @@
 
 namespace hogel::core {
 
-/// A fixture whose tests (TEST_P) run on one SIMD target each. A test file names it, for all targets of this machine:
+/// A fixture whose tests (TEST_P) run once on each SIMD target of this machine. A test file declares it so:
 ///     HOGEL_TEST_ON_EVERY_TARGET(ColumnFft);
 ///     TEST_P(ColumnFft, …) { … }
 class OnEveryTarget : public ::testing::TestWithParam<std::int64_t> {

@@ -19,14 +19,14 @@ std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count) {
             near = std::min(near, -scene.positions[vertex].z);
             far = std::max(far, -scene.positions[vertex].z);
         }
-    // A flat scene is one plane, where it is.
+    // A flat scene becomes one plane at its own depth.
     const double margin = 1e-6 * std::max(std::abs(near), std::abs(far)) + 1e-9;
     if (far - near < margin) return {{near - margin, far + margin}};
     std::vector<Slice> slices;
     const double step = (far - near) / static_cast<double>(count);
     for (std::size_t i = 0; i < count; ++i)
         slices.push_back({near + step * static_cast<double>(i), near + step * static_cast<double>(i + 1)});
-    // Rounding must not lose what lies on the ends.
+    // Rounding must not exclude surfaces exactly at the ends.
     slices.front().near -= margin;
     slices.back().far += margin;
     return slices;

@@ -7,22 +7,22 @@
 
 namespace hogel::direct {
 
-/// A slice of a scene, ζ from `near` to `far`, that is drawn on the plane in its middle.
+/// A slice of a scene, ζ from `near` to `far`, which is drawn on the plane in its middle.
 struct Slice {
     double near, far;
     double depth() const { return 0.5 * (near + far); }
 };
 
-/// A scene cut into slices of equal thickness, the nearest to the viewer first.
+/// Cuts a scene into slices of equal thickness, nearest to the viewer first.
 std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count);
 
-/// Draws slices by rays along the hologram's axis.
+/// Draws slices by tracing rays along the hologram's axis.
 class SliceDrawing {
   public:
     explicit SliceDrawing(const ShadedScene& scene) : scene_(scene), visibility_(scene) {}
 
-    /// The field that a slice emits, on the samples of its plane: √L λ/δ, δ the samples' pitch, with random phases,
-    /// which is a diffuse surface of radiance L; and 1 where the slice is solid, 0 elsewhere.
+    /// The field that a slice emits, on the samples of its plane, and its mask. The field is √L λ/δ with random phases,
+    /// δ the pitch, which is a diffuse surface of radiance L. The mask is 1 where the slice is solid, 0 elsewhere.
     struct Drawn {
         Array<std::complex<float>, 2> light;
         Array<float, 2> solid;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods from scenes to fields against each other, and photographs of their holograms against geometry.
+// Compares the methods from scenes to fields with each other, and photographs of their holograms with geometry.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST(LineSource, equals_the_sum_of_its_points) {
     }
 }
 
-// A photograph with a wide lens, which blurs surfaces out of focus and sees around small occluders.
+// A photograph through a wide lens, which blurs surfaces out of focus and sees around small occluders.
 Image photo(const Field& field, double focus, const Grid& picture) {
     Camera camera;
     camera.eye = {0, 0, 40_mm};
@@ -120,20 +120,21 @@ double mean(const Image& image) {
 
 class SurfaceMethod : public testing::TestWithParam<const char*> {};
 
-// A diffuse card photographs with its own radiance, behind the hologram and in front of it, straight and tilted.
+// The photograph of a diffuse card shows the card's radiance, behind the hologram and in front of it, upright and
+// tilted.
 TEST_P(SurfaceMethod, photographs_a_card_with_its_own_radiance) {
     const std::string method = GetParam();
     const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};
     SceneHologramOptions options;
     options.planes = 4;
-    // Lines of the hologram light the whole lens if they are low enough.
+    // The lines of the hologram must be low enough to light the whole lens.
     options.spacing = method == "points-hpo" ? 5_um : 24_um;
     for (const double depth : {1.2_mm, -1.2_mm})
         for (const double slope : {0.0, 0.15}) {
             const Field field = make(method, card_at(depth, 0.14_mm, 2, slope), grid, options);
             const Grid inside{4, 4, 40_um, 40_um, 0, 0};
             EXPECT_NEAR(mean(photo(field, depth, inside)), 2, 0.35) << depth << " " << slope;
-            // Beside the card there is nothing.
+            // The picture is dark beside the card.
             EXPECT_LT(mean(photo(field, depth, {1, 4, 20_um, 40_um, 0.185_mm, 0})), 0.2) << depth << " " << slope;
         }
 }
@@ -144,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, SurfaceMethod,
 
 class HidingMethod : public testing::TestWithParam<const char*> {};
 
-// A dark card hides the left half of a bright one; without occlusion the bright one shines through.
+// A dark card hides the left half of a bright one. Without occlusion the bright one is visible through it.
 TEST_P(HidingMethod, hides_surfaces_behind_others) {
     const std::string method = GetParam();
     const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};
@@ -199,7 +200,7 @@ TEST(FresnelPlanes, a_small_patch_is_the_sum_of_its_points_in_the_near_and_far_f
                 other += 1 / (r * r);
             }
         EXPECT_NEAR(std::norm(product) / (energy * other), 1, 0.01) << method;
-        // √L λ/δ · δ²/(λ r): the sample's whole cell shines.
+        // √L λ/δ · δ²/(λ r): the sample's whole cell emits.
         EXPECT_NEAR(std::sqrt(energy / other), pitch, 0.01 * pitch);
     }
 }
@@ -226,9 +227,9 @@ TEST_P(AddWave, equals_its_plain_version_behind_and_in_front_of_the_hologram) {
             }
 }
 
-// A field is cut into tiles for the threads; random numbers are keyed by the point, never by the order of work.
+// Threads compute tiles of the field; random numbers depend on the point, never on the order of work.
 TEST(SceneHologramMethods, give_the_same_bytes_for_any_number_of_threads_and_others_for_another_seed) {
-    // Far enough for all of them, and small enough for the far field.
+    // The card is far enough for all methods and small enough for the far-field method.
     const ShadedScene scene = card_at(12_mm, 0.03_mm, 1, 0.1);
     for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
         SceneHologramOptions options;

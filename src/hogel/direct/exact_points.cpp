@@ -8,7 +8,7 @@
 namespace hogel::direct {
 namespace {
 
-// The sum of the points' spherical waves tile by tile; `add` takes a tile's sums and a point.
+// Sums the points' spherical waves tile by tile; add(sums of a tile, point) adds one point.
 template <class Add>
 Field sum_exactly(const std::vector<ScenePoint>& points, const FieldGrid& grid, const Progress& progress, Add add) {
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
@@ -57,14 +57,14 @@ void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibilit
     }
 }
 
-// [K] (3.5): everything shines through everything.
+// [K] (3.5): no occlusion.
 Field exact_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
     const core::StopScope scope(progress);
     return sum_exactly(surface_points(scene, grid, options), grid, progress, add_all);
 }
 
-// [K] (3.6): a ray for each point and sample.
+// [K] (3.6): visibility by one ray for each point and sample.
 Field exact_visible_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                            const Progress& progress) {
     const core::StopScope scope(progress);
@@ -73,7 +73,7 @@ Field exact_visible_points(const ShadedScene& scene, const FieldGrid& grid, cons
                        [&](ExactSums& sums, const ScenePoint& point) { sums.add_visible(point, visibility); });
 }
 
-// Surfaces are given up for the points along their edges, which shine through everything. Source: Waters 1966.
+// Surfaces are replaced by points along their edges, without occlusion. Source: Waters 1966.
 Field points_along_edges(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                          const Progress& progress) {
     const core::StopScope scope(progress);

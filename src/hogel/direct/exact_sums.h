@@ -9,13 +9,13 @@
 
 namespace hogel::direct {
 
-/// A row of samples of a tile: the first one's place, and how far apart they are.
+/// A row of samples of a tile: the position of the first one and the distance between them.
 struct SampleRow {
     double x = 0, y = 0, pitch = 0;
 };
 
-/// Adds a point's spherical wave at all samples of a row, except where `hidden` is true (null: nowhere) and where it
-/// is too steep for the grid's pitch. As a plain version and a fast one; the twins agree to rounding.
+/// Adds a point's spherical wave at all samples of a row, except where `hidden` is true (null: nowhere) and where the
+/// wave is too steep for the grid's pitch. Plain and fast twins agree to rounding.
 void add_wave_plain(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden,
                     double* real, double* imaginary);
 void add_wave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
@@ -34,7 +34,7 @@ class ExactSums {
     Vec3 middle() const { return middle_; }  ///< of the tile
     double reach_x() const { return reach_x_; }
     double reach_y() const { return reach_y_; }
-    /// Whether light of a point reaches the tile: its nearest place, if any.
+    /// Whether light of a point reaches the tile, judged at the tile's nearest position.
     bool reached_from(Vec3 point) const {
         const Vec3 nearest{std::clamp(point.x, middle_.x - reach_x_, middle_.x + reach_x_),
                            std::clamp(point.y, middle_.y - reach_y_, middle_.y + reach_y_), 0};
@@ -45,7 +45,7 @@ class ExactSums {
         for (std::size_t row = 0; row < region_.height; ++row)
             add_wave(point, grid_, row_of(row), nullptr, real_[row].data(), imaginary_[row].data());
     }
-    /// add() with a ray from the point for each sample that its light may reach.
+    /// As add(), but tests visibility by a ray from the point to each sample that its light may reach.
     void add_visible(const ScenePoint& point, const Visibility& visibility);
 
     std::complex<float> operator()(std::size_t row, std::size_t column) const {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of add_wave_plain, compiled for every instruction set and chosen when first called.
+// The vector twin of add_wave_plain, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/direct/exact_sums_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <numbers>
@@ -41,7 +41,7 @@ HWY_INLINE V Cosine(D d, V square) {
 void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
              double* imaginary) {
     const D d;
-    // Light travels from the point to the sample, or in front of the hologram from the sample to the point.
+    // Light travels from the point to the sample, or from the sample to the point if that is in front of the hologram.
     const double towards = point.position.z < 0 ? 1 : -1;
     const double dy = row.y - point.position.y, dz = -point.position.z;
     const V flat = hn::Set(d, dy * dy + dz * dz);
@@ -51,7 +51,7 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
         const V dx = hn::MulAdd(number, hn::Set(d, row.pitch), hn::Set(d, row.x - point.position.x));
         const V distance = hn::Sqrt(hn::MulAdd(dx, dx, flat));
         const V inverse = hn::Div(hn::Set(d, 1.0), distance);
-        // No steeper than |sin| = λ/2Δ, in x and in y.
+        // Samples where the direction is at most |sin| = λ/2Δ in x and in y.
         const auto lit = hn::And(
             hn::Le(hn::Mul(hn::Abs(dx), hn::Set(d, 2 * grid.plane.pitch_x)),
                    hn::Mul(distance, hn::Set(d, grid.wavelength))),
@@ -75,7 +75,8 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
         const V angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25), cycles), hn::Set(d, 2 * std::numbers::pi));
         const V square = hn::Mul(angle, angle);
         const V sine = hn::Mul(modulus, Sine(d, angle, square)), cosine = hn::Mul(modulus, Cosine(d, square));
-        // Rotation by −2 to 2 quarters: an even number changes both signs or none, an odd one swaps the parts too.
+        // Rotation by −2 to 2 quarter cycles: an even number changes both signs or none, an odd one also swaps real and
+        // imaginary part.
         const V size = hn::Abs(quarters), even = hn::Sub(hn::Set(d, 1.0), size);
         const auto odd = hn::Eq(size, hn::Set(d, 1.0));
         const V re = hn::IfThenElse(odd, hn::Neg(hn::Mul(quarters, sine)), hn::Mul(even, cosine));

@@ -63,11 +63,11 @@ std::complex<double> fresnel_integral(double w) {
         const double at = x * steps_per_unit, floor = std::floor(at), t = at - floor;
         const Entry* const entry = &table()[static_cast<std::size_t>(floor)];
         const Complex rise = entry[1].value - entry[0].value;
-        // Hermite's cubic through two values and slopes.
+        // Cubic Hermite interpolation from two values and slopes.
         value = entry[0].value + t * (entry[0].slope + t * (3.0 * rise - 2.0 * entry[0].slope - entry[1].slope +
                                                             t * (entry[0].slope + entry[1].slope - 2.0 * rise)));
     } else {
-        // (1+i)/2 + e^{iπx²/2}/(iπx) · (1 + q + 3q² + 15q³ + …), q = 1/(iπx²): by parts.
+        // (1+i)/2 + e^{iπx²/2}/(iπx) · (1 + q + 3q² + 15q³ + …), q = 1/(iπx²), by repeated integration by parts.
         const Complex q(0, -1 / (std::numbers::pi * x * x));
         value = Complex(0.5, 0.5) + slope(x) * q * x * (1.0 + q * (1.0 + q * (3.0 + 15.0 * q)));
     }

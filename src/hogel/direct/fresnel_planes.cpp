@@ -18,8 +18,8 @@ using Complex = std::complex<float>;
 
 Complex unit(double cycles) { return Complex(std::polar(1.0, 2 * std::numbers::pi * (cycles - std::round(cycles)))); }
 
-// [K] (3.13): the field of a plane at depth R on the hologram by one transform, which fixes the plane's pitch
-// δ = λ|R|/(nΔ). With `far` [K] (3.10), which leaves out the curvature of the object's own points.
+// [K] (3.13): propagates the field of a plane at depth R to the hologram by one Fourier transform, which fixes the
+// plane's pitch δ = λ|R|/(nΔ). If `far`, [K] (3.10), which omits the quadratic phase over the object.
 class PlaneTransform {
   public:
     PlaneTransform(const FieldGrid& hologram, double depth, bool far)
@@ -38,7 +38,8 @@ class PlaneTransform {
     void add(View<Complex, 2> light, View<Complex, 2> field) const {
         const Grid& plane = hologram_.plane;
         const double sign = depth_ > 0 ? 1 : -1, k = 1 / hologram_.wavelength;
-        // x_s x_h/λ|R| = (m − c)(n − c)/N with c = (N−1)/2, so the transform's own m n/N needs these besides.
+        // x_s x_h/λ|R| = (m − c)(n − c)/N with c = (N−1)/2, so these phases are needed in addition to the m n/N of the
+        // transform.
         const auto shift = [](double index, std::size_t count) {
             const double n = static_cast<double>(count), c = 0.5 * (n - 1);
             return (c * index - 0.5 * c * c) / n;
@@ -72,7 +73,7 @@ class PlaneTransform {
     math::Fft2 fft_;
 };
 
-// Half the width of a scene around the hologram's middle, and its reach from there.
+// The largest distances of a scene's vertices from the hologram's middle: in x, in y, and radially.
 struct Reach {
     double x = 0, y = 0, corner = 0;
 };
@@ -88,7 +89,7 @@ Reach reach_of(const ShadedScene& scene, const Grid& plane, const Slice& slice) 
     return reach;
 }
 
-// The transform's plane repeats at a distance of λR/Δ, so a wider scene would overlap its copies.
+// The transform's plane is periodic with λR/Δ, so a wider scene would overlap its copies.
 void require_room(const Reach& reach, const Grid& object, double depth) {
     const double wider = std::max(2 * reach.x / object.size_x(), 2 * reach.y / object.size_y());
     if (wider <= 1) return;
@@ -107,7 +108,7 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
     const SliceDrawing drawing(scene);
     for (std::size_t i = 0; i < slices.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(slices.size()));
-        // A plane on the hologram has no distance to be propagated over.
+        // The method needs a distance over which to propagate.
         const double depth = slices[i].depth();
         if (std::abs(depth) < nearest_depth(grid))
             throw Error(ErrorCode::usage,
@@ -124,14 +125,15 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
 
 }  // namespace
 
-// Depth planes, added up without occlusion ([K] fig. 3.7).
+// The sum of depth planes without occlusion ([K] fig. 3.7).
 Field fresnel_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                      const Progress& progress) {
     const core::StopScope scope(progress);
     return add_planes(scene, grid, slices_of(scene, options.planes), false, options, progress);
 }
 
-// One plane, so far away or so small that it is flat to the hologram, [K] (3.7): here, to an eighth of a wavelength.
+// One plane, so far away or so small that the quadratic phase over it is negligible, here below an eighth of a
+// wavelength: [K] (3.7).
 Field fraunhofer_plane(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
     const core::StopScope scope(progress);

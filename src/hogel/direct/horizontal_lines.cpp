@@ -11,8 +11,8 @@ namespace hogel::direct {
 
 // Horizontal parallax only, [K] 3.5: the hologram is cut into lines as high as the points' spacing, and each gets the
 // light of the slice of the scene at its own height alone. A line is the same along its
-// height Ξ, so its light fans out vertically over about λ/Ξ, as sinc². In the middle a point of the radiance L shows L
-// if its wave in the line has a² = L λ w/Ξ at unit distance and falls off as 1/√r, w its width.
+// height Ξ, so its light fans out vertically over about λ/Ξ, as sinc². In the middle, a point of width w shows its
+// radiance L if its wave in the line has a² = L λ w/Ξ at unit distance and falls off as 1/√r.
 Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
     const core::StopScope scope(progress);

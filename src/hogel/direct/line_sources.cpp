@@ -15,7 +15,8 @@ std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavele
     const Vec3 along = line.b - line.a;
     const double size = length(along);
     const Vec3 t = along / size;
-    // Where the light is that reaches the place: at a fixed angle to the line, whose cosine is the phase's slope.
+    // The point of the line whose light reaches this point of the hologram: light leaves at a fixed angle to the line,
+    // whose cosine is the slope of the phase.
     const double foot = dot(place - line.a, t), distance = length(place - line.a - foot * t);
     const double slope = line.slope, sine = std::sqrt(1 - slope * slope);
     const bool behind = line.a.z < 0;
@@ -26,11 +27,11 @@ std::complex<double> line_wave(const LineSource& line, Vec3 place, double wavele
     const std::complex<double> wave = std::polar(line.amplitude * std::sqrt(0.5 * wavelength / path) / sine,
                                                  2 * std::numbers::pi * (cycles - std::round(cycles))) *
                                       part;
-    // In front of the hologram light still runs towards the line.
+    // If the line is in front of the hologram, light still converges on it.
     return std::polar(1.0, 2 * std::numbers::pi * line.cycles) * (behind ? wave : std::conj(wave));
 }
 
-// Edges as lines that shine as a whole, each in the phase that sends its light straight ahead. A line of length l and
+// Edges as coherent line sources, each with the phase that sends its light straight ahead. A line of length l and
 // radiance L, as wide as the points' spacing w, has the energy at the hologram of as many independent points.
 Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
@@ -39,7 +40,7 @@ Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneH
     std::uint32_t number = 0;
     for (const SceneEdge& edge : scene_edges(scene, options)) {
         const double nearest = nearest_depth(grid);
-        // The parts behind and before the plane.
+        // The parts behind and in front of the plane.
         for (const double side : {-1.0, 1.0}) {
             Vec3 a = edge.a, b = edge.b;
             if (side * a.z > side * b.z) std::swap(a, b);
@@ -47,7 +48,7 @@ Field line_sources(const ShadedScene& scene, const FieldGrid& grid, const SceneH
             if (side * a.z < nearest) a = b + (side * nearest - b.z) / (a.z - b.z) * (a - b);
             const double size = length(b - a), cosine = std::abs(b.z - a.z) / size;
             const double middle = 0.5 * std::abs(a.z + b.z);
-            // Seen from its end a line is a point.
+            // A line seen from its end is like a point and is left out.
             if (!(size > 0) || cosine > 0.95) continue;
             LineSource line{a, b};
             line.slope = -side * (b.z - a.z) / size;

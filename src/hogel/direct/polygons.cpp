@@ -13,7 +13,7 @@
 namespace hogel::direct {
 namespace {
 
-// Triangles of one mesh in one plane.
+// The triangles of one mesh that lie in one plane.
 struct Polygon {
     std::vector<std::size_t> triangles;
     Vec3 normal;  // towards the viewer
@@ -31,7 +31,7 @@ std::vector<Polygon> polygons_of(const ShadedScene& scene) {
         const Vec3 across = cross(b - a, c - a);
         if (!(length(across) > 0)) continue;
         const Vec3 normal = std::copysign(1 / length(across), across.z) * across;
-        // Seen from its edge a polygon shows nothing.
+        // A polygon seen edge-on is invisible.
         if (normal.z < 0.02) continue;
         const auto step = [](double x) { return std::lround(1e4 * x); };
         Polygon& polygon = found[{triangle.mesh, step(normal.x), step(normal.y), step(dot(normal, a) / size)}];
@@ -75,22 +75,22 @@ void for_samples_inside(const std::array<Vec3, 3>& p, const Grid& grid,
         }
 }
 
-// A polygon's light on planes parallel to the hologram: its surface, with random phases, is sampled on its own plane;
-// its plane waves are rotated to the hologram's axes and propagated to the plane wanted. Sources: Leseberg and Frère,
-// "Computer-generated holograms of 3-D objects composed of tilted planar segments", Applied Optics 27, 1988; for any
-// distance Tommasi and Bianco, JOSA A 10, 1993; [K] 6.1.
+// The light of a polygon on planes parallel to the hologram. Its surface, with random phases, is sampled on its own
+// plane; its plane waves are rotated to the hologram's axes and propagated to the requested plane. Sources: Leseberg
+// and Frère, "Computer-generated holograms of 3-D objects composed of tilted planar segments", Applied Optics 27, 1988;
+// for any distance Tommasi and Bianco, JOSA A 10, 1993; [K] 6.1.
 class PolygonLight {
   public:
     PolygonLight(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options)
         : scene_(scene), grid_(grid), options_(options) {}
 
-    // Adds it to a field at z = −depth.
+    // Adds the polygon's light to a field at z = −depth.
     void add(const Polygon& polygon, double depth, Field& field) const {
         const Grid& plane = grid_.plane;
         const double size_x = plane.size_x() + 2 * std::abs(polygon.middle.x - plane.center_x),
                      size_y = plane.size_y() + 2 * std::abs(polygon.middle.y - plane.center_y);
         Grid window = optics::padded(plane, 2.5 * size_x - plane.size_x(), 2.5 * size_y - plane.size_y());
-        // On the plane of the polygon, over a sample of the field.
+        // Aligns coordinates on the polygon's plane with samples of the field.
         const auto aligned = [](double from, double to, double pitch, std::size_t a, std::size_t b) {
             const double half = (a + b) % 2 == 0 ? 0 : 0.5;
             return from + pitch * (std::round((to - from) / pitch - half) + half);
@@ -102,7 +102,7 @@ class PolygonLight {
         window.center_x = origin.x;
         window.center_y = origin.y;
 
-        // The polygon's own frame, x as level as can be.
+        // The polygon's frame, with x as horizontal as possible.
         const Vec3 x = normalize(Vec3{1, 0, 0} - n.x * n), y = cross(n, x);
         const optics::Wave surface = paint(polygon, origin, x, y);
         const Grid& own = surface.grid().plane;
@@ -124,7 +124,7 @@ class PolygonLight {
         for (std::size_t i = 0; i < values.size(); ++i) field.samples.data()[i] += values.data()[i];
     }
 
-    // Makes a field on the polygon's middle plane dark where the polygon covers it.
+    // Sets a field on the polygon's middle plane to zero where the polygon covers it.
     void hide(const Polygon& polygon, Field& field) const {
         for (const std::size_t triangle : polygon.triangles)
             for_samples_inside(
@@ -153,7 +153,7 @@ class PolygonLight {
         const FieldGrid own{{samples(reach_x, pitch_x), samples(reach_y, pitch_y), pitch_x, pitch_y, 0, 0},
                             grid_.wavelength};
         optics::Wave surface(own, in_memory_);
-        // Only what travels towards the viewer counts.
+        // Only waves that travel towards the viewer are kept.
         surface.carrier_x = x.z / grid_.wavelength;
         surface.carrier_y = y.z / grid_.wavelength;
         const double scale = grid_.wavelength / std::sqrt(pitch_x * pitch_y);

@@ -49,7 +49,7 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
         const Vec3 across = cross(b - a, c - a);
         const double area = 0.5 * length(across);
         if (!(area > 0)) continue;
-        // Cut in n² triangles of the same shape, each a point in its middle.
+        // The triangle is cut into n² triangles of the same shape, each with a point in its middle.
         const double longest = std::max({length(b - a), length(c - b), length(a - c)});
         const auto n = static_cast<std::uint32_t>(std::max(1.0, std::ceil(longest / options.spacing)));
         const double cut = n;
@@ -75,7 +75,7 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
 }
 
 std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologramOptions& options) {
-    // Vertices of different triangles may lie in one place.
+    // Vertices of different triangles may coincide.
     std::map<std::tuple<double, double, double>, std::uint32_t> places;
     const auto place = [&](Vec3 p) {
         return places.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size())).first->second;

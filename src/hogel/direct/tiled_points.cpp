@@ -13,9 +13,9 @@ namespace hogel::direct {
 namespace {
 
 constexpr std::size_t side = tile_side;
-constexpr double max_cycles_wrong = 0.01;  // a quarter of a degree in the mean
+constexpr double max_cycles_wrong = 0.01;  // a mean error of a quarter of a degree
 
-// How much of a tile a point's light reaches.
+// Whether a point's light reaches none, a part or all of a tile.
 enum class Zone { dark, edge, lit };
 
 // e^{2πi (a t + b t²)} at t = −(n−1)/2 … (n−1)/2 pitches, as real and imaginary parts.
@@ -32,8 +32,8 @@ struct Chirp {
     }
 };
 
-// A point's wave over one tile, by the expansion of its path around the tile's middle to second order without the mixed
-// term: a product of a function of the column and one of the row, both from a table of unit roots.
+// Computes a point's wave over one tile by expanding its path around the tile's middle to second order without the
+// mixed term. The wave is then a function of the column times one of the row, both from a table of roots of unity.
 class Tile {
   public:
     Tile(const hologram::UnitRoots& roots, const FieldGrid& grid, const Region& region)
@@ -46,7 +46,7 @@ class Tile {
           reach_y_(exact_.reach_y()) {}
     Vec3 middle() const { return middle_; }
 
-    // By the tile's corners, and its place that is nearest to the point.
+    // Tests the tile's corners and its position nearest to the point.
     Zone zone(Vec3 point) const {
         if (!exact_.reached_from(point)) return Zone::dark;
         for (const double x : {-reach_x_, reach_x_})
@@ -67,7 +67,7 @@ class Tile {
             std::pow(reach_x_ * reach_x_ + reach_y_ * reach_y_, 2) / (8 * std::pow(std::abs(path), 3));
         if (k * (mixed + third + fourth) > max_cycles_wrong) return add_exactly(point);
         const Chirp x(roots_, k * gx, k * curve_x, region_.width, grid_.plane.pitch_x);
-        // Rows run down.
+        // Row indices increase downwards.
         const Chirp y(roots_, -k * gy, k * curve_y, region_.height, grid_.plane.pitch_y);
         const std::complex<float> whole = static_cast<float>(modulus(point, ray)) * roots_(k * path + point.cycles);
         for (std::size_t row = 0; row < region_.height; ++row) {
@@ -87,7 +87,7 @@ class Tile {
                     std::complex<float>(real_[row][column], imaginary_[row][column]) + exact_(row, column);
     }
 
-    // Sample by sample: a point too near for the expansion, or one that lights a part of the tile.
+    // Adds sample by sample a point that is too near for the expansion or that lights only a part of the tile.
     void add_exactly(const ScenePoint& point) { exact_.add(point); }
 
   private:
@@ -102,7 +102,7 @@ class Tile {
 
 }  // namespace
 
-// Points with visibility, one ray for each point and tile of 32×32 samples.
+// Points with occlusion, tested by one ray for each point and tile of 32×32 samples.
 Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
     const core::StopScope scope(progress);

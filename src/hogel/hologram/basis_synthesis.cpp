@@ -22,9 +22,9 @@ using Complex = std::complex<float>;
 
 constexpr double max_bytes = 4.0 * (std::size_t{1} << 30);
 
-// Each hogel is a sum of fringes, one for each basis function of a transform of the directions, weighted with the
-// coefficients of its amplitudes √L. Sources: [K] (3.24) and 4.2; with the samples as coefficients and a piecewise
-// constant basis, Lucente 1994.
+// A hogel is a sum of fringes, one for each basis function of a transform of the directions, weighted with the
+// coefficients of its amplitudes √L. Sources: [K] (3.24) and 4.2; Lucente 1994 for the piecewise constant basis, whose
+// coefficients are the samples.
 class BasisSynthesis final : public HogelSynthesis {
   public:
     BasisSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
@@ -85,7 +85,7 @@ class BasisSynthesis final : public HogelSynthesis {
     }
 
   private:
-    // Some hogels, of which the directions alone are transformed.
+    // The transform of the directions, without the hogels, for some hogels at once.
     transform::Pyramid pyramid(std::size_t hogels) const {
         return transform::Pyramid::separate({hogels, light_field_.directions_v, light_field_.directions_u}, {{1, 2}});
     }
@@ -99,8 +99,9 @@ class BasisSynthesis final : public HogelSynthesis {
         fft_.backward(fringe);
     }
 
-    // Drops the smallest, as many as together carry the share `tolerance` of the amplitude, if all fringes were at
-    // right angles. They are found by counting half octaves of energy instead of by sorting.
+    // Sets the smallest coefficients to zero, as many as together carry the share `tolerance` of the amplitude (exactly
+    // so if the fringes were orthogonal). They are found by a histogram in half octaves of energy instead of by
+    // sorting.
     void drop_small(std::span<float> coefficients) const {
         const auto half_octave = [](float energy) { return std::bit_cast<std::uint32_t>(energy) >> 22; };
         const auto energy_of = [&](std::size_t i) {
@@ -126,8 +127,8 @@ class BasisSynthesis final : public HogelSynthesis {
     FrequencyGrid frequencies_;
     math::Fft2 fft_;
     DirectionPhases phases_;
-    std::deque<FringeTable> fringes_;  // for each look
-    std::vector<float> norms_;         // of the fringes; empty where nothing is dropped
+    std::deque<FringeTable> fringes_;  // one per look
+    std::vector<float> norms_;         // of the fringes; empty if no coefficients are dropped
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Basis fringes against one Fourier transform a hogel with the same phases.
+// Compares basis fringes with one Fourier transform per hogel with the same phases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,7 +75,7 @@ TEST(BasisSynthesis, equals_one_fourier_transform_a_hogel_for_every_transform_of
     }
 }
 
-// The fringes differ by about the share of the amplitude that the coefficients left out carry.
+// The error of the fringes is about the share of the amplitude that the omitted coefficients carry.
 TEST(BasisSynthesis, tolerance_bounds_the_error_of_leaving_out_small_coefficients) {
     const LightFieldBuffer light_field = smooth_light_field();
     const Array<Complex, 2> all = whole(*make_hologram(borrow(light_field), basis_options("cdf97")), 0);
@@ -112,7 +112,7 @@ TEST(BasisSynthesis, each_fringe_of_the_piecewise_basis_lights_one_cell_of_direc
     one.radiance(0, 0, 0, 9, 4) = 1;
     Array<Complex, 2> spectrum = of(one, basis_options("pieces"));
     math::Fft2(24, 24).forward(spectrum);
-    // The cell's light lies within its cell of frequencies, half a step of theirs around it.
+    // The light of the cell is within its range of frequencies, extended by half a step of the frequency grid.
     const double step = 633_nm / 48_um, u = grid.u(4), v = grid.v(9);
     for (std::ptrdiff_t row = -12; row < 12; ++row)
         for (std::ptrdiff_t column = -12; column < 12; ++column) {

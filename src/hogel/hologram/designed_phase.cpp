@@ -6,7 +6,7 @@
 namespace hogel::hologram {
 namespace {
 
-constexpr int projections = 200;  // the modulus gets no flatter with more
+constexpr int projections = 200;  // more of them do not make the modulus flatter
 
 std::complex<float> unit(std::complex<float> value) {
     const float modulus = std::abs(value);

@@ -19,7 +19,7 @@ DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::F
     DirectionPhases all;
     for (std::size_t look = 0; look < options.looks; ++look) {
         Array<std::complex<float>, 2>& phases = all.emplace_back(shape);
-        // The series of a hogel beyond all hogels, so that directions have phases of their own.
+        // Uses the series of a hogel outside the hologram, so that these phases differ from those of every hogel.
         spread_random_phases(phase_series(options, 0xffffffff, 0xffffffff, look), ones, phases.elements());
         if (flat) flatten_fringe(moduli, fft, phases);
     }

@@ -11,11 +11,10 @@
 
 namespace hogel::hologram {
 
-/// The counter of the random phases of a hogel.
+/// The series of random phases of a hogel.
 PhaseSeries phase_series(const HologramOptions& options, std::size_t s, std::size_t t, std::size_t look);
 
-/// Phases that all hogels share: for each look those of the frequencies of a hogel's Fourier transform, as unit
-/// numbers.
+/// Phases that all hogels share: for each look, e^{iφ} for each frequency of a hogel's Fourier transform.
 /// @param flat  designed for a flat fringe; otherwise random
 using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
 DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws that every method from a light field to fringes has to keep, against theory.
+// Compares every method from a light field to fringes with theory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 using namespace literals;
 using Complex = std::complex<float>;
 
-// A plane of uniform radiance at one depth, as far as x and y lie in a rectangle; all rays that miss it are dark.
+// A rectangle of uniform radiance at one depth; all rays that miss it are dark.
 struct Card {
     double depth, left = -1, right = 1, bottom = -1, top = 1;
     float radiance = 1;
@@ -58,8 +58,8 @@ Array<Complex, 2> whole(const FieldSource& source, std::size_t look = 0) {
     return field;
 }
 
-// The intensity of a hologram's light along a line in x through a point, from −reach to +reach of it in steps of
-// reach/80: a direct sum over samples and the mean over looks. The hologram is a strip, whose rows are much the same.
+// The intensity of a hologram's light along a line in x through a point, from −reach to +reach in steps of reach/80: a
+// direct sum over samples, averaged over looks. The hologram is a strip whose rows are nearly equal.
 std::vector<double> focus_of(const FieldSource& source, const Vec3& point, double reach) {
     const Grid& plane = source.grid().plane;
     const double k = 2 * std::numbers::pi / source.grid().wavelength;
@@ -84,7 +84,7 @@ std::vector<double> focus_of(const FieldSource& source, const Vec3& point, doubl
     return intensity;
 }
 
-// Full width at half maximum, as a fraction of the line's reach, and where the maximum is.
+// Full width at half maximum, as a fraction of the line's reach, and the position of the maximum.
 struct Peak {
     double width, at;
 };
@@ -106,14 +106,14 @@ double inner_half(const std::vector<double>& intensity) {
     return inner / all;
 }
 
-// |<F, G>|²/(<F,F><G,G>): one where F is G times a number.
+// |<F, G>|²/(<F,F><G,G>): one if F is a multiple of G.
 double likeness(const FieldSource& source, const Field& exact) {
     const Array<Complex, 2> field = whole(source);
     std::complex<double> product = 0;
     double energy = 0, other = 0;
     for (std::size_t i = 0; i < field.size(); ++i) {
         const std::complex<double> a = field.data()[i], b = exact.samples.data()[i];
-        if (a == 0.0) continue;  // where no ray of the field of view comes from the point
+        if (a == 0.0) continue;  // no ray of the field of view comes from the point
         product += a * std::conj(b);
         energy += std::norm(a);
         other += std::norm(b);
@@ -121,13 +121,13 @@ double likeness(const FieldSource& source, const Field& exact) {
     return std::norm(product) / (energy * other);
 }
 
-// A small part of a plane that shines as one point, seen by every hogel along the one ray that meets it. The hologram
-// is a strip, on either side of which the point lies.
+// A small patch of a plane, which every hogel sees by the one ray that meets it. The hologram is a strip; the point is
+// behind or in front of it.
 class PointFocus : public testing::TestWithParam<double> {
   protected:
     const double depth = GetParam() * 1e-6 * std::exp(634 / 64.0), tan_half = 0.1, wavelength = 633_nm;
     const LightFieldGrid grid{72, 1, 64_um, 25, 25, Perspective{tan_half, tan_half}, 1};
-    // One cell of the surface: as wide as neighbouring rays are apart there.
+    // One cell of the surface, as wide as the distance of neighbouring rays there.
     const double cell = std::abs(depth) * grid.step_u();
     const Card card{depth, 0, cell, 0, cell};
     const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
@@ -141,7 +141,7 @@ class PointFocus : public testing::TestWithParam<double> {
     }
 };
 
-// A slit of sine ±s makes sinc², 0.886 λ/2s wide at half maximum.
+// A fan of rays of sine ±s gives sinc² with a full width at half maximum of 0.886 λ/2s.
 TEST_P(PointFocus, with_added_phases_is_as_narrow_as_the_whole_fan_of_rays_allows) {
     const double fan = 0.886 * wavelength / (2 * tan_half / std::hypot(1, tan_half));
     for (const bool exact : {false, true}) {
@@ -151,8 +151,8 @@ TEST_P(PointFocus, with_added_phases_is_as_narrow_as_the_whole_fan_of_rays_allow
     }
 }
 
-// One hogel is a slit as wide as itself, sinc² with its first zero at λζ/d; and the frequency grid spreads the ray over
-// its lobes: by the hat that interpolates rays and the width of a lobe.
+// One hogel is a slit of its own width: sinc² with its first zero at λζ/d. In addition the frequency grid spreads the
+// ray over lobes: by the hat function that interpolates rays and by the width of a lobe.
 TEST_P(PointFocus, without_added_phases_is_as_wide_as_one_hogel_diffracts) {
     const double zero = wavelength * std::abs(depth) / grid.pitch;
     const double hat = grid.step_u() / (wavelength / grid.pitch);  // in lobes
@@ -169,8 +169,9 @@ TEST_P(PointFocus, without_added_phases_is_as_wide_as_one_hogel_diffracts) {
     EXPECT_GT(inner_half(focus_of(*hologram(PhaseAdded{true}), point, zero)), 0.97);
 }
 
-// With frequencies of their own the waves are those of the point, but for what a hogel hides of a sphere's curvature.
-// On the nearest frequencies of the transform they err by a uniform half step along x, and 0.405 of a step in y here.
+// With exact frequencies the waves are those of the point, except for a sphere's curvature over one hogel. With the
+// nearest frequencies of the transform they err by up to half a step along x, uniformly distributed, and by 0.405 of a
+// step in y here.
 TEST_P(PointFocus, with_exact_added_phases_is_the_exact_sum) {
     const auto exactly = hologram(PhaseAdded{true});
     const PointSource source{point};
@@ -214,7 +215,7 @@ TEST_P(EveryMethod, gives_the_same_bytes_in_any_tiling) {
     const LightFieldGrid grid{9, 7, 48_um, 20, 22, Perspective{0.12, 0.13}, 1};
     const Card cards[] = {{3e-3, 0, 1, -1, 1, 0.5f}, {-2e-3, -1, 1, 0, 0.1e-3, 2}};
     LightFieldBuffer light_field = light_field_of(grid, cards);
-    light_field.radiance(0, 2, 2, 3, 3) = 7;  // light from nowhere
+    light_field.radiance(0, 2, 2, 3, 3) = 7;  // a ray with radiance that meets nothing
     const auto source = make_hologram(borrow(light_field), options(2_um));
     const Array<Complex, 2> all = whole(*source);
     double energy = 0;
@@ -240,7 +241,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                                          NamedMethod{"basis fixed", Basis{"cdf97", 0, SharedPhases::fixed}},
                                          NamedMethod{"basis designed", Basis{"cdf97", 0, SharedPhases::designed}}));
 
-// Those that send light everywhere, as a diffuse surface does.
+// The methods that send light in all directions, as a diffuse surface does.
 class DiffuseMethod : public EveryMethod {
   protected:
     const bool overlapping = std::holds_alternative<OverlapAdd>(GetParam().method);
@@ -270,8 +271,8 @@ TEST_P(DiffuseMethod, photographs_a_uniform_plane_with_its_own_radiance) {
     }
 }
 
-// A near card hides the left half of a far plane. Photographs by waves and by rays must agree with either in focus,
-// but for speckle and the pixel beside the edge.
+// A near card hides the left half of a far plane. With either in focus, photographs by waves and by rays must agree,
+// except for speckle and the pixel beside the edge.
 TEST_P(DiffuseMethod, photographs_a_card_before_a_plane_as_rays_do) {
     const Card cards[] = {{0.5e-3, -1, 0, -1, 1, 1}, {3e-3, -1, 1, -1, 1, 0.25f}};
     const LightFieldBuffer light_field = light_field_of(grid, cards);
@@ -298,7 +299,7 @@ TEST(OverlapAdd, neighbouring_parallax_is_the_largest_depth_times_the_step_of_di
     EXPECT_EQ(neighbouring_parallax(LightFieldBuffer(grid), 6.4_um), 0);
 }
 
-// A fan of directions to one side, as of an off-axis camera: as bright as the same fan straight ahead.
+// A fan of directions to one side, as for an off-axis camera, gives the same brightness as a fan straight ahead.
 TEST(OverlapAdd, an_off_axis_plane_photographs_with_its_own_radiance) {
     for (const double center : {0.5, -0.5}) {
         LightFieldGrid grid{100, 60, 4.8_um, 9, 9, Perspective{0.09, 0.09}, 1};
@@ -337,7 +338,7 @@ double peak_over_mean(std::span<const Complex> field) {
     return peak / mean;
 }
 
-// The highest of N random sums is about ln N times the mean.
+// The largest intensity of N random sums is about ln N times the mean.
 TEST(DesignedPhases, flatten_the_fringe) {
     const LightFieldGrid grid{4, 4, 64_um, 24, 24, Perspective{0.12, 0.12}, 1};
     LightFieldBuffer light_field(grid);

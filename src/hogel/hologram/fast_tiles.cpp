@@ -28,7 +28,8 @@ void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> v
     if (sixteen->size() == 0) *sixteen = Array<float, 1>({rows_at_once * line});
     for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
         const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
-        // Neighbouring rows come one after the other. Sixteen of them are put away when the next sixteen begin.
+        // Neighbouring rows arrive one after the other. A block of sixteen rows is transposed when the next block
+        // begins.
         std::size_t current = blocks;
         std::vector<bool> lit(side_), done(blocks);
         const auto put_away = [&] {
@@ -54,7 +55,7 @@ void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> v
 
 void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
                            std::complex<float>* to, std::size_t to_row) const {
-    // One square after the other in the same room, sixteen rows and then the square.
+    // A buffer that is reused for each hogel: sixteen rows, then the square.
     thread_local Array<float, 1> room;
     const std::size_t columns = side_ * square_column;  // floats of sixteen columns, or rows
     if (room.size() < columns + 2 * side_ * side_) room = Array<float, 1>({columns + 2 * side_ * side_});

@@ -29,8 +29,8 @@ LightFieldBuffer uniform(const LightFieldGrid& grid, float radiance) {
 
 const LightFieldGrid small{8, 6, 64_um, 24, 24, Perspective{0.15, 0.15}, 1};
 
-// One direction alone makes one plane wave, in the direction of the ray: e^{2πi (f_x x + f_y y)} with
-// f = −(U,V)/(λ√(1+U²+V²)), over every hogel, with |F|² = L (λ/d)²/cos θ.
+// A single direction gives one plane wave in the direction of the ray: e^{2πi (f_x x + f_y y)} with f =
+// −(U,V)/(λ√(1+U²+V²)), over every hogel, with |F|² = L (λ/d)²/cos θ.
 TEST(FourierHologram, one_direction_is_one_plane_wave_with_the_frequency_of_its_ray) {
     HologramOptions options;
     options.channel.wavelength = 633_nm;
@@ -51,14 +51,15 @@ TEST(FourierHologram, one_direction_is_one_plane_wave_with_the_frequency_of_its_
     const Grid& plane = hologram->grid().plane;
     Array<Complex, 2> field({plane.height, plane.width});
     hologram->read({0, 0, plane.width, plane.height}, 0, field);
-    // The mean over the lobe of a single sample's hat: its share of the lobe's area.
+    // The mean of a single sample's hat function over the lobe: the sample's share of the lobe's area.
     const double lobe = step / (grid.step_u() * cosine) * (1 + U * U) * step / (grid.step_v() * cosine) * (1 + V * V);
     const double modulus = std::sqrt(step * step / cosine / lobe);
     const std::size_t n = hologram->alignment();
     ASSERT_EQ(n, 32u);
     for (std::size_t y = 0; y < plane.height; ++y)
         for (std::size_t x = 0; x < plane.width; ++x) {
-            const std::size_t x0 = x / n * n, y0 = y / n * n;  // the hogel's first sample has its random phase
+            const std::size_t x0 = x / n * n,
+                              y0 = y / n * n;  // the phase at the hogel's first sample is the random one
             const double cycles = 3 / small.pitch * (plane.x(double(x)) - plane.x(double(x0))) -
                                   2 / small.pitch * (plane.y(double(y)) - plane.y(double(y0)));
             const auto expected = std::complex<double>(field(y0, x0)) * std::polar(1.0, 2 * std::numbers::pi * cycles);
@@ -71,14 +72,14 @@ TEST(FourierHologram, one_direction_is_one_plane_wave_with_the_frequency_of_its_
 TEST(FourierHologram, carries_the_energy_of_its_light_field) {
     const LightFieldBuffer light_field = uniform(small, 0.7f);
     HologramOptions options;
-    options.pitch = 1.6_um;  // 40 samples a hogel
+    options.pitch = 1.6_um;  // 40 samples per hogel
     const auto hologram = make_hologram(borrow(light_field), options);
     const double step = options.channel.wavelength / small.pitch;
     double expected = 0;
     for (int j = -19; j <= 19; ++j)
         for (int i = -19; i <= 19; ++i) {
             const double sine2 = (i * i + j * j) * step * step, cosine = std::sqrt(1 - sine2);
-            // Lobes on the border of the field of view are partly lit.
+            // Lobes on the border of the field of view are partly inside.
             const auto lit = [&](double sine) {
                 const double tangent = std::abs(sine) / cosine, half = 0.5 * step * (1 + tangent * tangent) / cosine;
                 return std::clamp((0.15 - tangent + half) / (2 * half), 0.0, 1.0);
@@ -128,7 +129,7 @@ TEST(FourierHologram, has_the_same_bytes_in_any_tiling_and_other_phases_for_anot
     EXPECT_LT(correlation(*make_hologram(borrow(light_field), options), 0), 0.03);
 }
 
-// Rays computed on demand, which records how many were read at once.
+// Rays computed on demand. Records how many were read at once.
 struct CountingSource final : LightFieldSource {
     LightFieldGrid sampled;
     mutable std::size_t max_bytes = 0, hogels = 0;
@@ -149,7 +150,7 @@ struct CountingSource final : LightFieldSource {
     }
 };
 
-// A region of the hologram reads the rays of few hogels at once, and each once, whatever the number of directions.
+// A region of the hologram reads the rays of a few hogels at a time, each once, for any number of directions.
 TEST(FourierHologram, reads_rays_in_bounded_batches_and_each_once) {
     const CountingSource source({16, 10, 64_um, 512, 512, Perspective{0.1, 0.1}, 1});
     ASSERT_GT(source.grid().samples() * sizeof(float), 1.2 * (1 << 27));
@@ -172,7 +173,7 @@ TEST(FourierHologram, reads_rays_in_bounded_batches_and_each_once) {
     }
 }
 
-// A surface of uniform radiance photographs with that radiance from everywhere: no factor is fitted.
+// Photographs of a surface of uniform radiance show that radiance from all sides, without a fitted factor.
 TEST(FourierHologram, a_uniform_light_field_photographs_as_its_radiance_from_every_side) {
     const LightFieldGrid grid{24, 24, 64_um, 30, 30, Perspective{0.3, 0.3}, 1};
     const LightFieldBuffer light_field = uniform(grid, 0.5f);

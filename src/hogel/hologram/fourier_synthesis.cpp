@@ -14,7 +14,7 @@ using Complex = std::complex<float>;
 
 class FourierSynthesis final : public HogelSynthesis {
   public:
-    /// @param lines  of each hogel, for horizontal parallax only; 0: a square with both parallaxes
+    /// @param lines  number per hogel, for horizontal parallax only; 0: a square with both parallaxes
     FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options, Phases phases,
                      LobeAverage average)
         : options_(options),
@@ -75,8 +75,8 @@ class FourierSynthesis final : public HogelSynthesis {
         fft_.backward(values, to, to_row);
     }
 
-    // Where all hogels share phases, each line still has one of its own: equal lines would send light straight ahead
-    // alone.
+    // If all hogels share phases, each line has an additional phase of its own, because equal lines would send light
+    // only straight ahead.
     Complex phase_of_line(const HogelPlace& place) const {
         const float one = 1;
         Complex phase;
@@ -89,8 +89,8 @@ class FourierSynthesis final : public HogelSynthesis {
     FrequencyGrid frequencies_;
     std::size_t lines_;
     math::Fft2 fft_;
-    DirectionPhases directions_;     // empty where every hogel has phases of its own
-    std::optional<FastTiles> fast_;  // for the sides of hogels that it supports
+    DirectionPhases directions_;     // empty if every hogel has its own phases
+    std::optional<FastTiles> fast_;  // if it supports this side of hogels
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace hogel::hologram {
 namespace {
 
-// Rays and lobes of a band, sixteen hogels of each: 128 KiB.
+// Maximum number of rays and lobes of a band; for sixteen hogels 128 KiB.
 constexpr std::size_t max_band_size = 2048;
 
 // Integral from −∞ to x of the hat function max(0, 1 − |x|).
@@ -22,11 +22,11 @@ double hat_integral(double x) {
 
 struct LobeWeights {
     std::size_t first = 0;
-    std::vector<float> weights;  // empty: outside
+    std::vector<float> weights;  // empty: outside the field of view
 };
 
 // The weights of samples 0..count−1 in the mean over [low, high] of the piecewise linear function through them. The end
-// samples hold to the ends of their cells; beyond them the function is zero.
+// samples extend to the ends of their cells; beyond them the function is zero.
 LobeWeights average_of_lines(double low, double high, std::size_t count) {
     const double begin = -0.5, end = static_cast<double>(count) - 0.5;
     const double inside_low = std::max(low, begin), inside_high = std::min(high, end);
@@ -38,7 +38,7 @@ LobeWeights average_of_lines(double low, double high, std::size_t count) {
     result.first = static_cast<std::size_t>(first);
     for (double k = first; k <= final; ++k) {
         double weight = hat_integral(inside_high - k) - hat_integral(inside_low - k);
-        // Past an end sample its value holds instead of falling along the hat.
+        // Beyond an end sample its value stays constant instead of falling along the hat.
         if (k == 0 && inside_low < 0)
             weight += std::min(inside_high, 0.0) - inside_low -
                       (hat_integral(std::min(inside_high, 0.0)) - hat_integral(inside_low));
@@ -51,7 +51,7 @@ LobeWeights average_of_lines(double low, double high, std::size_t count) {
     return result;
 }
 
-// Weights of the mean of the function that has each sample's value over its cell.
+// The weights of samples in the mean over [low, high] of the function that is constant over each sample's cell.
 LobeWeights average_of_pieces(double low, double high, std::size_t count) {
     const double begin = std::max(low, -0.5), end = std::min(high, static_cast<double>(count) - 0.5);
     LobeWeights result;
@@ -100,7 +100,7 @@ FrequencyGrid FrequencyGrid::of_line(std::span<const LightFieldGrid> faces, std:
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
                              double wavelength, Interpolation between)
     : rows_(rows), columns_(columns), rays_(light_field.directions()), row_length_(light_field.directions_u) {
-    const double step = wavelength / light_field.pitch;  // between frequencies, as direction sines
+    const double step = wavelength / light_field.pitch;  // between frequencies, as a direction sine
     const auto width = static_cast<std::ptrdiff_t>(columns), height = static_cast<std::ptrdiff_t>(rows);
     const bool sines = !light_field.is_perspective();
     const auto mean = between == Interpolation::constant || is_frequency_grid(light_field, wavelength)
@@ -113,7 +113,7 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     };
     std::vector<Averages> all;
     std::size_t max_u = 0, max_v = 0;
-    // The sine −n/2 of an even grid would be its own mirror image, so the grid ends one before it.
+    // The frequency −n/2 of an even grid would be its own mirror image, so it is left out.
     const std::ptrdiff_t reach_x = (width - 1) / 2, reach_y = (height - 1) / 2;
     for (std::ptrdiff_t jy = -reach_y; jy <= reach_y; ++jy)
         for (std::ptrdiff_t jx = -reach_x; jx <= reach_x; ++jx) {
@@ -127,12 +127,12 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
             const double wv = 0.5 * step * (sines ? 1 : (1 + V * V) / cosine);
             const LobeWeights u =
                 mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
-            // A line has one row of directions, whatever is above and below.
+            // A line uses the one row of directions for all vertical angles.
             const LobeWeights v =
                 rows == 1 ? LobeWeights{0, {1.0f}}
                           : mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
             if (u.weights.empty() || v.weights.empty()) continue;
-            // Rows run down while y runs up, so a row of the DFT is −j_y.
+            // Rows are counted downwards but y upwards, so a row of the DFT is −j_y.
             const auto row = static_cast<std::size_t>((height - jy) % height),
                        column = static_cast<std::size_t>((width + jx) % width);
             max_u = std::max(max_u, u.weights.size());
@@ -153,7 +153,8 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     list_runs();
 }
 
-// Joins rows of frequencies, whose lobes see neighbouring rows of directions, as long as they fit into a band.
+// Combines consecutive rows of frequencies, whose lobes cover neighbouring rows of directions, into bands of limited
+// size.
 void FrequencyGrid::list_bands() {
     for (std::size_t first = 0, end = 0; first < lobes_.size(); first = end) {
         const std::size_t row = lobes_[first].coefficient / columns_;
@@ -244,7 +245,7 @@ void FrequencyGrid::average_run(std::size_t lobe, std::size_t count, View<const 
                       out);
 }
 
-// Sixteen hogels lie side by side, so that the lobes' short and irregular sums are sums of whole vectors.
+// Processes sixteen hogels side by side, so that the lobes' short and irregular sums become sums of whole vectors.
 void FrequencyGrid::amplitudes_by_rows(View<const float, 2> values, bool of_roots, const PlaceOfRow& place) const {
     std::size_t max_rays = 0;
     for (const Band& band : bands_) max_rays = std::max(max_rays, band.rays);
@@ -285,7 +286,7 @@ void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float
                 for (std::uint32_t k = 0; k < lobe.nu; ++k) line += u[k] * row[k * hogels_at_once];
                 sum += v[l] * line;
             }
-            // A light field may hold small negative values where a codec has passed; they carry no light.
+            // A decoded light field may have small negative values, which count as zero.
             *out++ = of_roots ? sum * std::sqrt(lobe.scale) : std::sqrt(std::max(sum, 0.0f) * lobe.scale);
         }
     }

@@ -12,68 +12,68 @@
 
 namespace hogel::hologram {
 
-/// The values of a light field between its samples.
+/// The interpolation of a light field between its samples.
 enum class Interpolation {
     linear,    ///< linear interpolation
-    constant,  ///< the nearest sample: pieces as large as a sample's cell
+    constant,  ///< the nearest sample, constant over the sample's cell
 };
 
 /// Resamples the directions of one hogel from the light field's uniform U, V to the frequency grid j/d of the hogel's
-/// Fourier transform ([K] 4.1, Lucente's grid), as amplitudes. A light field that is sampled on that grid already is
-/// taken as it is.
+/// Fourier transform ([K] 4.1, Lucente's grid), as amplitudes. A light field that is already sampled on that grid is
+/// not resampled.
 ///
 /// The wave of frequency (f_x, f_y) = (j_x, j_y)/d is the ray (U,V) = −λ(f_x, f_y)/√(1 − λ²|f|²). It lights a lobe of
 /// width 1/d in frequency, so it carries the mean of the (by default bilinearly interpolated) light field over that
-/// lobe. Where the lobe lies outside the field of view, or |f| ≥ 1/λ, there is nothing.
+/// lobe. It is zero if the lobe is outside the field of view or |f| ≥ 1/λ.
 class FrequencyGrid {
   public:
     /// @param samples   n_Δ, samples along a side of the hogel and frequencies along a side of the grid
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength,
                   Interpolation between = Interpolation::linear);
 
-    /// From several faces of a hemicube. The rays of a hogel are then those of all faces, one after the other.
+    /// From several faces of a hemicube. The rays of a hogel are those of all faces, one after the other.
     FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
 
     /// The grid of one line of a hologram with horizontal parallax only, whose light field has one row of directions:
-    /// frequencies along x alone. A line takes the place of `line_pitch` in the amplitude: √(λ/d · λ/line_pitch), so
-    /// that lines with independent phases have the same radiance in all directions up and down. `faces` is a front
-    /// alone, or with sides that have one row too.
+    /// frequencies along x alone. The amplitude has the factor √(λ/d · λ/line_pitch), so that lines with independent
+    /// phases have the right radiance in all vertical directions. `faces` is a front, optionally with the sides left
+    /// and right, which also have one row.
     static FrequencyGrid of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                  double wavelength);
 
     /// Converts the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a
     /// backward FFT takes them ([j_y mod n][j_x mod n], rows running down): (λ/d) √(L cos θ) / cos θ. This is [K] (4.2)
-    /// with a² = L cos θ, the radiant intensity of a piece of surface of radiance L, and with the DFT's 1/n and Δ drawn
-    /// together; see docs/notation.md.
+    /// with a² = L cos θ, the radiant intensity of a unit area of radiance L, and with the DFT's 1/n and Δ combined;
+    /// see docs/notation.md.
     void amplitudes(std::span<const float> radiance, std::span<float> moduli) const;
 
     /// amplitudes() for many hogels, radiances[hogel][v u] to moduli[hogel][j_y j_x], sixteen at once.
     void amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const;
 
-    /// Destination of a row of frequencies of sixteen hogels, [j_x mod n][hogel]. The row before is complete when the
-    /// next is asked for.
+    /// Returns the destination of a row of frequencies of sixteen hogels, [j_x mod n][hogel]. The previous row is
+    /// complete when it is called for the next one.
     using PlaceOfRow = std::function<float*(std::size_t row)>;
-    /// amplitudes() for up to sixteen hogels, row by row of the frequencies that carry light. Rows come in order, but
-    /// for one jump. Columns of hogels beyond the last have undefined values. Where `of_roots`, the values are roots:
-    /// see amplitudes_of_roots.
+    /// amplitudes() for up to sixteen hogels, row by row for the frequencies that carry light. Rows are in order,
+    /// except for one jump. Columns of hogels beyond the last are undefined. If `of_roots`, the values are roots: see
+    /// amplitudes_of_roots().
     void amplitudes_by_rows(View<const float, 2> radiances, bool of_roots, const PlaceOfRow& place) const;
 
-    /// From amplitudes √L instead of radiances, averaged without squaring: λ/d · √(cos θ)/cos θ times the lobe's
-    /// mean of √L. A linear map, which basis fringes need; darker than amplitudes() where the radiance varies in a
-    /// lobe.
+    /// Converts amplitudes √L instead of radiances, averaged without squaring: λ/d · √(cos θ)/cos θ times the lobe's
+    /// mean of √L. This map is linear, as basis fringes need; it is darker than amplitudes() where the radiance varies
+    /// within a lobe.
     void amplitudes_of_roots(View<const float, 2> roots, View<float, 2> moduli) const;
 
     std::size_t columns() const { return columns_; }  ///< frequencies along a row, n_Δ
-    std::size_t rows() const { return rows_; }        ///< as many, or one for a line
+    std::size_t rows() const { return rows_; }        ///< n_Δ, or 1 for a line
     std::size_t coefficients() const { return rows_ * columns_; }
-    std::size_t rays() const { return rays_; }  ///< of a hogel, of all faces
+    std::size_t rays() const { return rays_; }  ///< of a hogel, over all faces
 
     // A DFT coefficient that carries light: the directions that it averages and their weights, as an outer product.
     struct Lobe {
         std::uint32_t coefficient;
         std::uint32_t u0, v0;   // first direction, v0 counted from the band's first row
         std::uint32_t nu, nv;   // directions in each dimension
-        std::uint32_t weights;  // where in weights_ its nu + nv weights begin
+        std::uint32_t weights;  // index in weights_ of the first of its nu + nv weights
         float scale;            // (λ/d)² / cos θ, applied under the root
     };
 
@@ -85,13 +85,13 @@ class FrequencyGrid {
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
     void average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots, float* out) const;
 
-    // Whole rows of lobes one after the other with what they need of the light field, few enough for the nearer caches.
+    // Consecutive whole rows of lobes with the range of the light field that they use, few enough for the first caches.
     struct Band {
         std::size_t lobe0 = 0, lobes = 0;
         std::size_t ray0 = 0, rays = 0;
         std::size_t run0 = 0, runs = 0;
     };
-    // Lobes of coefficients side by side in a row.
+    // A run of lobes whose coefficients are contiguous in a row.
     struct Run {
         std::uint32_t lobe, row, column, count;
     };
@@ -104,11 +104,11 @@ class FrequencyGrid {
     std::size_t rows_, columns_;
     std::size_t rays_;
     std::size_t row_length_;         // n_U
-    HemicubeResampling resampling_;  // where there are several faces, instead of lobes
+    HemicubeResampling resampling_;  // used instead of lobes if there are several faces
     std::vector<Lobe> lobes_;
     std::vector<float> weights_;
     std::vector<Band> bands_;
-    std::vector<Run> runs_;  // of the lobes of each band, in their order
+    std::vector<Run> runs_;  // of the lobes of each band, in order
 };
 
 /// Whether a light field's directions are those of the hogels' Fourier transform at this wavelength.

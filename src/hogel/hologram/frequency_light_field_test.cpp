@@ -16,7 +16,7 @@ namespace {
 
 using namespace literals;
 
-// Two light fields of the same smooth light: in the directions of a hogel's own transform, and in perspective.
+// The same smooth light sampled in the directions of a hogel's transform and in perspective.
 TEST(FrequencyGridLightField, is_not_resampled_and_agrees_with_one_in_perspective) {
     const double wavelength = 532_nm, pitch = 64_um, step = wavelength / pitch;
     LightFieldGrid sines{2, 2, pitch, 31, 27, Perspective{15.5 * step, 13.5 * step}, 1};
@@ -40,7 +40,7 @@ TEST(FrequencyGridLightField, is_not_resampled_and_agrees_with_one_in_perspectiv
         for (int i = -15; i <= 15; ++i) {
             const std::size_t at = std::size_t((64 - j) % 64) * 64 + std::size_t((64 + i) % 64);
             const double cosine = std::sqrt(1 - (i * i + j * j) * step * step);
-            // The ray of frequency (i, j)/d looks the other way: column 15 − i, and rows run down.
+            // The ray of frequency (i, j)/d has the opposite sign: column 15 − i; rows are counted downwards.
             const int l = 13 + j, k = 15 - i;
             const double L = exact.radiance(0, 1, 1, std::size_t(l), std::size_t(k));
             EXPECT_NEAR(moduli[at], step * std::sqrt(L / cosine), 1e-6 * step) << i << " " << j;

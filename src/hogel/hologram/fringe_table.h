@@ -17,17 +17,16 @@ struct WeightedFringe {
     float weight;
 };
 
-/// sum[i] = Σ weight · fringe[i] over all fringes; plain, and as fast as this processor allows. The twins agree to
-/// rounding.
+/// sum[i] = Σ weight · fringe[i] over all fringes. Plain and fast twins agree to rounding.
 void sum_fringes_plain(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum);
 void sum_fringes(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum);
 
-/// Basis fringes, each computed when it is first needed and kept. May be used by several threads at once.
+/// A thread-safe table of basis fringes, each computed when it is first needed.
 class FringeTable {
   public:
     using Make = std::function<void(std::size_t number, std::span<std::complex<float>> fringe)>;
 
-    /// @param samples  of a fringe
+    /// @param samples  samples of a fringe
     FringeTable(std::size_t fringes, std::size_t samples, Make make);
     const std::complex<float>* operator[](std::size_t number) const;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of sum_fringes_plain, compiled for every instruction set and chosen when first called.
+// The vector twin of sum_fringes_plain, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/fringes_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/hologram/fringe_table.h"
@@ -13,7 +13,7 @@ namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Eight vectors of the sum at a time stay in registers while all fringes pass by.
+// Keeps eight vectors of the sum in registers while it adds all fringes.
 void SumFringes(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum) {
     const hn::ScalableTag<float> d;
     const std::size_t lanes = hn::Lanes(d), size = 2 * sum.size();

@@ -16,7 +16,7 @@ namespace {
 
 using namespace literals;
 
-// A small ball that shines, seen 55 degrees off the axis, beyond the front face: on the right from the left.
+// A small luminous ball, seen 55 degrees off the axis, outside the front face: on the right, seen from the left.
 TEST(HemicubeHologram, shows_a_ball_at_55_degrees_where_geometry_says) {
     const LightFieldGrid grid{16, 12, 36_um, 64, 64, Perspective{1, 1}, 1};
     for (const double side : {1.0, -1.0}) {
@@ -40,7 +40,7 @@ TEST(HemicubeHologram, shows_a_ball_at_55_degrees_where_geometry_says) {
         const Spot rays = spot_of(photograph(light, std::span(&camera, 1))[0], camera.picture);
         EXPECT_NEAR(waves.x, rays.x, 15_um);
         EXPECT_NEAR(waves.y, rays.y, 15_um);
-        // Wider by what a hogel diffracts, λζ/d, seen from the side.
+        // Wider by the diffraction of a hogel, λζ/d, seen from the side.
         EXPECT_LT(waves.wide, 1.5 * rays.wide);
         // Where the line from the eye to the ball crosses the hologram.
         const double share = camera.eye.z / (camera.eye.z + ball.z);
@@ -75,7 +75,7 @@ TEST(HemicubeHologram, has_the_moduli_of_its_front_within_the_front) {
             radiance[l * 48 + k] = float(2 + std::sin(2 * grid.u(double(k))) * grid.v(double(l)));
     front.amplitudes(std::span(radiance).first(std::size_t{48} * 48), a);
     all.amplitudes(radiance, b);
-    // Well within the front; its plain version takes a lobe for a rectangle in U and V.
+    // Compares lobes well within the front, because the front's own code approximates a lobe by a rectangle in U and V.
     for (int j = -20; j <= 20; ++j)
         for (int i = -20; i <= 20; ++i) {
             const std::size_t at = std::size_t((64 - j) % 64) * 64 + std::size_t((64 + i) % 64);

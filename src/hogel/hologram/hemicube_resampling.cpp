@@ -8,10 +8,12 @@
 namespace hogel::hologram {
 namespace {
 
-// More points would follow the side faces' rays closer to the hologram's plane, where they crowd in frequency.
+// The maximum of points per lobe along each axis. More would only matter for rays close to the hologram plane, which
+// are dense in frequency.
 constexpr double max_points = 12;
 
-// The width of a cell of direction sines around a direction of unit length, in rays of the face, by differences.
+// The width, in rays of the face, of a cell of direction sines around a direction of unit length, by finite
+// differences.
 double width_in_rays(const LightFieldGrid& face, Vec3 direction, double step, bool line) {
     const auto place = [&](double sx, double sy) {
         const Vec3 q = to_face(face.face(), {sx, sy, std::sqrt(std::max(1e-6, 1 - sx * sx - sy * sy))});
@@ -24,7 +26,7 @@ double width_in_rays(const LightFieldGrid& face, Vec3 direction, double step, bo
            little;
 }
 
-// Adds the four rays around a direction with their bilinear weights; the rays of the border hold to the face's edge.
+// Adds the four rays around a direction with their bilinear weights. Rays at the border extend to the face's edge.
 void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, double weight,
               std::map<std::uint32_t, double>& sum) {
     const Vec3 q = to_face(face.face(), direction);
@@ -79,7 +81,7 @@ HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::siz
                 }
             }
             if (sum.empty()) continue;
-            // Rows run down while y runs up, so a row of the DFT is −j_y.
+            // Rows are counted downwards but y upwards, so a row of the DFT is −j_y.
             const auto row = static_cast<std::size_t>(line ? 0 : (n - jy) % n),
                        column = static_cast<std::size_t>((n + jx) % n);
             result.lobes.push_back(

@@ -10,28 +10,28 @@
 
 namespace hogel::hologram {
 
-/// A hogel and one of the sets of random phases.
+/// A hogel and a look.
 struct HogelPlace {
     std::size_t s = 0, t = 0;  ///< column and row of the hogel
     std::size_t look = 0;
 };
 
-/// Computes the square of n×n samples of a hogel from its rays, in two steps: one that all looks share, and the rest.
-/// Each synthesis defines whether phases are counted from the hogel's centre or from its first sample.
+/// Computes the n×n samples of a hogel from its rays in two steps, the first of which is shared by all looks. Each
+/// synthesis defines whether phases are counted from the hogel's centre or from its first sample.
 class HogelSynthesis {
   public:
     virtual ~HogelSynthesis() = default;
-    /// How many values a hogel prepare() makes.
+    /// The number of values per hogel that prepare() computes.
     virtual std::size_t prepared_size() const = 0;
-    /// The step that all looks share, for some hogels at once.
+    /// The step that is shared by all looks, for several hogels at once.
     /// @param radiances  [hogel][n_V n_U] of this wavelength
-    /// @param depths     [hogel][n_V n_U], or empty where the method needs no depth
+    /// @param depths     [hogel][n_V n_U], or empty if the method needs no depth
     /// @param prepared   [hogel][prepared_size()]
     virtual void prepare(View<const float, 2> radiances, View<const float, 2> depths,
                          View<float, 2> prepared) const = 0;
     virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
                             View<std::complex<float>, 2> hogel) const = 0;
-    /// synthesise() to other rows, row y at to + y·to_row, with `room` of the hogel's shape as a buffer.
+    /// As synthesise(), but writes row y to to + y·to_row; `room` is a buffer of the hogel's shape.
     virtual void synthesise_to(std::span<const float> prepared, const HogelPlace& place,
                                View<std::complex<float>, 2> room, std::complex<float>* to, std::size_t to_row) const {
         synthesise(prepared, place, room);
@@ -39,29 +39,29 @@ class HogelSynthesis {
     }
 };
 
-/// Amplitudes on the frequency grid j/d with random, fixed or designed phases, and one FFT: [K] (4.2). The rays of a
-/// hogel are those of all faces, one face after the other.
+/// Amplitudes on the frequency grid j/d with random, fixed or designed phases, then one FFT: [K] (4.2). The rays of a
+/// hogel are those of all faces, face after face.
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                        const HologramOptions& options, const Fourier& method);
 
-/// Horizontal parallax only: each of a hogel's lines by one FFT along it, independently, [K] (3.23).
+/// Horizontal parallax only: one independent FFT for each line of a hogel, [K] (3.23).
 std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                     std::size_t lines, const HologramOptions& options,
                                                     const Lines& method);
 
-/// The values of a light field's rays that a synthesis gets.
+/// The meaning of the values of rays that a synthesis receives.
 enum class RayValues {
     radiance,
-    coefficients,  ///< of a transform of each hogel's directions' √L
+    coefficients,  ///< of a transform of √L over the directions of each hogel
 };
 
 /// A sum of basis fringes weighted with coefficients: [K] (3.24).
-/// Throws Error(usage) for a transform that does not exist, and where the fringes would not fit into memory.
+/// Throws Error(usage) for a transform that does not exist and for fringes that would not fit into memory.
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                      const HologramOptions& options, const Basis& method,
                                                      RayValues values);
 
-/// One plane wave a ray, with the phase of a spherical wave from the point that the ray meets.
+/// One plane wave per ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                            const HologramOptions& options, bool exact);
 

@@ -9,13 +9,13 @@
 
 namespace hogel::hologram {
 
-/// Sixteen rows of a hogel's square side by side: of each column the real parts of the rows, then the imaginary ones.
+/// Rows of a hogel's square that are stored side by side: for each column the real parts of sixteen rows, then the
+/// imaginary parts.
 inline constexpr std::size_t rows_at_once = 16;
 inline constexpr std::size_t square_column = 2 * rows_at_once;
 
 /// out[x] = moduli[x] · e^{2πi b/256} with the bytes b that spread_random_phases gives to a square of `columns`
-/// columns, a multiple of sixteen, in its rows first_row, first_row + 1, …; as a plain version and a fast one.
-/// The twins agree to rounding.
+/// columns, a multiple of sixteen, in its rows first_row, first_row + 1, …. Plain and fast twins agree to rounding.
 /// @param moduli  [columns][row]
 /// @param out     [columns][part][row]
 void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
@@ -23,7 +23,7 @@ void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const 
 void random_waves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
                   float* out);
 
-/// out = moduli · phases, with phases as numbers of `out`.
+/// out = moduli · phases. `phases` has the layout of `out`.
 void shared_waves(std::span<const float> phases, const float* moduli, float* out);
 
 /// Transposes sixteen rows [columns][part][row]: columns x, x + 1, … x + 15, x a multiple of sixteen, become rows

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of the functions of hogel_tiles.h, compiled for every instruction set and chosen when first called.
+// The vector twins of the functions of hogel_tiles.h, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/hogel_tiles_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/hologram/hogel_tiles.h"
@@ -24,12 +24,12 @@ void RandomWaves(const PhaseSeries& series, const PhaseRoots&, std::size_t first
 using D = hn::CappedTag<float, rows_at_once>;
 using V = hn::Vec<D>;
 
-// The root of unity of a byte of each word, the byte's lowest bit being bit `shift`.
+// The root of unity for the byte of each word whose lowest bit is bit `shift`.
 template <int shift>
 HWY_INLINE void Root(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsigned<D> > words, V& re, V& im) {
     const hn::RebindToUnsigned<D> whole;
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-    // The root of the upper half of the byte times that of the lower one, from tables as long as a vector.
+    // The product of the roots of the byte's two halves, from tables as long as a vector.
     const auto half = hn::Set(whole, 15u);
     const auto upper = hn::IndicesFromVec(d, hn::And(hn::ShiftRight<shift + 4>(words), half));
     const auto lower = hn::IndicesFromVec(d, hn::And(hn::ShiftRight<shift>(words), half));
@@ -57,7 +57,7 @@ HWY_INLINE void Wave(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsign
     hn::Store(hn::Mul(r, im), d, out + rows_at_once);
 }
 
-// A draw gives a row the phases of sixteen columns; lanes are rows.
+// One draw gives the phases of sixteen columns of a row; lanes are rows.
 void RandomWaves(const PhaseSeries& series, const PhaseRoots& roots, std::size_t first_row, const float* moduli,
                  std::size_t columns, float* out) {
     const D d;

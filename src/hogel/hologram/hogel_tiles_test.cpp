@@ -34,7 +34,7 @@ TEST_P(RandomWaves, equal_their_plain_version_and_take_the_bytes_of_their_rows) 
         random_waves(series, 32, moduli.data(), columns, fast.data());
         for (std::size_t i = 0; i < plain.size(); ++i)
             ASSERT_NEAR(plain.data()[i], fast.data()[i], 4e-7f) << columns << " " << i;
-        // Number 40 · columns + 3 of the whole square is row 8 of these sixteen.
+        // Element 40 · columns + 3 of the whole square is in row 8 of these sixteen.
         const std::vector<float> ones(41 * columns, 1.0f);
         std::vector<Complex> all(ones.size());
         spread_random_phases(series, ones, all);
@@ -66,11 +66,11 @@ TEST_P(Turns, puts_every_number_in_its_place) {
     }
 }
 
-// The plain version: all amplitudes, a phase each, one FFT.
+// The plain version: all amplitudes, a phase for each, and one FFT.
 TEST_P(FastTileKernels, equal_one_fft_of_amplitudes_with_phases) {
     for (const std::size_t side : {16, 32, 128}) {
-        if (!FastTiles::can(side)) return;  // a target without vectors makes holograms the plain way
-        // Fields of view that leave rows dark, some of them sixteen side by side.
+        if (!FastTiles::can(side)) return;  // targets without vectors use the plain version
+        // Fields of view that leave rows dark, including blocks of sixteen.
         const double tangent = side == 128 ? 0.02 : 0.06;
         const LightFieldGrid grid{1, 1, static_cast<double>(side) * 2e-6, 21, 19, Perspective{tangent, tangent}, 1};
         const FrequencyGrid frequencies(grid, side, 532e-9);

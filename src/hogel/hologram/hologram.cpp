@@ -18,7 +18,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Values that the looks of a range of hogels share, [hogel][...], row by row.
+// The prepared values of a range of hogels, [hogel][...], row by row, which all looks share.
 struct Prepared {
     HogelRange range;
     Array<float, 2> values;
@@ -35,7 +35,7 @@ std::unique_ptr<HogelSynthesis> make_synthesis(std::span<const LightFieldGrid> f
     return make_fourier_synthesis(faces, columns, options, std::get<Fourier>(options.method));
 }
 
-// Hogels side by side.
+// A stereogram of hogels side by side.
 class Stereogram final : public FieldSource {
   public:
     Stereogram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options, RayValues values)
@@ -54,6 +54,7 @@ class Stereogram final : public FieldSource {
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return looks_; }
     std::size_t alignment() const override { return std::lcm(columns_, rows_); }
+    const Provenance& provenance() const override { return light_field_.provenance(); }
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
         if (region.samples() == 0) return;
@@ -67,7 +68,7 @@ class Stereogram final : public FieldSource {
             return;
         }
         const View<const float, 5> whole = rays_in_memory(hogels);
-        // A few hogels at a time, so that what one look needs stays in the processor's cache.
+        // A few hogels at a time, so that their values stay in the processor's cache.
         const std::size_t values = synthesis_->prepared_size();
         if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
         for_each_band(hogels, [&](const HogelRange& band) {
@@ -87,8 +88,8 @@ class Stereogram final : public FieldSource {
 
   private:
     static constexpr std::size_t hogels_together = 16;
-    // A region has hundreds of hogels, whose rays may be gigabytes: at most this much is read at a time, or one row of
-    // hogels.
+    // The maximum bytes of rays that are read at a time (but at least one row of hogels), because the rays of a region
+    // may take gigabytes.
     static constexpr std::size_t max_ray_bytes = std::size_t{1} << 27;
 
     const LightFieldGrid& front() const { return light_field_.grid(); }
@@ -96,18 +97,18 @@ class Stereogram final : public FieldSource {
 
     // Buffers for one region.
     struct Room {
-        std::vector<LightFieldTile> rays;  // of each face
+        std::vector<LightFieldTile> rays;  // one per face
         Array<float, 2> prepared;          // [hogels_together][...]
         Array<Complex, 2> square;          // a hogel
     };
 
-    // All rays in place, where the source has them in memory and those of the hogels follow each other; else empty.
+    // A view of the rays if the source has them in memory and those of the hogels are contiguous; otherwise empty.
     View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
         if (faces().size() > 1 || with_depth_ || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
         return light_field_.front().in_memory();
     }
 
-    // Calls use(range) for bands of rows of hogels whose rays are read at once, from the first to the last.
+    // Calls use(range) for consecutive bands of rows of hogels whose rays are read at once.
     template <class Use>
     void for_each_band(const HogelRange& hogels, const Use& use) const {
         const std::size_t values = front().channels + (with_depth_ ? 1 : 0);
@@ -129,7 +130,7 @@ class Stereogram final : public FieldSource {
         }
     }
 
-    // Prepares hogels number first, first + 1, ... of the tiles, each of which holds them row by row.
+    // Prepares hogels number first, first + 1, … of the tiles, which hold them row by row.
     void prepare(std::span<const LightFieldTile> tiles, std::size_t first, View<float, 2> prepared) const {
         const Shape<2> rays{prepared.extent(0), rays_};
         if (tiles.size() > 1) {
@@ -149,7 +150,7 @@ class Stereogram final : public FieldSource {
                             tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
     }
 
-    // Writes the parts of hogels number first, first + 1, ... of a range that lie in the region.
+    // Writes the parts of hogels number first, first + 1, … of a range that are inside the region.
     void write(View<const float, 2> prepared, const HogelRange& hogels, std::size_t first, std::size_t look,
                const Region& region, View<Complex, 2> square, View<Complex, 2> out) const {
         for (std::size_t i = 0; i < prepared.extent(0); ++i) {
@@ -192,7 +193,8 @@ class Stereogram final : public FieldSource {
         return prepared;
     }
 
-    // Readers take the looks of a region one after the other, each in a thread of its own.
+    // Regions whose prepared values are kept, because readers read all looks of a region, and several threads read
+    // regions at once.
     static constexpr std::size_t max_recent = 64;
 
     LightField light_field_;
@@ -200,7 +202,7 @@ class Stereogram final : public FieldSource {
     bool with_depth_;
     FieldGrid grid_;
     std::size_t columns_, rows_;  // samples of a hogel
-    std::size_t rays_ = 0;        // of a hogel, of all faces
+    std::size_t rays_ = 0;        // of a hogel, over all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
     mutable core::ObjectPool<Room> rooms_;
     mutable std::mutex recent_mutex_;
@@ -215,7 +217,8 @@ std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, 
         throw Error(ErrorCode::usage,
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
     if (const auto* overlap = std::get_if<OverlapAdd>(&options.method))
-        return windows::make_overlap_add(light_field.faces().front(), grid, options, overlap->phases);
+        return windows::make_overlap_add(light_field, grid, options, overlap->phases);
+    if (const auto* own = std::get_if<OwnMethod>(&options.method)) return own->make(light_field, grid, options);
     return std::make_shared<Stereogram>(light_field, grid, options, RayValues::radiance);
 }
 

@@ -15,7 +15,7 @@ std::size_t samples_per_hogel(const LightFieldGrid& light_field, double pitch) {
     return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / pitch)));
 }
 
-// Added phases give every ray one wave, so rays farther apart than a hogel's lobes would leave gaps between them.
+// The method gives every ray one wave, so rays farther apart than a hogel's lobes would leave gaps.
 void require_enough_directions(const LightFieldGrid& light_field, double wavelength) {
     const double step = wavelength / light_field.pitch;
     if (std::max(light_field.step_u(), light_field.step_v()) <= step) return;
@@ -29,10 +29,11 @@ void require_enough_directions(const LightFieldGrid& light_field, double wavelen
 }
 
 void require_diffraction(const LightFieldGrid& light_field, double wavelength, double pitch) {
-    // The steepest frequencies on the axes; the corners of the field of view are cut by the light field's own square.
+    // Considers the steepest directions on the axes; in the corners of the field of view frequencies beyond the limit
+    // are left out.
     const double edge = std::max(std::abs(light_field.center_u()) + light_field.half_u(),
                                  std::abs(light_field.center_v()) + light_field.half_v());
-    // The outermost cells of a frequency grid are those of its outermost frequencies.
+    // On a frequency grid the outermost frequency is half a step inside the edge.
     const double needed = !light_field.is_perspective() ? std::min(1.0, edge - 0.5 * light_field.step_u())
                                                         : edge / std::sqrt(1 + edge * edge);
     const double possible = wavelength / (2 * pitch);
@@ -60,7 +61,7 @@ void require_one_row(std::span<const LightFieldGrid> faces) {
     }
 }
 
-// Rows of samples of a hogel, each a line, with `samples` along it.
+// The number of lines of a hogel that has `samples` along each line.
 std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const Lines& lines, std::size_t samples) {
     if (!(lines.line_pitch >= 0)) throw Error(ErrorCode::usage, "the distance of a hologram's lines must be positive");
     require_one_row(faces);
@@ -68,7 +69,7 @@ std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const Lines& 
     return samples_per_hogel(faces.front(), lines.line_pitch);
 }
 
-// Throws where the method cannot make a hologram of such faces.
+// Throws if the method cannot make a hologram of these faces.
 void require_supported(std::span<const LightFieldGrid> faces, const HologramOptions& options) {
     const bool sides = std::holds_alternative<Fourier>(options.method) || std::holds_alternative<Lines>(options.method);
     if (faces.size() > 1 && !sides)

@@ -8,6 +8,7 @@ std::vector<Channel> mono(double wavelength) { return {{wavelength, 0}}; }
 std::vector<Channel> rgb(double red, double green, double blue) { return {{red, 0}, {green, 1}, {blue, 2}}; }
 
 bool needs_depth(const HologramMethod& method) {
+    if (const auto* own = std::get_if<OwnMethod>(&method)) return own->needs_depth;
     return std::holds_alternative<PhaseAdded>(method) || std::holds_alternative<OverlapAdd>(method);
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 using namespace literals;
 
-// A small square behind the hologram: seen from the side it lies at its geometric place, from above still at its own
-// height. x is in focus at the square's depth, y on the hologram.
+// A small square behind the hologram appears at its geometric position when seen from the side, but at its own height
+// when seen from above. x is in focus at the square's depth, y on the hologram.
 TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_on_the_hologram) {
     const double depth = 8_mm, half = 64_um;
     const LightFieldGrid grid{24, 24, 64_um, 64, 1, Perspective{0.15, 0.01}, 1};
@@ -42,13 +42,14 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
         return spot_of(photograph(*hologram, std::span(&camera, 1))[0], camera.picture);
     };
     const double sharp = 2 * half / std::sqrt(12.0);
-    // A disc A wide is A/4 in standard deviation, at the depth ζ in units of the hologram's plane A ζ/(R + ζ).
+    // A disc of diameter A has a standard deviation of A/4; out of focus by ζ it measures A ζ/(R + ζ) on the hologram
+    // plane.
     const double blurred = std::hypot(sharp, 6_mm / 4 * depth / (100_mm + depth));
     const Spot far = seen(0, 0, depth), near = seen(0, 0, 0);
     EXPECT_NEAR(far.high, blurred, 0.15 * blurred);
     EXPECT_NEAR(near.wide, blurred, 0.15 * blurred);
     EXPECT_NEAR(near.high, sharp, 0.3 * sharp);
-    // Across, a hogel is a slit, which makes it λζ/d wide.
+    // Horizontally a hogel is a slit, which diffracts to a width of λζ/d.
     EXPECT_LT(far.wide, 0.7 * blurred);
     // From the side and from above.
     const double aside = 2_mm, above = 1_mm;
@@ -56,8 +57,8 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
     EXPECT_NEAR(seen(0, above, 0).y, 0, 6_um);
 }
 
-// A ball beyond the front's edge, on a side of a hemisquare: at its geometric place across, at its own height up and
-// down, and as wide as what a hogel diffracts.
+// A ball outside the front, on a side of a hemisquare, appears at its geometric position horizontally, at its own
+// height vertically, and as wide as a hogel diffracts.
 TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
     const LightFieldGrid grid{16, 12, 36_um, 64, 1, Perspective{1, 0.1}, 1};
     for (const double side : {1.0, -1.0}) {
@@ -121,7 +122,7 @@ TEST(HorizontalParallax, is_as_bright_as_the_light_field_for_every_line_pitch) {
     }
 }
 
-// The phases that lines share make their fringe flat; the phase of each line sends light up and down alike.
+// Shared phases make the fringe of each line flat; the individual phase of each line spreads the light vertically.
 TEST(HorizontalParallax, designed_phases_flatten_the_fringe_of_every_line) {
     const LightFieldGrid grid{8, 8, 160_um, 30, 1, Perspective{0.12, 0.01}, 1};
     const LightField light = light_field_of_faces({&grid, 1}, [](Vec3, Vec3) { return 0.7; });

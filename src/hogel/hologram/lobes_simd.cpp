@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of average_lobes_plain and transpose_plain, compiled for every instruction set and chosen when first
+// The vector twins of average_lobes_plain and transpose_plain, compiled for every SIMD target and chosen when first
 // called.
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/lobes_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/hologram/lobes.h"
@@ -17,7 +17,7 @@ namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The mean over one lobe for as many hogels as a vector holds; `across` and `down` are its directions.
+// The mean over one lobe for a vector of hogels; `across` and `down` are the numbers of its directions.
 template <class D>
 HWY_INLINE hn::Vec<D> Mean(D d, std::uint32_t across, std::uint32_t down, const float* u, const float* v,
                            const float* rays, std::size_t row) {
@@ -32,7 +32,8 @@ HWY_INLINE hn::Vec<D> Mean(D d, std::uint32_t across, std::uint32_t down, const 
     return sum;
 }
 
-// All lobes have the same number of directions. For the usual small numbers it is a constant; 0: any number.
+// Averages lobes that all have the same number of directions, a compile-time constant for the usual small numbers; 0:
+// any number.
 template <std::uint32_t side>
 void LobeAverage(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
                  std::size_t row_length, bool of_roots, float* out) {
@@ -75,8 +76,8 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
         transpose_four(in, in + from_row, in + 2 * from_row, in + 3 * from_row, out, out + to_row, out + 2 * to_row,
                        out + 3 * to_row);
     };
-    // In squares of sixteen, along the lines that lie farther apart: whole cache lines of those are done with at once,
-    // which at distances of powers of two would not stay in the cache until they are needed again.
+    // In squares of sixteen, along the array with the larger row distance: its cache lines are completed at once,
+    // because at distances of powers of two they would be evicted before they are needed again.
     const std::size_t whole_rows = rows / 4 * 4, whole_columns = columns / 4 * 4;
     for (std::size_t row = 0; row < whole_rows; row += 16)
         for (std::size_t column = 0; column < whole_columns; column += 16) {

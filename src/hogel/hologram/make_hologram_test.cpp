@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws of make_hologram() for light fields of every kind: tiling, shared ownership, refusals; and the table of methods.
+// Tests make_hologram() for light fields of every kind: tiling, shared ownership, refusals; and the table of methods.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ Array<Complex, 2> whole(const FieldSource& source) {
     return field;
 }
 
-// Hogels are keyed by their place, lines by their number.
+// Random phases depend on the position of a hogel and the number of a line, not on the region.
 TEST(MakeHologram, hemicubes_and_lines_give_the_same_bytes_in_any_tiling) {
     const auto light = [](Vec3 hogel, Vec3 direction) { return 1 + 3000 * hogel.x + direction.x / length(direction); };
     const LightField cube = hemicube_of({6, 5, 36_um, 16, 16, Perspective{1, 1}, 1}, light);
@@ -57,7 +57,7 @@ TEST(MakeHologram, hemicubes_and_lines_give_the_same_bytes_in_any_tiling) {
     }
 }
 
-// Light fields and holograms share ownership of what they are made of, so temporaries may be passed on.
+// Light fields and holograms share ownership of their sources, so temporaries may be passed.
 TEST(MakeHologram, a_photograph_may_be_taken_of_temporaries_alone) {
     const LightFieldGrid grid{8, 8, 64_um, 16, 16, Perspective{0.1, 0.1}, 1};
     const auto light = [](Vec3, Vec3) { return 0.5; };
@@ -91,12 +91,35 @@ TEST(MakeHologram, every_method_keeps_its_light_field_alive) {
 }
 
 TEST(HologramMethods, have_unique_names_and_say_whether_they_need_depth) {
-    EXPECT_EQ(hologram_methods().names(),
+    std::vector<std::string> names = hologram_methods().names();
+    names.resize(6);  // rows added by programs come last
+    EXPECT_EQ(names,
               (std::vector<std::string>{"fourier", "lines", "basis", "phase-added", "phase-added-exact", "olas"}));
     for (const HologramMethodInfo& info : hologram_methods().rows())
         EXPECT_EQ(info.needs_depth, needs_depth(info.method)) << info.name;
     EXPECT_TRUE(std::get<PhaseAdded>(hologram_methods().find("phase-added-exact").method).exact);
     EXPECT_THROW(hologram_methods().find("fourrier"), Error);
+}
+
+TEST(HologramMethods, of_a_program_work_like_the_librarys) {
+    // Shows the mean radiance of each hogel as the amplitude of a plane wave.
+    const auto make = [](const LightField& light_field, const FieldGrid& grid, const HologramOptions& options) {
+        auto field = std::make_shared<Field>(grid);
+        const LightFieldGrid& rays = light_field.grid();
+        LightFieldTile tile(rays, {0, 0, rays.hogels_s, rays.hogels_t}, false);
+        light_field.front().read(tile);
+        const std::size_t side = grid.plane.width / rays.hogels_s;
+        for (std::size_t y = 0; y < grid.plane.height; ++y)
+            for (std::size_t x = 0; x < grid.plane.width; ++x)
+                field->samples(y, x) = tile.radiance(options.channel.index, y / side, x / side, 0, 0);
+        return field;
+    };
+    hologram_methods().add({"means", "the mean of each hogel", OwnMethod{"means", false, make}, false});
+    LightFieldBuffer rays({4, 4, 64_um, 25, 25, Perspective{0.12, 0.12}, 1});
+    std::ranges::fill(rays.radiance.elements(), 0.25f);
+    const HologramMethod method = hologram_methods().find("means").method;
+    EXPECT_EQ(whole(*make_hologram(borrow(rays), options_for(method, 2_um)))(40, 40), Complex(0.25f));
+    EXPECT_FALSE(needs_depth(method));
 }
 
 TEST(Channels, pair_wavelengths_with_channels) {
@@ -152,7 +175,7 @@ TEST(MakeHologram, frequencies_need_a_pitch_that_diffracts_them_and_no_added_pha
     LightFieldGrid sines{2, 2, 36_um, 31, 31, Perspective{15.5 * 633e-9 / 36e-6, 15.5 * 633e-9 / 36e-6}, 1};
     sines.view = Frequencies{sines.range()};
     const LightField exact(std::make_shared<const LightFieldBuffer>(sines, true));
-    // 20 samples a hogel show frequencies up to 10 alone.
+    // 20 samples per hogel show only frequencies up to 10.
     expect_refused(exact, options_for(Fourier{}, 1.8_um), "a pitch of 1.2 um or less would do");
     EXPECT_NO_THROW(make_hologram(exact, options_for(Fourier{}, 1.2_um)));
     expect_refused(exact, options_for(PhaseAdded{}, 1.2_um), "uniform in sines");

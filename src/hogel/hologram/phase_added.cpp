@@ -13,10 +13,10 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Each ray is a plane wave. A ray that meets a surface at Q has at the hogel's centre the phase of a spherical wave
-// from Q, and its frequency points from Q to the centre; one that meets nothing keeps its own direction, and its phase
-// is random. A solid angle's share of the radiance makes the amplitude: |a|² = L ΔU ΔV cos³θ, which summed over rays
-// is what the frequency grid sums over its lobes (docs/notation.md, section 3).
+// Each ray becomes a plane wave. If it meets a surface at Q, its phase at the hogel's centre is that of a spherical
+// wave from Q, and its direction is that from Q to the centre. If it meets nothing, it keeps its own direction and has
+// a random phase. The amplitude follows from the ray's solid angle: |a|² = L ΔU ΔV cos³θ, whose sum over rays equals
+// the sum over the lobes of a frequency grid (docs/notation.md, section 3).
 class PhaseAddedSynthesis final : public HogelSynthesis {
   public:
     PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
@@ -74,7 +74,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
 
   private:
     struct Wave {
-        double columns, rows;  // frequency, cycles a sample, along a row and down a column
+        double columns, rows;  // frequency in cycles per sample, along a row and down a column
         double cycles;         // phase at the hogel's centre
     };
 
@@ -82,21 +82,23 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
         double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));
         double cycles = 0;
         if (std::isfinite(depth)) {
-            // On the plane itself all rays of a hogel meet one point; they stay as independent as close to it.
+            // Exactly on the plane all rays of a hogel would meet one point; the minimum depth keeps their phases
+            // independent.
             if (std::abs(depth) < SurfaceCells::shallowest) depth = std::copysign(SurfaceCells::shallowest, depth);
             const SurfaceCell cell = cells_.find(s + U * depth, t + V * depth, depth, look);
             U = (cell.x - s) / cell.depth;
             V = (cell.y - t) / cell.depth;
             cycles = cell.cycles + cell.depth * std::sqrt(1 + U * U + V * V) / wavelength_;
         } else {
-            // A ray that meets nothing sees a surface far away, of which neighbouring hogels see different cells.
+            // A ray that meets nothing is treated as one to a distant surface, of which neighbouring hogels see
+            // different cells.
             cycles = cells_.find(s + U, t + V, 1.0, look).cycles;
         }
         const double to_frequency = pitch_ / (wavelength_ * std::sqrt(1 + U * U + V * V));
         return {-U * to_frequency, V * to_frequency, cycles};
     }
 
-    // A cell at the border of the field of view may lie just beyond what the pitch diffracts to.
+    // Whether a wave, of a cell at the border of the field of view, is beyond what the pitch can sample.
     static bool beyond(const Wave& wave) { return std::abs(wave.columns) > 0.5 || std::abs(wave.rows) > 0.5; }
 
     static Complex at_phase(float amplitude, double cycles) {
@@ -126,8 +128,8 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
     double pitch_;
     SurfaceCells cells_;
     math::Fft2 fft_;
-    std::optional<PlaneWaveSum> waves_;  // where every ray has its own frequency
-    std::vector<float> shares_;          // of each direction, (ΔU ΔV) cos³θ
+    std::optional<PlaneWaveSum> waves_;  // if every ray has its exact frequency
+    std::vector<float> shares_;          // [direction]: ΔU ΔV cos³θ
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A draw of Philox (core/random.h) a lane, for files that are compiled once for every instruction set; included after
-// hwy/highway.h.
+// Philox (core/random.h) with one draw per lane, for files that are compiled once for every SIMD target. To be included
+// after hwy/highway.h.
 #if defined(HOGEL_HOLOGRAM_PHILOX_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_HOLOGRAM_PHILOX_LANES
 #undef HOGEL_HOLOGRAM_PHILOX_LANES
@@ -18,8 +18,8 @@ namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
-// Lanes of 64 bits, of which the lower halves count; the upper halves may hold anything before and after, because the
-// products are of lower halves alone. The four words of the counter become those of the draw.
+// Turns the four words of the counter into those of the draw. Lanes have 64 bits, of which only the lower halves are
+// used; the upper halves are arbitrary before and after, because products use lower halves only.
 template <class D, class V>
 HWY_INLINE void philox_lanes(D d, V& c0, V& c1, V& c2, V& c3, const std::array<std::uint32_t, 2>& key) {
     namespace hn = hwy::HWY_NAMESPACE;

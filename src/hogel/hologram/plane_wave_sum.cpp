@@ -7,8 +7,8 @@
 namespace hogel::hologram {
 namespace {
 
-constexpr double shape = 2.3 * 6;            // of the Kaiser–Bessel kernel, for a grid twice as fine
-constexpr std::size_t steps_per_unit = 512;  // of the table, read with linear interpolation
+constexpr double shape = 2.3 * 6;            // parameter of the Kaiser–Bessel kernel, for a grid twice as fine
+constexpr std::size_t steps_per_unit = 512;  // of the kernel's table, which is interpolated linearly
 
 }  // namespace
 
@@ -50,7 +50,7 @@ PlaneWaveSum::Spread PlaneWaveSum::spread(double frequency) const {
 
 void PlaneWaveSum::add(std::complex<float> amplitude, double column_frequency, double row_frequency,
                        View<std::complex<float>, 2> spectrum) const {
-    // The middle of the square lies half a sample before the sample that the transform counts from, if n is even.
+    // If n is even, the middle of the square is half a sample before the origin of the transform.
     const double offset = samples_ % 2 == 0 ? 0.5 : 0.0;
     const double cycles = offset * (column_frequency + row_frequency);
     amplitude *= std::complex<float>(std::polar(1.0, 2 * std::numbers::pi * cycles));

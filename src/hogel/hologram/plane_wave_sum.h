@@ -10,8 +10,8 @@
 namespace hogel::hologram {
 
 /// Sums of plane waves of any frequencies over a square of n×n samples, at the cost of an FFT of twice the side: each
-/// wave is spread over 6×6 frequencies of a finer grid by a Kaiser–Bessel kernel, whose transform is divided out at the
-/// end (a nonuniform FFT of type 1). Relative error about 1e-5 of the largest sum of amplitudes.
+/// wave is spread over 6×6 frequencies of a finer grid by a Kaiser–Bessel kernel, by whose transform the result is
+/// divided at the end (a nonuniform FFT of type 1). Error: about 1e-5 of the largest sum of amplitudes.
 class PlaneWaveSum {
   public:
     explicit PlaneWaveSum(std::size_t samples);
@@ -20,11 +20,11 @@ class PlaneWaveSum {
     Array<std::complex<float>, 2> make_spectrum() const;
 
     /// Adds amplitude · e^{2πi (column_frequency·p + row_frequency·q)} at sample (column p, row q), both counted from
-    /// the middle of the square; frequencies in cycles a sample, at most 1/2.
+    /// the middle of the square; frequencies in cycles per sample, at most 1/2.
     void add(std::complex<float> amplitude, double column_frequency, double row_frequency,
              View<std::complex<float>, 2> spectrum) const;
 
-    /// Transforms the spectrum, which is lost, and writes the n×n samples.
+    /// Transforms the spectrum, which is overwritten, and writes the n×n samples.
     void transform(View<std::complex<float>, 2> spectrum, View<std::complex<float>, 2> samples) const;
 
   private:
@@ -38,7 +38,7 @@ class PlaneWaveSum {
     std::size_t samples_, size_;
     math::Fft2 fft_;
     std::vector<float> kernel_;      // from its middle outwards
-    std::vector<float> correction_;  // one over the kernel's transform, for each sample of a side
+    std::vector<float> correction_;  // reciprocal of the kernel's transform, for each sample along a side
 };
 
 }  // namespace hogel::hologram

@@ -5,7 +5,7 @@
 namespace hogel::hologram {
 namespace {
 
-constexpr std::int64_t margin = 32;  // hogels around the region's
+constexpr std::int64_t margin = 32;  // hogels beyond the region on each side
 
 }  // namespace
 

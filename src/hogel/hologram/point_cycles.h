@@ -13,13 +13,13 @@ namespace hogel::hologram {
 struct CycleSeries {
     std::array<std::uint32_t, 2> key;  ///< the seed
     std::uint32_t series;              ///< look and colour
-    /// The phase of the surface's point at a hogel's place; or, with `direction` counted from one, of a direction of
-    /// the hogel that meets nothing.
+    /// The phase of the surface point at a hogel's position; or, with `direction` counted from one, of a ray of the
+    /// hogel that meets nothing.
     double operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction = 0) const;
 };
 
-/// The phases of a surface's points, one a hogel. Those around the hogels that a region needs are kept, because many
-/// hogels see each.
+/// The phases of surface points, one per hogel. Those around the hogels of a region are precomputed, because many
+/// hogels see each point.
 class PointCycles {
   public:
     PointCycles(const CycleSeries& series, const HogelRange& hogels);

@@ -23,8 +23,8 @@ Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid)
             std::complex<double> sum = 0;
             for (const PointSource& point : points) {
                 const double r = length(here - point.position);
-                // Behind the plane (z < 0) the wave has spread since it left the point; in front of it, it still
-                // converges on the point, and arrives there with the point's phase.
+                // From a point behind the plane (z < 0) the wave diverges; to a point in front of it the wave converges
+                // and arrives there with the point's phase.
                 const double travelled = point.position.z < 0 ? r : -r;
                 sum += std::polar(point.amplitude / r, k * travelled + point.phase);
             }

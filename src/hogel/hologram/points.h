@@ -15,7 +15,7 @@ struct PointSource {
 };
 
 /// The exact Huygens sum of spherical waves, a e^{±ikr}/r, on a plane. A point in front of the plane is the focus of a
-/// converging wave. Source: [K] (3.5). Throws Error(usage) for a point on the plane's own z = 0.
+/// converging wave. Source: [K] (3.5). Throws Error(usage) for a point on the plane z = 0.
 Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid);
 
 }  // namespace hogel::hologram

@@ -16,8 +16,8 @@ namespace {
 
 using namespace literals;
 
-// Where the light of a picture is: its centroid and the full width at half maximum of its horizontal profile through
-// the brightest pixel, in metres on the hologram plane.
+// The spot in a picture: its centroid, and the full width at half maximum of its horizontal profile through the
+// brightest pixel, in metres on the hologram plane.
 struct Spot {
     double x = 0, y = 0, width = 0, peak = 0;
 };
@@ -36,7 +36,7 @@ Spot measure(const Image& image, const Grid& picture) {
     for (std::size_t row = 0; row < image.height(); ++row)
         for (std::size_t column = 0; column < image.width(); ++column) {
             const double value = image.pixels(row, column, 0);
-            // The rings of the spot do not end; its core gives its place.
+            // Only the core of the spot determines its position, because its rings extend without limit.
             if (value < 0.3 * spot.peak) continue;
             sum += value;
             spot.x += value * picture.x(double(column));
@@ -78,12 +78,12 @@ class PointPhotograph : public ::testing::TestWithParam<Case> {
     }
 };
 
-// At its geometric place, as narrow as diffraction allows, and sharpest at its own depth.
+// A point appears at its geometric position, as narrow as diffraction allows, and sharpest with the focus at its depth.
 TEST_P(PointPhotograph, lies_where_geometry_says_and_is_diffraction_limited) {
     const auto [depth, eye] = GetParam();
     const Vec3 point{0.2e-3, -0.3e-3, -depth};
     const Field field = point_hologram(std::span<const PointSource>(std::array{PointSource{point, 1, 0}}), grid);
-    // Seen through the middle of the lens the point lies over this place of the hologram plane.
+    // Seen from the middle of the lens, the point is in line with this point of the hologram plane.
     const double along = eye.z / (eye.z - point.z);
     const double x = eye.x + along * (point.x - eye.x), y = eye.y + along * (point.y - eye.y);
     const std::array cameras{camera_at(eye, depth, x, y), camera_at(eye, depth + 2_mm, x, y),
@@ -93,7 +93,7 @@ TEST_P(PointPhotograph, lies_where_geometry_says_and_is_diffraction_limited) {
     const double cell = resolution_cell(cameras[0], wavelength);
     EXPECT_NEAR(sharp.x, x, 0.1 * cell);
     EXPECT_NEAR(sharp.y, y, 0.1 * cell);
-    // Full width at half maximum of Airy's pattern: 1.029 λR/A, the eye's own distance and obliquity included.
+    // Full width at half maximum of Airy's pattern: 1.029 λR/A, for the actual distance and obliquity of the eye.
     const Vec3 seen{x, y, 0};
     const double distance = length(eye - seen), cosine = eye.z / distance, sine = (eye.x - x) / distance;
     const double expected = 1.029 * wavelength * distance / 4_mm / (1 - sine * sine);

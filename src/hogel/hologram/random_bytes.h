@@ -8,8 +8,8 @@
 
 namespace hogel::hologram {
 
-/// The bytes of Philox's draws number first_draw, first_draw + 1, … of a series, sixteen a draw, each word's lowest
-/// byte first; plain, and with many draws at once. The twins give the same bytes.
+/// The bytes of Philox's draws number first_draw, first_draw + 1, … of a series, sixteen per draw, the lowest byte of
+/// each word first. The plain and the fast twin (many draws at once) give the same bytes.
 void random_bytes_plain(const PhaseSeries& series, std::uint32_t first_draw, std::span<std::uint8_t> bytes);
 void random_bytes(const PhaseSeries& series, std::uint32_t first_draw, std::span<std::uint8_t> bytes);
 

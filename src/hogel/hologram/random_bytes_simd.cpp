@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of random_bytes_plain, compiled for every instruction set and chosen when first called.
+// The vector twin of random_bytes_plain, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/random_bytes_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/hologram/philox_lanes.h"
@@ -19,7 +19,7 @@ void RandomBytes(const PhaseSeries& series, std::uint32_t first_draw, std::span<
     random_bytes_plain(series, first_draw, bytes);
 }
 #else
-// One draw a lane of 64 bits.
+// One draw per lane of 64 bits.
 void RandomBytes(const PhaseSeries& series, std::uint32_t first_draw, std::span<std::uint8_t> bytes) {
     const hn::ScalableTag<std::uint64_t> d;
     const std::size_t lanes = hn::Lanes(d), at_once = 16 * lanes;

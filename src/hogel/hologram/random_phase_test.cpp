@@ -74,7 +74,7 @@ TEST(RandomPhase, is_uniform_and_independent) {
         with_hogel += z * std::conj(std::complex<double>(other_hogel[i]));
         with_next += z * std::conj(std::complex<double>(a[(i + 1) % count]));
     }
-    // A sum of n independent unit vectors is about √n long; 3.5 √n is passed about once in 200,000 draws.
+    // A sum of n independent unit vectors is about √n long; it exceeds 3.5 √n about once in 200,000 draws.
     const double bound = 3.5 * std::sqrt(double(count));
     for (const auto& sum : {moments[0], moments[1], moments[2], with_look, with_hogel, with_next})
         EXPECT_LT(std::abs(sum), bound);

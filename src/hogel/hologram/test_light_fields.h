@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields from formulas, and measures of their photographs, for the tests of this module.
+// Light fields given by formulas, and measures of their photographs, for the tests of this module.
 #pragma once
 
 #include <cmath>
@@ -39,7 +39,7 @@ inline LightField hemicube_of(const LightFieldGrid& grid, const Radiance& radian
     return light_field_of_faces(hemicube(grid), radiance);
 }
 
-/// Where the light of a picture is.
+/// Position and size of the light in a picture.
 struct Spot {
     double x = 0, y = 0, wide = 0, high = 0;  ///< centroid and standard deviations, metres
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transpose of sixteen rows of sixteen numbers, for files that are compiled once for every instruction set;
+// The transpose of sixteen rows of sixteen numbers, for files that are compiled once for every SIMD target. To be
 // included after hwy/highway.h.
 #if defined(HOGEL_HOLOGRAM_TRANSPOSE_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_HOLOGRAM_TRANSPOSE_LANES
@@ -23,7 +23,7 @@ void transpose_sixteen(const From& from, std::size_t columns, const To& to) {
         for (std::size_t i = 0; i < 16; ++i) to(j)[i] = from(i)[j];
 }
 #else
-// Four numbers each of four rows.
+// Transposes four numbers of each of four rows.
 HWY_INLINE void transpose_four(const float* a, const float* b, const float* c, const float* e, float* out0, float* out1,
                                float* out2, float* out3) {
     namespace hn = hwy::HWY_NAMESPACE;
@@ -37,14 +37,14 @@ HWY_INLINE void transpose_four(const float* a, const float* b, const float* c, c
     hn::StoreU(hn::InterleaveUpper(d, ac_upper, be_upper), d, out3);
 }
 
-// from(i) is where row i begins, to(j) where column j goes, for j < columns alone.
+// Transposes sixteen rows: from(i) is the beginning of row i, to(j) the destination of column j, for j < columns.
 template <class From, class To>
 HWY_INLINE void transpose_sixteen(const From& from, std::size_t columns, const To& to) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::FixedTag<float, 16> d;
     const hn::Repartition<double, decltype(d)> pairs;
-    // Single numbers change places, then pairs, fours and eights.
+    // Exchanges single numbers, then pairs, fours and eights.
     hn::Vec<decltype(d)> a[16], b[16];
     for (std::size_t i = 0; i < 16; ++i) a[i] = hn::LoadU(d, from(i));
     for (std::size_t i = 0; i < 16; i += 2) {

@@ -9,7 +9,7 @@
 
 namespace hogel::hologram {
 
-/// e^{2πi t} from a table of 4096 steps, where many phases are needed and 67 dB are enough.
+/// e^{2πi t} from a table of 4096 steps, for many phases with an accuracy of 67 dB.
 class UnitRoots {
   public:
     UnitRoots() {
@@ -25,7 +25,8 @@ class UnitRoots {
 
   private:
     static constexpr std::size_t steps = 4096;
-    static constexpr double whole_cycles = 0x1p30;  // makes numbers positive, whose fraction is then what is cut off
+    static constexpr double whole_cycles =
+        0x1p30;  // added to make numbers positive, so that truncation gives the fraction
     alignas(64) std::array<std::complex<float>, steps> roots_;
 };
 

@@ -43,7 +43,7 @@ TEST(Camera, validate_names_what_is_wrong) {
     EXPECT_NE(refusal([](Camera& c) { c.picture.center_y = nan; }).find("centre"), std::string::npos);
 }
 
-// The point in focus lies on the line of sight and on the plane in focus.
+// The point in focus is on the line of sight and on the plane in focus.
 TEST(Camera, focus_ratio_gives_the_point_in_focus) {
     Camera camera;
     camera.eye = {0.02, -0.01, 0.25};

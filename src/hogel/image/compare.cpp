@@ -14,7 +14,7 @@
 namespace hogel {
 namespace {
 
-// [y][x], for instance the luma of display values (Rec. 709 weights, which belong to the sRGB primaries).
+// One value per pixel, [y][x], for instance the luma of display values (Rec. 709 weights, those of the sRGB primaries).
 using Plane = Array<double, 2>;
 
 float display(float linear, double exposure) { return srgb_encode(static_cast<float>(linear * exposure)); }
@@ -43,7 +43,7 @@ std::vector<double> gaussian_window(std::size_t extent) {
     return window;
 }
 
-// Weighted means of f(y, x) over every window that lies wholly inside the picture.
+// Weighted means of f(y, x) over every window that is completely inside the picture.
 template <class F>
 Plane local_mean(std::size_t height, std::size_t width, const F& f) {
     const std::vector<double> across = gaussian_window(width), down = gaussian_window(height);

@@ -26,7 +26,7 @@ Image noise(std::size_t width, std::size_t height, std::size_t channels, unsigne
     return image;
 }
 
-// SSIM as it is defined: at every place an 11 x 11 window, its means, then its variances about those means.
+// SSIM by its definition: for an 11 x 11 window around every pixel, the means, then the variances about those means.
 double ssim_by_definition(const Image& a, const Image& b, double exposure) {
     const auto luma = [&](const Image& image, std::size_t y, std::size_t x) {
         const auto value = [&](std::size_t c) {
@@ -38,7 +38,7 @@ double ssim_by_definition(const Image& a, const Image& b, double exposure) {
     const auto weight = [](int i, int j) { return std::exp(-(i * i + j * j) / (2 * 1.5 * 1.5)); };
     for (int j = -5; j <= 5; ++j)
         for (int i = -5; i <= 5; ++i) norm += weight(i, j);
-    // The middle of the published window, MATLAB's fspecial('gaussian', 11, 1.5).
+    // The central value of the published window, MATLAB's fspecial('gaussian', 11, 1.5).
     EXPECT_NEAR(1 / norm, 0.0707622, 1e-7);
     std::size_t places = 0;
     for (std::size_t y = 5; y + 5 < a.height(); ++y)
@@ -113,7 +113,7 @@ TEST(Compare, linear_psnr_does_not_depend_on_the_units_of_light) {
     const ImageComparison one = compare(a, b), four = compare(a4, b4, 0.25);
     EXPECT_NEAR(one.linear_psnr, four.linear_psnr, 1e-9);
     EXPECT_NEAR(one.psnr, four.psnr, 1e-9);
-    // Display values are clamped: all that is brighter than white is white.
+    // Display values are clamped, so everything brighter than white is white.
     EXPECT_EQ(compare(constant(4, 4, 1, 1),
                       [] {
                           Image bright(4, 4, 1);

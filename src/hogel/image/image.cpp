@@ -36,7 +36,7 @@ double automatic_exposure(const Image& image) {
     const auto rank = static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(largest.size() - 1));
     std::nth_element(largest.begin(), largest.begin() + rank, largest.end());
     float white = largest[static_cast<std::size_t>(rank)];
-    // Less than half a per cent of the pixels are not black.
+    // If fewer than half a per cent of the pixels are not black, uses the maximum.
     if (!(white > 0)) white = *std::max_element(largest.begin(), largest.end());
     return white > 0 ? 1 / static_cast<double>(white) : 1;
 }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <system_error>
 
 #include "hogel/error.h"
@@ -21,8 +22,8 @@ using namespace image;
 
 namespace {
 
-// A picture of more bytes than this for each byte of its file is refused as damaged, so that a few bytes cannot ask for
-// gigabytes: deflate reaches 1032. Pictures below the second limit are exempt.
+// The largest ratio of a picture's bytes to those of its file (deflate reaches 1032). Beyond it a file is refused as
+// damaged, so that a few bytes cannot make the library allocate gigabytes. Pictures below the second limit are exempt.
 constexpr std::uint64_t max_expansion = 4096;
 constexpr std::uint64_t always_allowed = std::uint64_t{16} << 20;
 
@@ -84,7 +85,7 @@ Image read_pixels(OIIO::ImageInput& in, const std::string& name) {
     return image;
 }
 
-// Turns exceptions into Error(bad_input): OpenImageIO reports errors by return values, but the libraries below it
+// Turns exceptions into Error(bad_input). OpenImageIO reports errors by return values, but the libraries that it uses
 // throw.
 template <class F>
 auto guarded(const std::string& name, const F& body) {
@@ -148,6 +149,25 @@ OpenPicture open_file(const std::filesystem::path& path, std::uint64_t& file_byt
     return picture;
 }
 
+// The texts of a picture file. Names with a colon are internal to OpenImageIO. In a TIFF file write_image() stores the
+// texts as lines of the description.
+Metadata texts_of(const OIIO::ImageSpec& spec) {
+    Metadata texts;
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (attribute.type() != OIIO::TypeDesc::STRING || name.find(':') != std::string::npos) continue;
+        std::istringstream lines(attribute.get_string());
+        std::string line;
+        std::size_t colon = 0;
+        if (name == "ImageDescription" && lines.str().ends_with('\n'))
+            while (std::getline(lines, line) && (colon = line.find(": ")) != std::string::npos)
+                texts.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+        else
+            texts.emplace_back(name, lines.str());
+    }
+    return texts;
+}
+
 }  // namespace
 
 Image read_image(const std::filesystem::path& path, std::size_t max_pixels) {
@@ -156,7 +176,9 @@ Image read_image(const std::filesystem::path& path, std::size_t max_pixels) {
         std::uint64_t file_bytes = 0;
         const OpenPicture picture = open_file(path, file_bytes);
         check_size(picture.in->spec(), name, max_pixels, file_bytes);
-        return read_pixels(*picture.in, name);
+        Image image = read_pixels(*picture.in, name);
+        image.provenance = to_provenance(texts_of(picture.in->spec()));
+        return image;
     });
 }
 
@@ -178,13 +200,13 @@ RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pix
         const OpenPicture picture = open_file(path, file_bytes);
         const OIIO::ImageSpec& spec = picture.in->spec();
         check_size(spec, name, max_pixels, file_bytes);
-        // Grey with or without alpha, or three equal channels.
+        // The picture must be grey, with or without alpha, or have three equal channels.
         const std::size_t channels = spec.nchannels >= 3 ? 3 : 1;
         std::vector<float> values(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                                   channels);
         RawPixels pixels;
         const bool whole = !spec.format.is_floating_point() && spec.format.size() <= 2;
-        // OpenImageIO converts whole numbers to fractions of the largest.
+        // OpenImageIO converts whole numbers to fractions of the largest one, which is undone here.
         if (whole) pixels.levels = spec.format.size() == 1 ? 256 : 65536;
         const float scale = whole ? static_cast<float>(pixels.levels - 1) : 1.0f;
         if (!picture.in->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::FLOAT, values.data()))
@@ -203,12 +225,7 @@ RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pix
 Metadata read_metadata(const std::filesystem::path& path) {
     return guarded(path.string(), [&] {
         std::uint64_t file_bytes = 0;
-        const OpenPicture picture = open_file(path, file_bytes);
-        Metadata metadata;
-        for (const OIIO::ParamValue& attribute : picture.in->spec().extra_attribs)
-            if (attribute.type() == OIIO::TypeDesc::STRING)
-                metadata.emplace_back(attribute.name().string(), attribute.get_string());
-        return metadata;
+        return texts_of(open_file(path, file_bytes).in->spec());
     });
 }
 

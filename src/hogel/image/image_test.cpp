@@ -27,7 +27,7 @@ class ImageFile : public testing::Test {
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_image_" + std::to_string(::getpid()));
 };
 
-// Values that half floats keep exactly.
+// Values that are exact as half floats.
 Image ramp(std::size_t width, std::size_t height, std::size_t channels) {
     Image image(width, height, channels);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels.data()[i] = static_cast<float>(i % 1024) / 512;
@@ -94,7 +94,7 @@ TEST_F(ImageFile, exr_keeps_linear_values_and_metadata) {
 }
 
 TEST_F(ImageFile, png_and_tiff_keep_every_display_value) {
-    // Each of the 256 display values, as linear light, comes back as the same linear light.
+    // Each of the 256 display values is read back as the same linear light.
     for (const char* name : {"a.png", "a.tif"})
         for (std::size_t channels : {1, 3})
             for (double exposure : {1.0, 0.25}) {
@@ -118,11 +118,7 @@ TEST_F(ImageFile, png_and_tiff_keep_metadata) {
     for (const auto& entry : metadata) EXPECT_EQ(std::ranges::count(png, entry), 1) << entry.first;
     write_image(directory_ / "a.tif", ramp(3, 2, 3), 1, metadata);
     const Metadata tiff = read_metadata(directory_ / "a.tif");
-    EXPECT_EQ(std::ranges::count(
-                  tiff,
-                  std::pair<std::string, std::string>{
-                      "ImageDescription", "hogel_command: render scene.glb --hogels 64x64\nhogel_version: 1.2.3\n"}),
-              1);
+    for (const auto& entry : metadata) EXPECT_EQ(std::ranges::count(tiff, entry), 1) << entry.first;
 }
 
 TEST_F(ImageFile, values_beyond_display_are_clamped) {
@@ -175,7 +171,7 @@ TEST_F(ImageFile, a_header_that_claims_too_much_is_refused_before_memory_is_take
     };
     patch(16, 16384);
     patch(20, 16384);
-    std::uint32_t crc = ~0u;  // of the type and the data of the IHDR chunk, ISO 3309
+    std::uint32_t crc = ~0u;  // CRC of type and data of the IHDR chunk, ISO 3309
     for (std::size_t i = 12; i < 29; ++i) {
         crc ^= png[i];
         for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xEDB88320u : 0);

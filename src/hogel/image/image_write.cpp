@@ -26,7 +26,7 @@ unsigned char quantise(float linear, double exposure) {
     return static_cast<unsigned char>(std::lround(255 * srgb_encode(static_cast<float>(linear * exposure))));
 }
 
-// TIFF has no free text fields: there the metadata goes into its description, a line for each entry.
+// TIFF has no free text fields, so there metadata is stored in the description, one line per entry.
 void add_metadata(OIIO::ImageSpec& spec, const std::string& format, const Metadata& metadata) {
     if (format == "tiff") {
         std::string lines;
@@ -50,7 +50,7 @@ void check_writable(const Image& image, double exposure, const std::string& name
         throw Error(ErrorCode::usage, fmt::format("the exposure is {}, but must be positive and finite", exposure));
 }
 
-// Writes to `memory`, or to the file `path` where `memory` is null.
+// Writes to `memory`, or to the file `path` if `memory` is null.
 void encode(const Image& image, double exposure, const std::string& format, const Metadata& metadata,
             const std::string& name, OIIO::Filesystem::IOProxy* memory, const std::string& path) {
     const bool linear = format == "openexr";
@@ -104,7 +104,8 @@ std::string format_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_image(const std::filesystem::path& path, const Image& image, double exposure, const Metadata& metadata) {
+void write_image(const std::filesystem::path& path, const Image& image, double exposure, const Metadata& options) {
+    const Metadata metadata = with_history(options, to_metadata(image.provenance));
     const std::string format = format_of(path);
     check_writable(image, exposure, path.string());
     core::OutputFile file(path);

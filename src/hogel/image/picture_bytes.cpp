@@ -36,7 +36,7 @@ std::uint32_t little_endian(std::span<const unsigned char> b) {
     return std::uint32_t{b[3]} << 24 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[1]} << 8 | b[0];
 }
 
-// ISO 15948: a signature of 8 bytes, then chunks of length, name, data and checksum.
+// PNG (ISO 15948): a signature of 8 bytes, then chunks of length, name, data and checksum.
 std::string png_error(std::span<const unsigned char> bytes) {
     for (std::size_t at = 8; bytes.size() - at >= 12;) {
         const std::uint32_t length = big_endian(bytes.subspan(at, 4));

@@ -28,8 +28,8 @@ std::string format_of(const std::filesystem::path& path) {
     throw Error(ErrorCode::usage, fmt::format("'{}': patterns are written as .png, .bmp or .tif", path.string()));
 }
 
-// An uncompressed Windows bitmap: a file header, BITMAPINFOHEADER, 256 greys where there is one channel, and rows from
-// the bottom up, padded to four bytes, colours as blue, green, red.
+// Encodes an uncompressed Windows bitmap: a file header, BITMAPINFOHEADER, a palette of 256 greys for one channel, and
+// rows from the bottom up, padded to four bytes, with colours as blue, green, red.
 std::vector<unsigned char> encode_bmp(View<const std::uint8_t, 3> levels) {
     const std::size_t height = levels.extent(0), width = levels.extent(1), channels = levels.extent(2);
     const std::size_t palette = channels == 1 ? 1024 : 0, stride = (width * channels + 3) / 4 * 4;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that cannot be written, or are damaged.
+// Tests files that cannot be written and files that are damaged.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -59,7 +59,7 @@ TEST_F(DamagedFiles, errors_of_creating_say_what_is_in_the_way) {
     LightFieldGrid nothing = grid;
     nothing.directions_u = 0;
     EXPECT_SAYS(creating(path_, nothing, ErrorCode::usage), "0x4 directions");
-    // 2^58 samples fit no disk: found out before the first sample.
+    // No disk has space for 2^58 samples, which is detected before the first sample.
     const std::size_t many = std::size_t{1} << 14;
     EXPECT_SAYS(creating(path_, grid_of(many, many, many, many, 1), ErrorCode::cannot_write), path_.string());
     EXPECT_SAYS(creating(path_, grid, ErrorCode::usage, {{"format", "mine"}}), "reserved");
@@ -80,7 +80,7 @@ TEST_F(DamagedFiles, a_full_disk_is_an_error_at_once) {
     for (const rlim_t limit : {rlim_t{0}, rlim_t{1000}, rlim_t{100000}, rlim_t{2} << 20}) {
         const pid_t child = fork();
         if (child == 0) {
-            std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files then fails like a full disk does
+            std::signal(SIGXFSZ, SIG_IGN);  // then a limit on the size of files fails as a full disk does
             const rlimit size{limit, limit};
             setrlimit(RLIMIT_FSIZE, &size);
             int status = 1;
@@ -119,7 +119,7 @@ TEST_F(DamagedFiles, missing_truncated_and_other_files_are_refused) {
     EXPECT_NE(refusal(path_), "");
 }
 
-// Damages each byte of a file but those of the samples, one at a time, and reads it: an Error may be thrown or nothing.
+// Damages each byte of a file except the samples, one at a time, and reads the file, which may throw only Error.
 template <class Samples, class Read>
 void damage_every_byte(const fs::path& path, const Samples& samples, const Read& read) {
     const std::string whole = text_of(path);
@@ -183,7 +183,7 @@ TEST_F(DamagedFiles, a_side_face_damaged_in_any_byte_of_its_header_is_refused_or
 TEST_F(DamagedFiles, a_hologram_damaged_in_any_byte_of_its_header_is_refused_or_unchanged) {
     const FieldGrid grid = plane_of(7, 5);
     Field field = random_field(grid);
-    // Numbers that halves keep exactly.
+    // Numbers that are exact as half floats.
     for (auto& sample : field.samples.elements()) {
         const auto kept = [](float part) { return core::float_of(core::half_of(1e-6f * part)); };
         sample = {kept(sample.real()), kept(sample.imag())};
@@ -191,10 +191,10 @@ TEST_F(DamagedFiles, a_hologram_damaged_in_any_byte_of_its_header_is_refused_or_
     std::vector<std::uint16_t> halves(2 * field.samples.size());
     core::to_half(reinterpret_cast<const float*>(field.samples.data()), halves.data(), halves.size());
     const auto read = [&] {
-        const HologramFile file = open_hologram(path_);
-        EXPECT_EQ(file.fields.at(0)->grid(), grid);
+        const Fields fields = open_hologram(path_);
+        EXPECT_EQ(fields.at(0)->grid(), grid);
         Field back(grid);
-        copy(*file.fields[0], back);
+        copy(*fields[0], back);
         EXPECT_TRUE(same_bits(back.samples, field.samples));
         summarize(path_);
     };

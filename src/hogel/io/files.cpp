@@ -27,7 +27,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-// Only pictures and meshes are told by their names.
+// Only pictures and meshes are recognised by their names.
 FileKind kind_by_extension(const std::filesystem::path& path) {
     const std::string extension = lower_case(path.extension().string());
     for (const FileFormat& format : file_formats().rows())
@@ -91,7 +91,7 @@ FileSummary summarize(const std::filesystem::path& path) {
 }
 
 LightField open_light_field(const std::filesystem::path& path) {
-    return is_stream(path) ? open_stream(path) : LightField(io::hdf5::open_faces(path));
+    return is_stream(path) ? open_stream(path) : io::hdf5::open_light_field(path);
 }
 
 }  // namespace hogel

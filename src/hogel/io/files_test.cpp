@@ -9,14 +9,14 @@
 #include "hogel/core/parallel.h"
 #include "hogel/io/test_files.h"
 
-// HDF5 1.10 leaks what it had begun to load when a checksum turns out wrong; builds with a leak checker ask here.
+// Suppressions for leak checkers: HDF5 1.10 leaks data when a checksum is wrong.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
 namespace hogel::io {
 namespace {
 
-// Writes by tiles of a size, in random order and from several threads.
+// Writes tiles of a given size in random order from several threads.
 void write_tiles(const LightFieldBuffer& from, LightFieldSink& sink, std::size_t ns, std::size_t nt) {
     const LightFieldGrid& g = from.grid();
     std::vector<HogelRange> ranges;
@@ -146,19 +146,19 @@ TEST_F(Files, a_hologram_of_any_size_comes_back) {
         copy(first, *sinks[0]);
         EXPECT_TRUE(!fs::exists(path_) || width != 1 || height != 1) << "has its name before the last field";
         copy(second, *sinks[1]);
-        const HologramFile file = open_hologram(path_);
-        ASSERT_EQ(file.fields.size(), 2u);
-        EXPECT_EQ(file.fields[0]->grid(), grids[0]);
-        EXPECT_EQ(file.fields[1]->grid(), grids[1]);
-        EXPECT_EQ(file.metadata, (Metadata{{"hogel_command", "hologram a.h5"}}));
+        const Fields fields = open_hologram(path_);
+        ASSERT_EQ(fields.size(), 2u);
+        EXPECT_EQ(fields[0]->grid(), grids[0]);
+        EXPECT_EQ(fields[1]->grid(), grids[1]);
+        EXPECT_EQ(fields.front()->provenance().entries, (Metadata{{"hogel_command", "hologram a.h5"}}));
         Field back_first(grids[0]), back_second(grids[1]);
-        copy(*file.fields[0], back_first);
-        copy(*file.fields[1], back_second);
+        copy(*fields[0], back_first);
+        copy(*fields[1], back_second);
         EXPECT_TRUE(same_bits(first.samples, back_first.samples));
         EXPECT_TRUE(same_bits(second.samples, back_second.samples));
         Array<std::complex<float>, 2> one({1, 1});
-        EXPECT_THROW(file.fields[0]->read({width, 0, 1, 1}, 0, one), Error);
-        EXPECT_THROW(file.fields[0]->read({0, 0, 1, 1}, 1, one), Error);
+        EXPECT_THROW(fields[0]->read({width, 0, 1, 1}, 0, one), Error);
+        EXPECT_THROW(fields[0]->read({0, 0, 1, 1}, 1, one), Error);
     }
 }
 
@@ -167,12 +167,12 @@ TEST_F(Files, a_hologram_of_halves_comes_back_to_eleven_bits) {
     Field field = random_field(grid);
     for (auto& sample : field.samples.elements()) sample *= 1e-6f;
     copy(field, *create_hologram(path_, {&grid, 1}, {.type = SampleType::half})[0]);
-    const HologramFile file = open_hologram(path_);
-    EXPECT_EQ(file.fields.at(0)->grid(), grid);
+    const Fields fields = open_hologram(path_);
+    EXPECT_EQ(fields.at(0)->grid(), grid);
     EXPECT_LT(fs::file_size(path_), 4 * grid.plane.samples() + 8192);
     EXPECT_EQ(std::ranges::count(summarize(path_).text, std::pair<std::string, std::string>{"samples", "half"}), 1);
     Field back(grid);
-    copy(*file.fields[0], back);
+    copy(*fields[0], back);
     const auto same = [](float value, float kept) {
         return std::abs(kept - value) <= std::max(std::abs(value) * 0x1p-11f, 0x1p-25f);
     };
@@ -181,7 +181,7 @@ TEST_F(Files, a_hologram_of_halves_comes_back_to_eleven_bits) {
         ASSERT_TRUE(same(field.samples.data()[i].imag(), back.samples.data()[i].imag())) << i;
     }
     Array<std::complex<float>, 2> part({3, 5});
-    file.fields[0]->read({1290, 1020, 5, 3}, 0, part);
+    fields[0]->read({1290, 1020, 5, 3}, 0, part);
     EXPECT_EQ(part(2, 4), back.samples(1022, 1294));
 
     field.samples(700, 5) = {0, -65505};
@@ -227,7 +227,7 @@ TEST_F(Files, say_what_they_are) {
     }
     EXPECT_THROW(file_kind(directory_ / "missing.h5"), Error);
     EXPECT_THROW(file_kind(directory_), Error);
-    // A hologram is no light field, nor the other way round.
+    // A hologram is refused as a light field, and the reverse.
     EXPECT_SAYS(refusal(hologram), "'hogel hologram', but a 'hogel light field'");
     EXPECT_THROW(open_hologram(path_), Error);
 }
@@ -265,7 +265,7 @@ TEST_F(Files, many_threads_open_read_and_write_at_once) {
         LightFieldBuffer back(grid, true);
         copy(open_light_field(path).front(), back);
         good += same_bits(back.radiance, field.radiance) && same_bits(back.depth, field.depth);
-        // All threads write the same file: it ends up whole.
+        // All threads write the same file, which must be complete in the end.
         copy(field, *create_front(path_, grid));
     });
     EXPECT_EQ(good, 40);

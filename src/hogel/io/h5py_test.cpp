@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What docs/files.md promises to users of h5py: its examples run, values arrive, and files made by h5py are read.
+// Tests what docs/files.md promises to users of h5py: its examples run, values are right, and files made by h5py are
+// read.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -54,7 +55,7 @@ LightFieldGrid small_grid() {
     return grid;
 }
 
-// Whole numbers below 2048, which half floats keep.
+// Whole numbers below 2048, which are exact as half floats.
 LightFieldBuffer numbered(const LightFieldGrid& grid) {
     LightFieldBuffer field(grid, true);
     for (std::size_t i = 0; i < field.radiance.size(); ++i) field.radiance.data()[i] = static_cast<float>(i);
@@ -220,16 +221,16 @@ TEST_F(H5py, writes_holograms_that_are_read) {
                 "d.attrs.update(wavelength_m=5e-7, pitch_x_m=1e-6, pitch_y_m=2e-6, center_x_m=0.25, center_y_m=-0.5, "
                 "z_m=0)\n",
             directory_ / "f.h5");
-        const HologramFile file = open_hologram(directory_ / "f.h5");
-        ASSERT_EQ(file.fields.size(), 1u);
-        EXPECT_EQ(file.fields[0]->grid(), plane);
+        const Fields fields = open_hologram(directory_ / "f.h5");
+        ASSERT_EQ(fields.size(), 1u);
+        EXPECT_EQ(fields[0]->grid(), plane);
         Field back(plane);
-        copy(*file.fields[0], back);
+        copy(*fields[0], back);
         EXPECT_TRUE(std::ranges::equal(back.samples.elements(), numbered(plane).samples.elements())) << storage;
     }
 }
 
-// Python functions that write a light field, with changes to it.
+// Python functions that write a light field with modifications.
 const std::string make_light_field =
     "import sys, h5py, numpy as np\n"
     "A = dict(axis_order='c,t,s,v,u', channels=1, hogels_s=2, hogels_t=2, hogel_pitch_m=0.001,\n"
@@ -249,7 +250,7 @@ const std::string make_light_field =
     "    r = f.create_dataset(face + '/radiance', data=np.ones((1, 2, 2, 2, 2), 'f4'))\n"
     "    r.attrs.update({**A, 'face': face, **change})\n";
 
-// What to do to a complete light field, and what its error then says.
+// Faults: a modification of a complete light field, and its error message.
 const std::pair<const char*, const char*> faults[] = {
     {"make()", ""},
     {"make(libver='earliest')", "superblock has version 0"},
@@ -284,7 +285,7 @@ const std::pair<const char*, const char*> faults[] = {
     {"make(); f.create_dataset('depth', data=np.ones(3))", "'depth' does not have the shape"},
     {"make(name='other'); f['radiance'] = h5py.ExternalLink('elsewhere.h5', 'x')", "no dataset 'radiance'"},
     {"make(name='other'); f.create_group('radiance')", "damaged"},
-    // 16 TB in a few bytes: refused before any memory is taken.
+    // 16 TB in a few bytes must be refused before memory is allocated.
     {"make(shape=(1, 2**20, 2**20, 2, 2), hogels_s=2**20, hogels_t=2**20, chunks=(1, 1, 1, 2, 2))",
      "not wholly written"},
     {"make(shape=(1, 2, 2, 2**14, 2**14), directions_u=2**14, directions_v=2**14, chunks=(1, 1, 1, 2**14, 2**14))",
@@ -306,8 +307,8 @@ TEST_F(H5py, what_is_wrong_with_a_file_is_named) {
     }
 }
 
-// Arrays of MATLAB 7.3 as Python's packages write them: in chunks that do not divide them, mixed, compressed, and with
-// checksums; beside them what is no array of numbers. The same array is written plain for NumPy.
+// Arrays of MATLAB 7.3 as Python packages write them: in chunks that do not divide them, shuffled, compressed, and with
+// checksums, beside objects that are not numeric arrays. The same array is written plain for NumPy.
 TEST_F(H5py, arrays_of_matlab_in_chunks_are_those_of_numpy) {
     run(R"(
 import sys, h5py, numpy as np

@@ -12,7 +12,7 @@
 namespace hogel::io {
 namespace {
 
-// A different value for every sample; counts the small tiles that are read.
+// A light field with a different value for every sample, which counts the small tiles that are read.
 class CountedLightField final : public LightFieldSource {
   public:
     const LightFieldGrid& grid() const override { return grid_; }

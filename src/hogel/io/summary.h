@@ -8,8 +8,8 @@
 
 namespace hogel::io {
 
-/// What summarize() says of the sampling of a light field's front, of the faces that there are and of the sampling of
-/// the sides, of the plane of field number `index`, and of a compressed light field.
+/// Functions that add facts for summarize(): the sampling of a light field's front; its faces and the sampling of the
+/// sides; the plane of field number `index`; and a compressed light field.
 void describe(const LightFieldGrid& grid, FileSummary& summary);
 void describe_faces(const std::vector<LightFieldGrid>& grids, FileSummary& summary);
 void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary);

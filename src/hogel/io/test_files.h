@@ -47,7 +47,7 @@ inline FieldGrid plane_of(std::size_t width, std::size_t height) {
     return {{width, height, 1e-6, 2e-6, 1.0 / 3, -0.1}, 633e-9};
 }
 
-/// Random values that half floats keep exactly, of all magnitudes, and some infinite depths.
+/// Random values of all magnitudes that are exact as half floats, and some infinite depths.
 inline LightFieldBuffer random_light_field(const LightFieldGrid& grid, bool with_depth) {
     LightFieldBuffer field(grid, with_depth);
     std::mt19937 random(1);
@@ -82,7 +82,7 @@ inline std::string text_of(const fs::path& path) {
 
 inline void save(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
-/// The message of the error on opening a light field, "" where there is none.
+/// The message of the error when opening a light field; "" if there is none.
 inline std::string refusal(const fs::path& path, ErrorCode code = ErrorCode::bad_input) {
     try {
         open_light_field(path);

@@ -25,7 +25,8 @@ class CachedTiles final : public LightFieldSource {
         const std::size_t first_s = r.s0 / size_.ns, end_s = (r.s0 + r.ns - 1) / size_.ns + 1;
         const std::size_t first_t = r.t0 / size_.nt, end_t = (r.t0 + r.nt - 1) / size_.nt + 1;
         const std::size_t tiles = (end_s - first_s) * (end_t - first_t);
-        // As long as the rows of tiles that suit, it suits; and two threads may be on rows of their own.
+        // A range that consists of whole rows or whole preferred tiles suits the source. The cache must hold the tiles
+        // of two reads, because two threads may read different rows.
         const bool suits = r.ns == grid().hogels_s || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0);
         if (suits || 2 * tiles > recent_.kept() || (tile.depth.size() > 0 && !with_depth_)) {
             source_->read(tile);

@@ -14,7 +14,7 @@ namespace {
 
 const LightFieldGrid grid{20, 9, 1e-3, 3, 2, Perspective{0.2, 0.2}, 3};
 
-// Every value is a number of its own; counts the hogels that it is asked for.
+// A light field with a different value for every sample, which counts the hogels that are read.
 class Numbered final : public LightFieldSource {
   public:
     explicit Numbered(std::atomic<std::size_t>& asked) : asked_(asked) {}

@@ -27,7 +27,7 @@ void require_finite(double value, ErrorCode code, const std::string& what, const
     if (!std::isfinite(value)) throw Error(code, fmt::format("{}: {} is {}, but must be finite", what, member, value));
 }
 
-// The cells of a side face have to lie where ζ > 0.
+// Throws unless all cells of a side face are at ζ > 0.
 void require_in_front_half(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
     const double u_low = grid.center_u() - grid.half_u(), u_high = grid.center_u() + grid.half_u();
     const double v_low = grid.center_v() - grid.half_v(), v_high = grid.center_v() + grid.half_v();
@@ -227,7 +227,7 @@ void LightFieldBuffer::write(const LightFieldTile& tile) {
 HogelRange default_tile(const LightFieldGrid& grid) {
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
     HogelRange tile{0, 0, 1, 1};
-    // Sides that are powers of two (or the whole hologram) line up with the chunks of a file.
+    // Sides that are powers of two (or the whole hologram) align with the chunks of a file.
     while (2 * tile.hogels() <= tile_bytes / hogel_bytes && (tile.ns < grid.hogels_s || tile.nt < grid.hogels_t)) {
         const bool widen = tile.ns < grid.hogels_s && (tile.ns <= tile.nt || tile.nt >= grid.hogels_t);
         (widen ? tile.ns : tile.nt) *= 2;
@@ -275,7 +275,10 @@ void require_faces(std::span<const LightFieldGrid> faces) {
     }
 }
 
-LightField::LightField(std::vector<Source> faces) : faces_(std::move(faces)) { require_faces(grids()); }
+LightField::LightField(std::vector<Source> faces, Provenance provenance)
+    : faces_(std::move(faces)), provenance_(std::move(provenance)) {
+    require_faces(grids());
+}
 
 std::vector<LightFieldGrid> LightField::grids() const {
     std::vector<LightFieldGrid> grids;

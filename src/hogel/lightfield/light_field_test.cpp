@@ -27,7 +27,7 @@ LightFieldGrid small_grid() {
     return grid;
 }
 
-// Every sample tells where it belongs.
+// A value that identifies the sample.
 float value_at(const LightFieldGrid& g, std::size_t c, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     return static_cast<float>((((c * g.hogels_t + t) * g.hogels_s + s) * g.directions_v + v) * g.directions_u + u) + 1;
 }
@@ -248,7 +248,7 @@ TEST(Face, turns_there_and_back_and_looks_where_its_name_says) {
     EXPECT_EQ(from_face(Face::right, {0, 0, 1}), (Vec3{1, 0, 0}));
     EXPECT_EQ(from_face(Face::top, {0, 0, 1}), (Vec3{0, 1, 0}));
     EXPECT_EQ(from_face(Face::bottom, {0, 0, 1}), (Vec3{0, -1, 0}));
-    // A turn, not a reflection: right × up of the picture is its backward in (x, y, −ζ).
+    // A rotation, not a reflection: right × up of the picture is its backward direction in (x, y, −ζ).
     for (const Face face : all_faces) {
         const auto world = [&](Vec3 q) {
             const Vec3 w = from_face(face, q);
@@ -278,7 +278,7 @@ TEST(Hemicube, has_every_direction_behind_the_hologram_in_one_face) {
             for (const LightFieldGrid& face : faces) ASSERT_FALSE(face.covers({x, y, -way.z}));
         }
     for (std::size_t count : rays) EXPECT_GT(count, 500u);
-    // Every sample's own way leads to it.
+    // direction_of() leads to the sample itself.
     for (const LightFieldGrid& face : faces)
         for (std::size_t l = 0; l < face.directions_v; ++l)
             for (std::size_t k = 0; k < face.directions_u; ++k) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/image/film.h"
 #include "hogel/ray_photograph.h"
 
 #include <algorithm>
@@ -10,12 +11,12 @@
 namespace hogel {
 namespace {
 
-// std::lerp would check for infinities.
+// Linear interpolation. std::lerp would check for infinities.
 float mix(float a, float b, float weight) { return a + (b - a) * weight; }
 
 struct LensPoint {
     double x, y;              // metres from the centre of the lens
-    double pixel_x, pixel_y;  // where in the pixel this ray lands, −½..½
+    double pixel_x, pixel_y;  // position of the ray within the pixel, −½..½
 };
 
 double van_der_corput(std::size_t i, std::size_t base) {
@@ -27,11 +28,11 @@ double van_der_corput(std::size_t i, std::size_t base) {
     return value;
 }
 
-// RayValues that the points of the lens may see of one tile at a time: 64 MiB.
+// Maximum number of values that the points of the lens see of one tile at a time: 64 MiB.
 constexpr std::size_t max_seen = std::size_t{1} << 24;
 
-// Points spread evenly over the pupil's disc (Halton, mapped by equal areas), each with a place of its own in the
-// pixel, so that one set of rays averages over the pupil and over the pixel's area.
+// Points spread evenly over the pupil's disc (Halton sequence, mapped by equal areas), each with its own position in
+// the pixel, so that one set of rays averages over both the pupil and the pixel's area.
 std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
     std::vector<LensPoint> points;
     for (std::size_t i = 0; i < count; ++i) {
@@ -43,8 +44,8 @@ std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
     return points;
 }
 
-// Linear interpolation between two neighbours of a row of samples. A sample stands for the cell around it: half a cell
-// beyond the last one still shows it, and farther out there is nothing.
+// Linear interpolation between two neighbours of a row of samples. A sample represents the cell around it: it extends
+// half a cell beyond the last position, and farther out the value is zero.
 struct Interpolation {
     std::size_t low = 0;
     float high_weight = 0;
@@ -58,24 +59,24 @@ struct Interpolation {
         low = static_cast<std::size_t>(std::clamp(std::floor(clamped), 0.0, std::max(last - 1, 0.0)));
         high_weight = static_cast<float>(clamped - static_cast<double>(low));
     }
-    // The upper neighbour; the same one where there is but a single sample.
+    // The upper neighbour; the same sample if there is only one.
     std::size_t high(std::size_t count) const { return std::min(low + 1, count - 1); }
 };
 
-// The film of one camera while the hogels of one face after the other stream past.
+// The film of one camera, to which the hogels of one face after the other are added.
 class Exposure {
   public:
-    Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count)
+    Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, Image& image)
         : faces_(std::move(faces)),
           grid_(faces_.front()),
           camera_(camera),
           points_(lens_points(camera.pupil, lens_count)),
-          image_(camera.picture.width, camera.picture.height, grid_.channels) {}
+          image_(image) {}
 
     // Adds all rays of a face that cross the hologram plane in a cell whose upper left hogel is in `cells`; the tile
     // holds these hogels and their right and lower neighbours.
     void add(std::size_t face, const LightFieldTile& tile, const HogelRange& cells) {
-        // What each point of the lens sees of each hogel, for as many points at a time as a modest room holds.
+        // The values that each point of the lens sees of each hogel, for a limited number of points at a time.
         const std::size_t seen_by_one = tile.range.nt * tile.range.ns * grid_.channels;
         const std::size_t together = std::clamp<std::size_t>(max_seen / seen_by_one, 1, points_.size());
         Array<float, 4> seen({together, tile.range.nt, tile.range.ns, grid_.channels});
@@ -89,10 +90,9 @@ class Exposure {
         }
     }
 
-    Image finish() {
+    void finish() {
         const float mean = 1 / static_cast<float>(points_.size());
         for (float& value : image_.pixels.elements()) value *= mean;
-        return std::move(image_);
     }
 
   private:
@@ -120,7 +120,8 @@ class Exposure {
         }
     }
 
-    // Faces may overlap; a direction belongs to the first that has it.
+    // Whether an earlier face has this direction: faces may overlap, and a direction belongs to the first one that has
+    // it.
     bool shown_before(std::size_t face, Vec3 way) const {
         return std::any_of(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face),
                            [&](const LightFieldGrid& earlier) { return earlier.covers(way); });
@@ -128,15 +129,15 @@ class Exposure {
 
     void expose(std::size_t row, const LensPoint& point, const HogelRange& held, const HogelRange& cells,
                 View<const float, 3> seen) {
-        // A ray from the lens point to the pixel's point of the plane in focus crosses the hologram plane beside the
-        // pixel's own place on it by this fraction of the lens offset.
+        // A ray from a lens point to the pixel's point of the plane in focus crosses the hologram plane at the pixel's
+        // position plus this fraction of the lens point's offset.
         const double R = camera_.eye.z, shift = 1 - R / (R + camera_.focus_depth);
         const double y = camera_.picture.y(static_cast<double>(row) + point.pixel_y) + shift * point.y;
         const Interpolation t(0.5 * static_cast<double>(grid_.hogels_t) - 0.5 - y / grid_.pitch, grid_.hogels_t);
         if (t.outside || t.low < cells.t0 || t.low >= cells.t0 + cells.nt) return;
         const std::size_t t0 = t.low - held.t0, t1 = t.high(grid_.hogels_t) - held.t0;
 
-        // The columns that can fall into these cells; one more on each side, so that rounding loses none.
+        // The columns that can be in these cells, plus one on each side so that rounding loses none.
         const double to_column = grid_.pitch / camera_.picture.pitch_x;
         const auto column_of = [&](double hogel) {
             return camera_.picture.column(grid_.s(hogel) - shift * point.x) - point.pixel_x;
@@ -158,13 +159,13 @@ class Exposure {
     }
 
     std::vector<LightFieldGrid> faces_;
-    LightFieldGrid grid_;  // whose hogels and channels are those of all faces
+    LightFieldGrid grid_;  // its hogels and channels are those of all faces
     Camera camera_;
     std::vector<LensPoint> points_;
-    Image image_;
+    Image& image_;
 };
 
-// A block of cells between hogels, and the hogels at its corners.
+// A block of cells between hogels, and the hogels at the cells' corners.
 struct Block {
     HogelRange cells, hogels;
 };
@@ -174,9 +175,9 @@ struct FaceBlock {
     Block block;
 };
 
-// Rows of hogels as long as may be, which the fastest renderer likes best and files hold together, and thick enough
-// that those which neighbours share are a small part. The sampling alone decides, so the order of every sum is the same
-// wherever the light field comes from.
+// The size of blocks: rows of hogels as long as possible, which suits the fastest renderer and files, and enough rows
+// for the hogels shared by neighbouring blocks to be a small part. It depends on the sampling alone, so that sums have
+// the same order for every source.
 HogelRange block_size(const LightFieldGrid& grid) {
     constexpr std::size_t rows = 16, max_bytes = std::size_t{64} << 20;
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
@@ -187,7 +188,7 @@ HogelRange block_size(const LightFieldGrid& grid) {
 
 std::vector<Block> blocks(const LightFieldGrid& grid) {
     const HogelRange size = block_size(grid);
-    // Cells lie between neighbours, so there is one less than hogels; a single hogel is its own cell.
+    // Cells are between neighbours, so there is one less than hogels; a single hogel is its own cell.
     const std::size_t cells_s = std::max<std::size_t>(grid.hogels_s - 1, 1),
                       cells_t = std::max<std::size_t>(grid.hogels_t - 1, 1);
     std::vector<Block> list;
@@ -204,21 +205,31 @@ std::vector<Block> blocks(const LightFieldGrid& grid) {
 
 std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
                               const RayPhotographOptions& options, const Progress& progress) {
+    std::vector<Image> pictures(cameras.size());
+    photograph_into(light_field, cameras, options, pictures, progress);
+    return pictures;
+}
+
+void photograph_into(const LightField& light_field, std::span<const Camera> cameras,
+                     const RayPhotographOptions& options, std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
+    image::require_a_picture_for_each(cameras, pictures);
     const std::vector<LightFieldGrid> grids = light_field.grids();
     const std::span<const LightField::Source> faces = light_field.faces();
     std::vector<Exposure> exposures;
-    for (const Camera& camera : cameras) {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const Camera& camera = cameras[i];
         validate(camera);
         if (camera.focus_slope_x != 0 || camera.focus_slope_y != 0)
             throw Error(ErrorCode::usage,
                         "rays are photographed on a film parallel to the hologram; it cannot be tilted");
-        exposures.emplace_back(grids, camera, std::max<std::size_t>(options.pupil_samples, 1));
+        exposures.emplace_back(grids, camera, std::max<std::size_t>(options.pupil_samples, 1), pictures[i]);
     }
+    image::load_film(cameras, light_field.grid().channels, light_field.provenance(), pictures);
     std::vector<FaceBlock> list;
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : blocks(grids[face])) list.push_back({face, block});
-    // Reading may mean rendering, so some blocks are read at a time; they are exposed in order.
+    // Reading may involve rendering, so several blocks are read in parallel; they are added in order.
     core::parallel_ordered<LightFieldTile>(
         list.size(), thread_count(),
         [&](std::size_t i) {
@@ -230,9 +241,7 @@ std::vector<Image> photograph(const LightField& light_field, std::span<const Cam
             for (Exposure& exposure : exposures) exposure.add(list[i].face, tile, list[i].block.cells);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(list.size()));
         });
-    std::vector<Image> images;
-    for (Exposure& exposure : exposures) images.push_back(exposure.finish());
-    return images;
+    for (Exposure& exposure : exposures) exposure.finish();
 }
 
 }  // namespace hogel

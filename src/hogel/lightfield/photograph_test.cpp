@@ -39,8 +39,8 @@ Camera camera_at(Vec3 eye, double focus) {
     return camera;
 }
 
-// On a linear radiance all four interpolations and the averages over pupil and pixel are exact: each pixel shows the
-// plane where the line of sight through the middle of the lens meets it.
+// For a linear radiance all four interpolations and the averages over pupil and pixel are exact: each pixel shows the
+// point where the line of sight through the middle of the lens meets the plane.
 TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_it) {
     const auto f = [](double x, double y) { return 1 + 100 * x - 60 * y; };
     for (double depth : {-4_mm, 0_mm, 6_mm}) {
@@ -54,7 +54,7 @@ TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_
                         const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
                         const double reach = (eye.z + depth) / eye.z;
                         const double expected = f(eye.x + (x - eye.x) * reach, eye.y + (y - eye.y) * reach);
-                        // What is left is the unevenness of 256 points over the pupil and the pixel.
+                        // The remaining error is the unevenness of 256 points over the pupil and the pixel.
                         ASSERT_NEAR(image.pixels(row, column, 0), expected, 2e-3)
                             << depth << " " << focus << " " << eye.x << " pixel " << column << "," << row;
                     }
@@ -62,12 +62,12 @@ TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_
     }
 }
 
-// A bright stripe is as sharp as it is when in focus, and blurred by the circle of confusion when not: the mean over
-// the lens of the stripe where the rays through one point of the plane in focus meet it.
+// A bright stripe is sharp in focus and otherwise blurred by the circle of confusion: the mean, over the lens, of the
+// stripe where the rays through one point of the plane in focus meet it.
 TEST(GeometricPhotograph, blurs_by_the_circle_of_confusion) {
     const double depth = 6_mm, width = 0.4_mm;
     const auto stripe = [&](double x) { return std::exp(-x * x / (0.5 * width * width)); };
-    // Sampled so finely that interpolation blurs little beside the stripe's own width.
+    // Sampled so finely that interpolation blurs little compared with the stripe's width.
     const LightFieldGrid fine{160, 12, 50_um, 96, 8, Perspective{0.25, 0.22}, 1};
     const LightFieldBuffer light_field = plane_at(
         depth, [&](double x, double) { return stripe(x); }, fine);
@@ -112,7 +112,8 @@ TEST(GeometricPhotograph, is_the_same_for_any_number_of_threads) {
     for (std::size_t i = 0; i < all.pixels.size(); ++i) ASSERT_EQ(all.pixels.data()[i], alone.pixels.data()[i]);
 }
 
-// The hemicube of a patterned plane close behind the hologram, from everywhere: what the line of sight meets.
+// The hemicube of a patterned plane close behind the hologram shows, from all sides, the point that the line of sight
+// meets.
 TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes) {
     LightFieldGrid grid{40, 30, 200_um, 64, 64, Perspective{1, 1}, 1};
     const double depth = 0.4_mm;
@@ -162,7 +163,7 @@ TEST(LightField, is_made_of_faces_that_belong_together) {
     const auto make = [](std::vector<const LightFieldSource*> faces) { return borrow(faces); };
     EXPECT_EQ(make({&a}).faces().size(), 1u);
     EXPECT_THROW(make({}), Error);              // no front
-    EXPECT_THROW(make({&top}), Error);          // none either
+    EXPECT_THROW(make({&top}), Error);          // no front
     EXPECT_THROW(make({&a, &a}), Error);        // a face twice
     EXPECT_THROW(make({&a, &smaller}), Error);  // other hogels
 }

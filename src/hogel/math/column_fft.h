@@ -8,15 +8,15 @@
 
 namespace hogel::math {
 
-/// Fourier transforms of columns whose length is a power of two. Neighbouring columns lie side by side in a vector, so
-/// that no lanes are shuffled but to separate real and imaginary parts where they are interleaved. Decimation in
-/// frequency with radix 4, and a last step of radix 2 where the length is no power of four, on a copy of sixteen
-/// columns that fits into the first-level cache. Not normalised, like Fft2.
+/// Fourier transforms of columns whose length is a power of two. Neighbouring columns are lanes of a vector, so that
+/// lanes are shuffled only to separate interleaved real and imaginary parts. Decimation in frequency with radix 4, with
+/// a last step of radix 2 if the length is not a power of four, on a copy of sixteen columns that fits into the
+/// first-level cache. Not normalised, like Fft2.
 class ColumnFft {
   public:
     static constexpr std::size_t shortest = 8;
-    /// This many columns are transformed together. In a split layout this many real parts are followed by as many
-    /// imaginary parts.
+    /// The number of columns that are transformed together. In the split layout this number of real parts is followed
+    /// by as many imaginary parts.
     static constexpr std::size_t together = 16;
 
     /// Whether the SIMD target in use has vectors, the length is a power of two from `shortest` on, and the columns are
@@ -25,18 +25,18 @@ class ColumnFft {
 
     explicit ColumnFft(std::size_t length);
 
-    /// Sums with e^{+2πi jm/n}, or e^{-2πi jm/n} if forward. Row r of the columns begins at from + r·from_row and its
-    /// result at to + r·to_row, counted in complex numbers; `from` and `to` may be the same.
+    /// Sums with e^{+2πi jm/n}, or e^{-2πi jm/n} if forward. Row r of the columns is at from + r·from_row and its
+    /// result at to + r·to_row, in complex numbers; `from` and `to` may be the same.
     void transform(bool forward, const std::complex<float>* from, std::size_t from_row, std::complex<float>* to,
                    std::size_t to_row, std::size_t columns) const;
 
-    /// Sums with e^{+2πi jm/n} down sixteen columns in split layout, in place: [row][part][column], aligned to a cache
-    /// line.
+    /// Sums with e^{+2πi jm/n} down sixteen columns in split layout, [row][part][column], in place; `columns` is
+    /// aligned to a cache line.
     void backward_split(float* columns) const;
 
-    /// The same down many columns [column/16][row][part][column mod 16], with the results interleaved as those of
-    /// transform(). Where rows of the result begin at cache lines and are part of a larger array, they are written past
-    /// the caches.
+    /// As above, down many columns [column/16][row][part][column mod 16], with results interleaved as those of
+    /// transform(). If rows of the result are aligned to cache lines and part of a larger array, they are written with
+    /// non-temporal stores.
     void backward_split(const float* from, std::complex<float>* to, std::size_t to_row, std::size_t columns) const;
 
     struct Factor {
@@ -44,7 +44,7 @@ class ColumnFft {
     };
     struct Plan {
         std::size_t length;
-        std::vector<std::uint32_t> order;  // the frequency of each row after the last step
+        std::vector<std::uint32_t> order;  // [row]: its frequency after the last step
         std::vector<Factor>
             factors[2];  // w^j, w^2j, w^3j for each j of each radix-4 step but the last; backward, forward
     };

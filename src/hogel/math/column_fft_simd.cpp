@@ -6,7 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/math/column_fft_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <hwy/cache_control.h>
@@ -31,7 +31,7 @@ constexpr std::size_t together = ColumnFft::together;
 using D = hn::CappedTag<float, together>;
 using V = hn::Vec<D>;
 
-// As many complex numbers as a vector has lanes.
+// A vector of complex numbers, as separate real and imaginary parts.
 struct Numbers {
     V re, im;
 };
@@ -55,7 +55,7 @@ struct Interleaved {
     }
 };
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-// Interleaved, by whole cache lines past the caches: what is written to a large array is not read again soon, and a
+// Interleaved, written by whole cache lines with non-temporal stores: a large result is not read again soon, and a
 // normal store would first fetch the line.
 struct Streamed {
     static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
@@ -83,7 +83,7 @@ struct Four {
     Numbers a, b, c, d;
 };
 
-// The radix-4 butterfly of four rows: their sums with the powers of i, or of −i if forward.
+// The radix-4 butterfly of four rows: sums with the powers of i, or of −i if forward.
 template <bool forward, class Layout>
 HWY_INLINE Four Butterfly(D d, const float* rows, std::size_t apart, std::size_t i) {
     const Numbers a = Layout::Load(d, rows, i), b = Layout::Load(d, rows + apart, i),
@@ -116,7 +116,7 @@ HWY_INLINE void Step(const ColumnFft::Plan& plan, std::size_t length, const Colu
         }
 }
 
-// All steps of sixteen columns. The first reads them from their place, the last writes them to theirs.
+// All steps for sixteen columns. The first step reads the source, the last one writes the result.
 template <bool forward, class From, class To>
 void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t from_row, float* to, std::size_t to_row,
                     float* scratch) {
@@ -218,8 +218,8 @@ ColumnFft::ColumnFft(std::size_t length) : plan_{length, {0}, {}} {
                 plan_.factors[0].push_back(factor_of(cycles));
                 plan_.factors[1].push_back(factor_of(-cycles));
             }
-    // A step sorts frequencies by their remainder when divided by its radix. From the last step backwards: frequency
-    // f of a part is frequency k + radix · f of the whole, where k is the number of the part.
+    // A step sorts frequencies by their remainder modulo its radix. From the last step backwards: frequency f of part k
+    // is frequency k + radix · f of the whole.
     std::size_t parts = 1;
     for (std::size_t step = rest;; step = 4) {
         std::vector<std::uint32_t> order;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that knows which FFT library is linked: any library with FFTW's single-precision interface will do.
+// The only file that depends on the FFT library, which may be any with FFTW's single-precision interface.
 #include "hogel/math/fft.h"
 
 #include <fftw3.h>
@@ -60,10 +60,10 @@ class Directions {
     fftwf_plan aligned_[2], unaligned_[2];
 };
 
-// Arrays from this size on are transformed line by line on all threads; smaller ones usually come in numbers, each
-// transformed by one thread.
+// Arrays from this size on are transformed line by line on all threads. Smaller ones are usually many, each transformed
+// by one thread.
 constexpr std::size_t large_array = std::size_t{1} << 16;
-// Up to this size one thread is fastest if ColumnFft can transform the columns.
+// Up to this size one thread is fastest, if ColumnFft supports the columns.
 constexpr std::size_t max_by_columns = std::size_t{1} << 18;
 // Lines copied together into a buffer, so that columns are read by whole cache lines.
 constexpr std::size_t lines_together = 16;
@@ -157,9 +157,9 @@ struct Fft2::Plans {
     }
 
     std::size_t height, width;
-    std::optional<Directions> whole;      // a small array, or only its rows
-    std::optional<ColumnFft> column_fft;  // the columns where `whole` transforms only rows
-    std::optional<Fft1> rows, columns;    // a large array
+    std::optional<Directions> whole;      // for a small array, or only its rows
+    std::optional<ColumnFft> column_fft;  // for the columns, if `whole` transforms only rows
+    std::optional<Fft1> rows, columns;    // for a large array
 };
 
 Fft2::Fft2(std::size_t height, std::size_t width) {

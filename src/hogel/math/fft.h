@@ -13,7 +13,7 @@ namespace hogel::math {
 /// normalised: forward sums with e^{-2πi jm/n}, backward with e^{+2πi jm/n}. A plan depends on the size alone and never
 /// on timings, so that equal input gives equal bytes in every run and for any number of threads.
 
-/// Along one line.
+/// A transform of one line.
 class Fft1 {
   public:
     /// Throws Error(usage) for an empty size.
@@ -23,7 +23,7 @@ class Fft1 {
     Fft1& operator=(Fft1&&) noexcept;
 
     std::size_t size() const;
-    /// Transforms size() values in place; fastest where they begin at a cache line.
+    /// Transforms size() values in place; fastest if they are aligned to a cache line.
     void forward(std::complex<float>* line) const;
     void backward(std::complex<float>* line) const;
 
@@ -32,7 +32,7 @@ class Fft1 {
     std::unique_ptr<Plans> plans_;
 };
 
-/// Along both axes of an array. Large arrays are transformed by all threads together.
+/// A transform along both axes of an array. Large arrays are transformed by all threads together.
 class Fft2 {
   public:
     /// Throws Error(usage) for an empty size.
@@ -44,7 +44,7 @@ class Fft2 {
     /// Transforms in place; the shape is that of the plan.
     void forward(View<std::complex<float>, 2> values) const;
     void backward(View<std::complex<float>, 2> values) const;
-    /// The same with row r of the result at to + r·to_row; `values` is overwritten.
+    /// As above, but writes row r of the result to to + r·to_row; `values` is overwritten.
     void backward(View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const;
 
     std::size_t height() const;
@@ -55,7 +55,7 @@ class Fft2 {
     std::unique_ptr<Plans> plans_;
 };
 
-/// Transforms all rows, or all columns, of an array, on all threads. Throws Error(internal) where the plan has another
+/// Transforms all rows, or all columns, of an array, on all threads. Throws Error(internal) if the plan has another
 /// size.
 void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
 void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);

@@ -43,7 +43,7 @@ TEST(Fft2, backward_is_the_sum_of_waves_with_a_positive_exponent) {
         }
 }
 
-// Large arrays are transformed by rows and columns: compared with some of the sums, and transformed back.
+// Large arrays, which are transformed line by line, are compared with some of the sums and transformed back.
 TEST(Fft2, large_arrays_give_the_same_sum) {
     const std::size_t height = 150, width = 203;
     const Array<Complex, 2> spectrum = noise(height, width);
@@ -64,11 +64,11 @@ TEST(Fft2, large_arrays_give_the_same_sum) {
         ASSERT_LT(std::abs(values.data()[i] / float(height * width) - spectrum.data()[i]), 1e-5f);
 }
 
-// Columns whose length is a power of two are not transformed by FFTW: compared with sums along columns.
+// Columns whose length is a power of two, which ColumnFft transforms, are compared with sums along columns.
 TEST_P(ColumnFftKernels, give_the_sum_of_waves_for_every_length_and_direction) {
     for (std::size_t length = ColumnFft::shortest; length <= 512; length *= 2) {
         const std::size_t columns = 2 * ColumnFft::together, row = columns + 3;
-        if (!ColumnFft::can(length, columns)) return;  // a target without vectors leaves all to FFTW
+        if (!ColumnFft::can(length, columns)) return;  // targets without vectors use only FFTW
         const Array<Complex, 2> from = noise(length, row);
         for (const bool forward : {false, true}) {
             Array<Complex, 2> to({length, row + 1}, Complex(7, 7));
@@ -92,10 +92,10 @@ TEST_P(ColumnFftKernels, give_the_sum_of_waves_for_every_length_and_direction) {
     EXPECT_FALSE(ColumnFft::can(64, 24));
 }
 
-// In place, and to rows of an array that may be wider than the columns.
+// Transforms in place, and to rows of an array that may be wider than the columns.
 TEST_P(ColumnFftKernels, give_the_same_in_split_layout) {
     const std::size_t length = 32, columns = 32;
-    if (!ColumnFft::can(length, columns)) return;  // a target without vectors leaves all to FFTW
+    if (!ColumnFft::can(length, columns)) return;  // targets without vectors use only FFTW
     const Array<Complex, 2> from = noise(length, columns);
     Array<float, 4> apart({columns / 16, length, 2, 16});
     for (std::size_t r = 0; r < length; ++r)
@@ -144,11 +144,11 @@ TEST(Fft2, forward_undoes_backward_on_unaligned_data_too) {
         EXPECT_LT(std::abs(odd.data()[i] / float(n * n) - original.elements()[i]), 1e-5f);
 }
 
-// A large array is transformed line by line.
+// A large array is transformed line by line, with the same result.
 TEST(Fft2, a_large_array_is_transformed_as_a_small_one) {
     const std::size_t height = 270, width = 251;
     Array<Complex, 2> values({height, width});
-    // Three waves: each must come out as one sample of the spectrum.
+    // Three waves, each of which must give one sample of the spectrum.
     const std::array<std::array<std::size_t, 2>, 3> waves{{{3, 200}, {269, 0}, {100, 17}}};
     for (std::size_t y = 0; y < height; ++y)
         for (std::size_t x = 0; x < width; ++x)

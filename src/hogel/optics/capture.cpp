@@ -13,8 +13,8 @@
 namespace hogel::optics {
 namespace {
 
-// An eye as the cameras need it: its widest pupil and its farthest focus in one camera, which bounds the memory; and
-// the widest blur on a film.
+// What the cameras of one eye need: its widest pupil and its farthest focus combined in one camera, which bounds the
+// memory, and the widest blur on a film.
 struct Eye {
     Camera widest;
     double blur;

@@ -6,12 +6,13 @@
 
 namespace hogel::optics {
 
-/// The light that enters the widest pupil of one eye. Photographs of any focus and any smaller pupil need nothing else,
-/// so each takes a transform of the film a look, and the hologram is not read again. It takes a sixteenth of
-/// the eye's band: about (1.1 D A/λR)² values a look, D the side of the hologram and A the pupil.
+/// The light that enters the widest pupil of one eye. Photographs with any focus and any smaller pupil need nothing
+/// else, so each costs one transform of the film per look, and the hologram is not read again. Memory: a sixteenth of
+/// the eye's band, about (1.1 D A/λR)² values per look, with D the side of the hologram, A the pupil and R the
+/// distance.
 class CapturedEye {
   public:
-    /// Throws Error(usage) for another eye, a wider pupil or a focus farther off than what was captured.
+    /// Throws Error(usage) for another eye, a wider pupil or a farther focus than those captured.
     Image photograph(const Camera& camera) const;
 
     Vec3 eye() const { return eye_; }
@@ -33,9 +34,9 @@ class CapturedEye {
     std::vector<Array<std::complex<float>, 2>> looks_;  // waves over the pupil
 };
 
-/// Reads a hologram for a set of cameras, which represent all later ones: one captured eye for every different
-/// eye among them, in the order in which these first come, with its widest pupil and its farthest focus. All eyes share
-/// passes over the hologram as far as the options' memory allows. Throws Error(usage) as photograph() does.
+/// Captures the eyes of a set of cameras, which bound all later ones. Returns one captured eye for every different eye,
+/// in the order of first occurrence, for its widest pupil and its farthest focus. Eyes share passes over the hologram
+/// as far as the options' memory allows. Throws Error(usage) as photograph() does.
 std::vector<CapturedEye> capture(const FieldSource& hologram, std::span<const Camera> cameras,
                                  const PhotographOptions& options = {}, const Progress& progress = {});
 

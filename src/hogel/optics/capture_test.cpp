@@ -38,7 +38,7 @@ std::vector<Camera> walk() {
 
 bool same(const Image& a, const Image& b) { return std::ranges::equal(a.pixels.elements(), b.pixels.elements()); }
 
-// Photographs from captured light are the same to the last bit.
+// Photographs from captured light are bit for bit those of the hologram.
 TEST(Capture, photographs_equal_those_of_the_hologram) {
     const Field field = speckle();
     const std::vector<Camera> cameras = walk();
@@ -53,7 +53,7 @@ TEST(Capture, photographs_equal_those_of_the_hologram) {
         }
     };
     check({});
-    check({.memory = 3 << 20});  // an eye at a time
+    check({.memory = 3 << 20});  // one eye at a time
     const ThreadLimit one(1);
     check({});
 }
@@ -77,7 +77,7 @@ TEST(Capture, refuses_cameras_beyond_those_captured) {
     EXPECT_TRUE(refused([](Camera& camera) { camera.pupil = 3.1e-3; }));
     EXPECT_TRUE(refused([](Camera& camera) { camera.focus_depth = 3e-3; }));
     EXPECT_THROW(capture(field, cameras, {.memory = 1000}), Error);
-    // A focus far off takes a larger film, whichever camera asks for it.
+    // A distant focus needs a larger film, whichever camera has it.
     std::vector<Camera> far(2, cameras[0]);
     far[1].focus_depth = -0.95 * far[1].eye.z;
     far[1].pupil = 0.9 * far[0].pupil;

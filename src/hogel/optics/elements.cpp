@@ -28,7 +28,7 @@ void multiply_everywhere(Wave& wave, const Factor& factor) {
     });
 }
 
-// 1 inside, 0 outside, over one sample: `inside` metres from the edge.
+// The transmission of an edge that falls from 1 to 0 over one sample, at a point `inside` metres inside of it.
 double edge(double inside, double pitch) { return std::clamp(inside / pitch + 0.5, 0.0, 1.0); }
 
 void require_opening(double diameter) {
@@ -72,7 +72,8 @@ void thin_lens(Wave& wave, double center_x, double center_y, double diameter, do
         throw Error(ErrorCode::usage, fmt::format("a lens with a focal length of {} m", focal_length));
     const double wavelength = wave.grid().wavelength;
     const double pitch = std::max(wave.grid().plane.pitch_x, wave.grid().plane.pitch_y);
-    // At its edge the phase runs at a/(λl) cycles a metre, of which samples can hold half a cycle each.
+    // At a distance a from the centre the phase has a frequency of a/(λl) cycles per metre; samples can represent half
+    // a cycle per pitch.
     const double widest = wavelength * std::abs(focal_length) / pitch;
     if (diameter > widest)
         throw Error(

@@ -22,12 +22,12 @@ void require_positive(double value, ErrorCode code, const std::string& what, con
         throw Error(code, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
 }
 
-// The multiple of `alignment` nearest below a good size, or one alignment where that is larger already.
+// The largest multiple of `alignment` up to region_side, at least one.
 std::size_t aligned_side(std::size_t alignment) {
     return std::max(region_side / alignment, std::size_t{1}) * alignment;
 }
 
-// As many rows of a multiple of `alignment` as have about as many samples.
+// A multiple of `alignment` rows with about as many samples as a square region.
 std::size_t aligned_rows(std::size_t alignment, std::size_t width) {
     return std::max(region_side * region_side / (alignment * width), std::size_t{1}) * alignment;
 }
@@ -63,6 +63,11 @@ void validate(const Region& region, const FieldGrid& grid, const Shape<2>& array
                                                   array[0], region.width, region.height));
 }
 
+const Provenance& FieldSource::provenance() const {
+    static const Provenance unknown;
+    return unknown;
+}
+
 Field::Field(const FieldGrid& grid) : grid_(grid) {
     validate(grid, ErrorCode::usage, "field");
     samples = Array<std::complex<float>, 2>({grid.plane.height, grid.plane.width});
@@ -86,7 +91,7 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
     const core::StopScope scope(progress);
     const Grid& plane = source.grid().plane;
     const std::size_t side = aligned_side(source.alignment());
-    // Whole rows lie one after the other in memory, as a region's do, so a region of them can be read in place.
+    // Whole rows are contiguous in memory, so regions of whole rows can be read directly into the sink.
     const View<std::complex<float>, 2> whole = sink.in_memory();
     const bool in_place = whole.size() > 0;
     const std::size_t width = in_place ? plane.width : side,

@@ -62,7 +62,7 @@ TEST(Field, regions_read_and_write_their_slices) {
                 }
 }
 
-// A source whose alignment does not divide the default region, and which checks that regions keep to it.
+// A source whose alignment does not divide the default region, which checks that regions are aligned.
 class Aligned final : public FieldSource {
   public:
     Aligned(const Field& field, std::size_t alignment) : field_(field), alignment_(alignment) {}
@@ -79,7 +79,7 @@ class Aligned final : public FieldSource {
     std::size_t alignment_;
 };
 
-// A sink that is given regions, and not the samples' places.
+// A sink without in_memory(), to which regions are written.
 class Written final : public FieldSink {
   public:
     explicit Written(Field& field) : field_(field) {}

@@ -6,14 +6,14 @@
 
 namespace hogel::optics {
 
-/// Lines of an array that one thread takes together, so that columns are read a whole cache line at a time.
+/// The number of lines of an array that one thread processes together, so that columns are read by whole cache lines.
 constexpr std::size_t lines_together = 16;
 
 constexpr std::size_t blocks_of(std::size_t lines, std::size_t size = lines_together) {
     return (lines + size - 1) / size;
 }
 
-/// Room between lines of so many samples, so that they do not all begin in the same places of the caches.
+/// The padded distance between lines of `samples` samples, so that they do not all map to the same cache sets.
 constexpr std::size_t stride_of(std::size_t samples) { return (samples + 15) / 8 * 8; }
 
 /// The index of frequency j in a transform of n samples.
@@ -22,7 +22,7 @@ constexpr std::size_t wrapped(std::ptrdiff_t j, std::size_t n) {
     return static_cast<std::size_t>(((j % size) + size) % size);
 }
 
-/// Copies `count` frequencies from `first` on out of a transform of n samples, and into one.
+/// Copies `count` frequencies, from `first` on, out of a transform of n samples, and into one.
 template <class T>
 void take_frequencies(const T* transform, std::size_t n, std::ptrdiff_t first, std::size_t count, T* out) {
     const std::size_t begin = wrapped(first, n), until_end = std::min(count, n - begin);

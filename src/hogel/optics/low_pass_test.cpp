@@ -9,7 +9,7 @@
 namespace hogel::optics {
 namespace {
 
-// Frequency response by a fine sum over the kernel.
+// The frequency response, by a fine sum over the kernel.
 double response(double frequency) {
     const int fine = 64;
     double sum = 0;

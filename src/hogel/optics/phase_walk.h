@@ -9,19 +9,19 @@
 
 namespace hogel::optics {
 
-/// e^{2πi cycles}, for any number of cycles, negative or large ones too.
+/// e^{2πi cycles} for any number of cycles, also negative and large ones.
 inline std::complex<double> unit_phasor(double cycles) {
     return std::polar(1.0, 2 * std::numbers::pi * (cycles - std::floor(cycles)));
 }
 
-/// The product, without the treatment of infinities that std::complex has.
+/// The product without the treatment of infinities in std::complex.
 template <class T>
 std::complex<T> times(std::complex<T> a, std::complex<T> b) {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// Calls emit(i, e^{2πi cycles(i)}) for i = 0 … count − 1. cycles(step) must be a parabola over any 32 steps to far
-/// below a thousandth of a cycle: it is evaluated at their ends and middle alone, and followed by differences in
+/// Calls emit(i, e^{2πi cycles(i)}) for i = 0 … count − 1. cycles(step) must equal a parabola over any 32 steps to far
+/// below a thousandth of a cycle: it is evaluated only at their ends and middle and continued by differences in
 /// between.
 template <class Cycles, class Emit>
 void walk_phase(std::size_t count, const Cycles& cycles, const Emit& emit) {

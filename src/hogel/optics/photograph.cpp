@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/photograph.h"
+#include "hogel/image/film.h"
 
 #include <fmt/format.h>
 
@@ -18,13 +19,14 @@ using namespace optics;
 
 namespace {
 
-// A part of a field, as a field.
+// A part of a field, as a source.
 class Window final : public FieldSource {
   public:
     Window(const FieldSource& whole, const Region& region)
         : whole_(whole), region_(region), grid_{part(whole.grid().plane, region), whole.grid().wavelength} {}
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return whole_.looks(); }
+    const Provenance& provenance() const override { return whole_.provenance(); }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
         whole_.read({region_.x0 + region.x0, region_.y0 + region.y0, region.width, region.height}, look, out);
@@ -36,9 +38,9 @@ class Window final : public FieldSource {
     FieldGrid grid_;
 };
 
-// One pass of cameras over one window: adds to their pictures what the window shows.
+// One pass of cameras over one window: adds the window's light to their pictures.
 void photograph_window(const FieldSource& window, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes,
-                       const Rectangle& shown, std::size_t looks_at_once, std::vector<Image>& images,
+                       const Rectangle& shown, std::size_t looks_at_once, std::span<Image> images,
                        const Progress& progress) {
     std::vector<narrow_band::NarrowBand> bands;
     std::vector<film::Film> films;
@@ -107,11 +109,18 @@ void require_light_towards(const FieldGrid& hologram, const Camera& camera) {
 
 std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
                               const PhotographOptions& options, const Progress& progress) {
+    std::vector<Image> pictures(cameras.size());
+    photograph_into(hologram, cameras, options, pictures, progress);
+    return pictures;
+}
+
+void photograph_into(const FieldSource& hologram, std::span<const Camera> cameras, const PhotographOptions& options,
+                     std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
+    image::require_a_picture_for_each(cameras, pictures);
     const auto memory = static_cast<double>(options.memory);
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);
-    std::vector<Image> images;
-    for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
+    image::load_film(cameras, 1, hologram.provenance(), pictures);
     const double parts = static_cast<double>(plan.passes.size()) * static_cast<double>(plan.windows.size());
     const std::size_t looks_at_once = plan.looks_at_once(memory, hologram.looks());
     std::size_t done = 0;
@@ -121,12 +130,11 @@ std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camer
                 pass, [&](std::size_t i) { return Rectangle(cameras[i].picture).meets(window.shown); });
             if (seen)
                 photograph_window(Window(hologram, window.region), cameras, group_by_eye(cameras, pass), window.shown,
-                                  looks_at_once, images, [&](double fraction) {
+                                  looks_at_once, pictures, [&](double fraction) {
                                       return !progress || progress((static_cast<double>(done) + fraction) / parts);
                                   });
             ++done;
         }
-    return images;
 }
 
 }  // namespace hogel

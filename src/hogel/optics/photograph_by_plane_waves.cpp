@@ -10,6 +10,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/image/film.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/elements.h"
 #include "hogel/optics/film/interpolation.h"
@@ -25,7 +26,7 @@ using namespace optics;
 
 namespace {
 
-// The pupil is taken this much wider where directions are chosen, so that its sharp edge diffracts as it should.
+// The factor by which the pupil is widened when directions are selected, so that its sharp edge diffracts correctly.
 constexpr double edge_room = 1.1;
 
 struct Chain {
@@ -44,22 +45,23 @@ std::array<Vec3, 4> corners(const Grid& plane) {
 // A square around an eye's pupil.
 Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pupil, eye.x, eye.y}); }
 
-// Samples across that hold the spectrum of a wave behind a pupil, and three to the finest wave of its intensity, which
-// is interpolated.
+// The number of samples across that represent the spectrum of a wave behind a pupil, with three per period of the
+// finest wave of its intensity, which is interpolated.
 std::size_t film_samples(std::size_t columns, double size, double pupil, double distance, double wavelength) {
     const double intensity = 3 * edge_room * pupil / (wavelength * distance) * size;
     return math::good_fft_size(
         static_cast<std::size_t>(std::ceil(std::max(edge_room * static_cast<double>(columns), intensity))) + 16);
 }
 
-// The wave on the lens of one eye, just before its opening: the directions between the hologram and the pupil alone.
+// The wave at the lens of one eye, just before its opening, restricted to the directions between the hologram and the
+// pupil.
 Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const SharedEye& eye,
                       const Progress& progress) {
     const Grid& plane = chain.hologram.grid().plane;
     const Vec3 lens = cameras[eye.members.front()].eye;
     const double pupil = edge_room * eye.pupil;
-    // The window has room for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
-    // around to the other side. A plane that is tilted afterwards has as much room again.
+    // The window is padded for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
+    // around to the other side, and padded again for a plane that is tilted later.
     double spread = std::max(1.0, chain.options.film_distance / lens.z);
     for (std::size_t i : eye.members)
         for (const Vec3& corner : corners(plane))
@@ -72,8 +74,8 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
     return waves;
 }
 
-// The wave that makes the picture, and where in it a point in focus lies: at the window's centre plus `scale` times
-// what lies between the point and `origin` along the axes.
+// The wave that makes the picture, and the mapping of points in focus to it: the window's centre plus `scale` times the
+// offset of the point from `origin` along the axes.
 struct Focused {
     Wave wave;
     double pupil_area;
@@ -93,10 +95,10 @@ Orientation stand(const Camera& camera) {
     return {x, normalize(up - dot(up, x) * x)};
 }
 
-// The wave on the plane in focus, from that on a parallel plane which it crosses in the middle.
+// The wave on the tilted plane in focus, from that on a parallel plane which it crosses in the middle.
 Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& hologram, Vec3 origin,
                      const Orientation& axes, const ScratchOptions& scratch) {
-    // The size of the picture on it, and the directions from there to the pupil.
+    // The size of the picture on the plane, and the directions from there to the pupil.
     double half_x = 0, half_y = 0, nearest = camera.eye.z - origin.z;
     Band band{1e30, -1e30, 1e30, -1e30};
     const double pupil = edge_room * camera.pupil;
@@ -112,7 +114,7 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
                     std::max(band.high_y, fy)};
         }
     }
-    // Light that is out of focus there spreads over more.
+    // Light that is out of focus spreads over a larger area.
     const double size_x = 4 * half_x + pupil, size_y = 4 * half_y + pupil;
     const auto samples = [&](double size, double low, double high) {
         return film_samples(static_cast<std::size_t>(std::ceil(size * (high - low))), size, camera.pupil, nearest,
@@ -124,9 +126,8 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
     return wave_of(tilt(waves, axes, window, band, scratch), width, height, scratch);
 }
 
-// The wave on the film. A perfect lens shows the wave of the plane in focus as if nothing lay before it: the wave in
-// the opening is propagated back to that plane through empty space. A thin lens bends the light towards a film behind
-// it, with its aberrations.
+// The wave on the film. A perfect lens images the plane in focus: the wave in the opening is propagated back to that
+// plane through empty space. A thin lens bends the light towards a film behind it, with aberrations.
 Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
                       const PlaneWaveCameraOptions& options) {
     const double wavelength = at_lens.wavelength, R = camera.eye.z;
@@ -135,7 +136,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     const Grid& window = at_lens.window;
     const auto samples = [&](std::size_t columns, double size) {
         if (b == 0) return film_samples(columns, size, camera.pupil, R, wavelength);
-        // Columns for the frequencies that the lens adds to those of the wave.
+        // Additional columns for the frequencies that the lens adds to those of the wave.
         const auto bent = static_cast<std::size_t>(size * edge_room * camera.pupil / (wavelength * focal_length));
         return film_samples(columns + bent, size, camera.pupil, b, wavelength);
     };
@@ -151,7 +152,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
                          lens.carrier_y - 0.5 / plane.pitch_y, lens.carrier_y + 0.5 / plane.pitch_y};
         return spectrum_of(lens, plane, whole, options.scratch);
     }();
-    // How far, and how much larger than the hologram the picture there is.
+    // The distance to propagate, and the magnification of the picture there.
     const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
     const double pupil = edge_room * camera.pupil * (b > 0 ? 1 / larger : 1);
     propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
@@ -188,7 +189,7 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                                                (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
-                    // Between dark samples the cubic may fall below zero.
+                    // Cubic interpolation may fall below zero between dark samples.
                     const double value = std::max(
                         0.0f, film::cubic_at(samples.extent(0), samples.extent(1),
                                              plane.row(plane.center_y + dot(aside, focused.axes.y)),
@@ -206,7 +207,7 @@ std::complex<float> phasor(double cycles) {
     return std::polar(1.0f, static_cast<float>(2 * std::numbers::pi * (cycles - std::floor(cycles))));
 }
 
-// The wave at the points in focus behind the pixels' centres, see waves_in_focus().
+// The wave at the points in focus that the pixels' centres show, see waves_in_focus().
 Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera, const Rectangle& shown) {
     const Grid& picture = camera.picture;
     const Wave& wave = focused.wave;
@@ -276,8 +277,8 @@ std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::s
                                              const PlaneWaveCameraOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     require_photographable(hologram, cameras, options.film_distance);
-    std::vector<Image> images;
-    for (const Camera& camera : cameras) images.emplace_back(camera.picture.width, camera.picture.height, 1);
+    std::vector<Image> images(cameras.size());
+    image::load_film(cameras, 1, hologram.provenance(), images);
     const auto looks = static_cast<double>(hologram.looks());
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         const auto tell = [&](double fraction) {

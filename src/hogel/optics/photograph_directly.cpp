@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/image/film.h"
 #include "hogel/photograph.h"
 
 namespace hogel {
@@ -15,7 +16,7 @@ struct PupilPoint {
     Complex field;
 };
 
-// The points of a square grid that lie in the pupil's disc.
+// The points of a square grid that are inside the pupil's disc.
 std::vector<PupilPoint> pupil_grid(const Camera& camera, std::size_t across) {
     std::vector<PupilPoint> points;
     const double step = camera.pupil / static_cast<double>(across);
@@ -41,7 +42,8 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
     const double step = camera.pupil / static_cast<double>(pupil_points_across);
     const double pupil_area = static_cast<double>(pupil.size()) * step * step;
 
-    Image image(camera.picture.width, camera.picture.height, 1);
+    Image image;
+    image::load_film({&camera, 1}, 1, hologram.provenance(), {&image, 1});
     Array<std::complex<float>, 2> field({plane.height, plane.width});
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         hologram.read({0, 0, plane.width, plane.height}, look, field);
@@ -56,7 +58,7 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
                 }
             pupil[i].field = sum * plane.pitch_x * plane.pitch_y / Complex(0, grid.wavelength);
         });
-        // A perfect lens: waves from the point p of the plane in focus arrive at p's place on the film in step.
+        // A perfect lens: waves from a point p of the plane in focus arrive in phase at the image of p on the film.
         const double points_a_pixel = static_cast<double>(subpixels * subpixels);
         core::parallel_for(camera.picture.height, [&](std::size_t row) {
             for (std::size_t column = 0; column < camera.picture.width; ++column)

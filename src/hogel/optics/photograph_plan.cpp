@@ -16,14 +16,14 @@
 namespace hogel::optics {
 namespace {
 
-// A window reaches this many resolution cells beyond what it shows. A point's image falls off slowly: beyond m cells
-// lies 0.2/m of its light.
+// A window extends this number of resolution cells beyond the part that it shows. The image of a point falls off
+// slowly: 0.2/m of its light is beyond m cells.
 constexpr double margin_cells = 256;
 
-// Windows along the longer side of the hologram that are tried.
+// The numbers of windows along the longer side of the hologram that are tried.
 constexpr std::size_t window_counts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
 
-// Metres around what a window shows that its film needs.
+// The margin, metres, that a film needs around the part that a window shows.
 double margin(const FieldGrid& hologram, const Camera& camera) {
     const Grid& plane = hologram.plane;
     const ViewGeometry geometry(camera.eye, hologram.wavelength);
@@ -65,7 +65,7 @@ Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std:
         const narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
         const film::FilmSize film(band, hologram, eye.pupil, eye.blur);
         bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
-        // Tiles that are being added to the band.
+        // Tiles that are being processed.
         const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
                             2 * narrow_band::NarrowBand::margin;
         bytes.a_look += 8.0 * static_cast<double>(core::default_in_flight()) * tile * tile;
@@ -76,7 +76,7 @@ Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std:
     return bytes;
 }
 
-// The least work that fits, in passes over the whole hologram; passes.empty() where nothing does.
+// The plan with the least work that fits into memory; its `passes` are empty if none does.
 PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                          std::span<const std::size_t> counts) {
     std::vector<std::size_t> sorted(cameras.size());
@@ -104,7 +104,8 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
             const double work =
                 static_cast<double>(passes.size()) * read / static_cast<double>(hologram.plane.samples());
             if (work >= min_work) continue;
-            // Windows at the ends and in the middle represent all: their memory varies slowly from one to the next.
+            // Only windows at the ends, the quarters and in the middle are tested, because memory varies slowly from
+            // one to the next.
             std::set<std::size_t> probes{0, list.size() / 2, list.size() - 1, list.size() / 4, 3 * list.size() / 4};
             double fixed = 0, a_look = 0;
             for (const auto& pass : passes)

@@ -8,29 +8,29 @@
 
 namespace hogel::optics {
 
-/// How photographs of a hologram fit into memory. Cameras are taken some at a time, sorted by eye; the hologram may be
-/// photographed window by window, each with a margin around what it shows, because light that enters the pupil from one
-/// place falls near its own place of the film. Each such part takes a pass over its window, and of the looks as many at
-/// a time as there is room for.
+/// A plan by which photographs of a hologram fit into memory. Cameras are divided into passes, sorted by eye. The
+/// hologram may be divided into windows, each with a margin around the part that it shows, because light from a point
+/// of the hologram arrives near the corresponding point of the film. Each window is read once per pass and per group of
+/// looks that fit into memory.
 struct PhotographPlan {
     std::vector<std::vector<std::size_t>> passes;  ///< indices of cameras
     struct Window {
         Region region;    ///< what is read
-        Rectangle shown;  ///< what the film shows of it
+        Rectangle shown;  ///< the part of it that the film shows
     };
     std::vector<Window> windows;
 
-    double bytes = 0;         ///< at the most, with one look at a time
+    double bytes = 0;         ///< maximum, with one look at a time
     double bytes_a_look = 0;  ///< for each further look
 
-    /// How many of `looks` looks there is memory for at a time; at least one.
+    /// The number of looks, of `looks`, that fit into memory at a time; at least one.
     std::size_t looks_at_once(double memory, std::size_t looks) const;
 
     enum class Windows { one, many };
 };
 
-/// The plan with least work. Throws Error(usage) where there is none, naming a pupil that would do.
-/// @param windows  whether the hologram may be taken in parts
+/// The plan with the least work. Throws Error(usage) if there is none, naming a pupil that would be possible.
+/// @param windows  whether the hologram may be divided into windows
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                                 PhotographPlan::Windows windows = PhotographPlan::Windows::many);
 

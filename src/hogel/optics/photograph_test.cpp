@@ -17,7 +17,7 @@ namespace {
 
 using namespace literals;
 
-// Exact spherical wave of a point at (x, y, z), converging when the point is in front of the plane.
+// The exact spherical wave of a point at (x, y, z), converging if the point is in front of the plane.
 Field spherical_wave(const FieldGrid& grid, Vec3 point) {
     Field field(grid);
     const double k = 2 * std::numbers::pi / grid.wavelength;
@@ -61,7 +61,8 @@ struct Case {
 
 class NarrowBandCamera : public ::testing::TestWithParam<Case> {};
 
-// The fast camera against the sum over every sample and every point of the pupil: the same picture, in the same units.
+// The narrow-band camera gives the same picture, in the same units, as the sum over every sample and every point of the
+// pupil.
 TEST_P(NarrowBandCamera, agrees_with_direct_summation) {
     const Case& c = GetParam();
     const FieldGrid grid{{128, 128, 4_um, 4_um, 0, 0}, 633_nm};
@@ -86,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(PointsEyesAndFocuses, NarrowBandCamera,
                                            Case{{0.12e-3, -0.05e-3, -3e-3}, {-6e-3, 5e-3, 0.1}, 1e-3},
                                            Case{{0.1e-3, 0.05e-3, -3e-3}, {2e-3, 0, 0.1}, 1e-3, 20, -10}));
 
-// The same point in focus where a tilted film brings its place into focus, and out of focus where it does not.
+// A point is sharp where a tilted plane in focus passes through it, and blurred elsewhere.
 TEST(Photograph, a_tilted_film_is_in_focus_along_its_own_plane) {
     const FieldGrid grid{{500, 500, 2_um, 2_um, 0, 0}, 633_nm};
     const Field field = spherical_wave(grid, {0.2_mm, 0, -5_mm});
@@ -103,8 +104,8 @@ TEST(Photograph, a_tilted_film_is_in_focus_along_its_own_plane) {
     EXPECT_GT(peak(0), 2 * peak(-25));
 }
 
-// A field of independent random samples is a diffuse surface: seen from anywhere, with any pupil, it has the same
-// radiance. With complex samples of variance σ² at pitch Δ its spectrum is σ²Δ² per unit of frequency, which is
+// A field of independent random samples is a diffuse surface, which has the same radiance from all directions and with
+// any pupil. With complex samples of variance σ² at pitch Δ its spectrum is σ²Δ² per unit of frequency, which is
 // Lλ²/cos θ.
 TEST(Photograph, a_diffuse_field_has_its_radiance_from_everywhere) {
     const FieldGrid grid{{1500, 1500, 1_um, 1_um, 0, 0}, 633_nm};
@@ -145,7 +146,7 @@ TEST(Photograph, averages_looks) {
         EXPECT_NEAR(once.pixels.data()[i], twice.pixels.data()[i], 1e-5f * (1 + once.pixels.data()[i]));
 }
 
-// The chain of plane waves against the narrow band: speckle for speckle the same picture, on axis and at 20°.
+// The plane-wave camera gives the same picture as the narrow-band camera, down to the speckle, on the axis and at 20°.
 TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera) {
     const FieldGrid grid{{1300, 1200, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
     const Field field = random_field(grid, 8);
@@ -160,22 +161,22 @@ TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera) {
         }
     const auto narrow = photograph(field, cameras), full = photograph_by_plane_waves(field, cameras);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-        // Aslant it is 0.9994 where the pupil's disc is not bent among the frequencies.
+        // Off the axis it would be 0.9994 without the distortion of the pupil's disc in the plane of frequencies.
         EXPECT_GT(correlation(narrow[c], full[c]), 0.9997) << c;
-        // Only in the narrow band, light that leaves the film at one side wraps around to the other.
+        // In the narrow band, light that leaves the film at one side wraps around to the other.
         EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 7e-3) << c;
     }
 }
 
-// The waves behind the full chain's picture: their squares are its speckle, and of the wave that comes from a point the
-// phase is that of the light's path, a cycle for each wavelength, wherever the point lies.
+// The squares of the waves in focus are the picture of the plane-wave camera, and the wave from a point has the phase
+// of the light's path, one cycle per wavelength, wherever the point is.
 TEST(WavesInFocus, have_the_phases_of_their_paths) {
     Camera camera;
     camera.eye = {6_mm, -3_mm, 60_mm};
     camera.pupil = 3_mm;
     camera.focus_depth = 1_mm;
     camera.picture = {31, 31, 4_um, 4_um, 0, 0};
-    // From the point in focus behind the picture's middle, or farther along the line of sight.
+    // The wave from the point in focus at the picture's middle, or from a farther point on the line of sight.
     const auto through = [&](double farther) {
         const Vec3 point = (61.0 / 60 + farther / length(camera.eye)) * (Vec3{} - camera.eye) + camera.eye;
         const Field field = spherical_wave({{600, 600, 0.8_um, 0.8_um, 0, 0}, 633_nm}, point);
@@ -183,7 +184,7 @@ TEST(WavesInFocus, have_the_phases_of_their_paths) {
     };
     const auto here = through(0), quarter = through(0.25 * 633_nm);
     EXPECT_NEAR(std::arg(quarter(15, 15) / here(15, 15)), std::numbers::pi / 2, 0.05);
-    // In its focus a spot has one phase, up to the first dark ring.
+    // In focus, a spot has a constant phase up to the first dark ring.
     const double cell = resolution_cell(camera, 633_nm);
     for (std::size_t row = 0; row < 31; ++row)
         for (std::size_t column = 0; column < 31; ++column) {
@@ -197,8 +198,8 @@ TEST(WavesInFocus, have_the_phases_of_their_paths) {
     EXPECT_THROW(waves_in_focus(any, 0, std::span(&camera, 1), film), Error);
 }
 
-// A plane in focus that is tilted is one plane wave for another in the plane-wave camera, and a phase of the pupil that
-// depends on the direction in the narrow band.
+// The plane-wave camera tilts the plane in focus by rotating plane waves, the narrow-band camera by a phase of the
+// pupil that depends on the direction. Both must agree.
 TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera_on_a_tilted_plane) {
     const FieldGrid grid{{700, 640, 0.8_um, 0.8_um, 0.1_mm, -0.1_mm}, 633_nm};
     const Field field = random_field(grid, 9);
@@ -219,8 +220,8 @@ TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera_on_a_tilted_plane) {
     }
 }
 
-// A thin lens and a film behind it make the picture that a perfect lens makes, where the pupil is so narrow that a
-// parabola is a sphere, whatever the film's distance; and another one through a wide pupil.
+// A thin lens with a film behind it gives the picture of a perfect lens, at any distance of the film, if the pupil is
+// so narrow that a parabola approximates a sphere; through a wide pupil the picture differs.
 TEST(PhotographByPlaneWaves, a_thin_lens_is_perfect_for_a_narrow_pupil) {
     const FieldGrid grid{{280, 250, 1.5_um, 1.5_um, 50_um, 0}, 633_nm};
     const Field field = random_field(grid, 10);
@@ -232,7 +233,7 @@ TEST(PhotographByPlaneWaves, a_thin_lens_is_perfect_for_a_narrow_pupil) {
         camera.picture = {40, 36, 10_um, 10_um, 50_um, 0};
         const Image perfect = photograph_by_plane_waves(field, std::span(&camera, 1))[0];
         const Image thin = photograph_by_plane_waves(field, std::span(&camera, 1), {{}, film_distance})[0];
-        // A blurred point sends some of its light beside the film.
+        // Some light of a blurred point falls outside the film.
         EXPECT_NEAR(sum(thin) / sum(perfect), 1, pupil < 1_mm ? 1e-2 : 3e-2) << pupil << " " << film_distance;
         return correlation(perfect, thin);
     };
@@ -242,8 +243,8 @@ TEST(PhotographByPlaneWaves, a_thin_lens_is_perfect_for_a_narrow_pupil) {
     EXPECT_LT(alike(2.4_mm, 0, 10_mm), 0.98);
 }
 
-// With little memory a hologram is photographed window by window and a camera at a time: the same picture, but for what
-// light falls far from its place.
+// With little memory a hologram is photographed window by window and one camera at a time. The picture is the same
+// except for light that falls far from its point.
 TEST(Photograph, window_by_window_is_the_same_picture) {
     const FieldGrid grid{{8000, 150, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
     const Field field = random_field(grid, 6);
@@ -270,7 +271,7 @@ TEST(Photograph, no_camera_takes_no_photograph) {
     EXPECT_TRUE(photograph(Field({{100, 100, 2_um, 2_um, 0, 0}, 633_nm}), {}).empty());
 }
 
-// A wide lens and a large hologram: every plan keeps within its bound.
+// For a wide lens and a large hologram, every plan stays within its memory.
 TEST(PhotographPlan, keeps_within_the_memory_or_names_a_pupil_that_does) {
     const FieldGrid grid{{12800, 12800, 1.5625_um, 1.5625_um, 0, 0}, 460_nm};
     std::vector<Camera> cameras(6);

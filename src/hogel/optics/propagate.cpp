@@ -17,7 +17,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// 1 within reach, 0 beyond reach and fade, and smooth between.
+// 1 up to `reach`, 0 from reach + fade on, smooth in between.
 double passes(double distance, double reach, double fade) {
     if (distance <= reach) return 1;
     if (distance >= reach + fade) return 0;
@@ -25,7 +25,7 @@ double passes(double distance, double reach, double fade) {
     return c * c;
 }
 
-// The directions of one row of a spectrum, and how each is propagated.
+// Propagates the directions of one row of a spectrum.
 class RowOfDirections {
   public:
     RowOfDirections(const Spectrum& spectrum, const PropagationOptions& options, double row)
@@ -36,13 +36,13 @@ class RowOfDirections {
           reach_x_(options.reach_x > 0 ? options.reach_x : 0.5 * spectrum.window.size_x()),
           reach_y_(options.reach_y > 0 ? options.reach_y : 0.5 * spectrum.window.size_y()) {}
 
-    // The phase that a direction gains, in cycles.
+    // The propagation phase of a direction, in cycles.
     double cycles(double column) const {
         return along_z(column) * options_.distance + fx(column) * options_.shift_x + fy_ * options_.shift_y;
     }
 
-    // How far the phase over `count` columns is from a parabola through both ends and the middle: the third derivative,
-    // 3 z f_x f_z⁻⁵/λ² at most, times the cube of half of them and 0.065.
+    // A bound on the deviation of the phase over `count` columns from a parabola through both ends and the middle: the
+    // third derivative, at most 3 z f_x f_z⁻⁵/λ², times 0.065 times the cube of half the range.
     double bend(double column, double count) const {
         const double fz = std::min(along_z(column), along_z(column + count));
         const double steepest = std::max(std::abs(fx(column)), std::abs(fx(column + count)));
@@ -51,7 +51,7 @@ class RowOfDirections {
                half;
     }
 
-    // The share of a direction's amplitude that is kept.
+    // The fraction of a direction's amplitude that is kept.
     double stays(double column) const {
         const double fz = along_z(column);
         if (fz <= 0) return 0;
@@ -59,8 +59,8 @@ class RowOfDirections {
                passes(std::abs(aside_y(fz)), reach_y_, options_.fade_y);
     }
 
-    // The sideways path of directions is monotonic between two columns on the same side of f_x = 0: so where both ends
-    // are kept whole, all between are, and where both are lost on the same side, all are.
+    // The sideways path of directions is monotonic between two columns on the same side of f_x = 0. So if both ends are
+    // kept, all columns between them are, and if both are dropped on the same side, all are.
     enum class Stays { whole, partly, lost };
     Stays between(double first, double last) const {
         const double fz0 = along_z(first), fz1 = along_z(last);
@@ -161,6 +161,7 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, cons
 
 Field propagate(const FieldSource& source, double distance, const PropagateOptions& options, const Progress& progress) {
     Field result(source.grid());
+    result.set_provenance(source.provenance());
     propagate(source, distance, result, options, progress);
     return result;
 }

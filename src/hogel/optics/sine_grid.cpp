@@ -19,9 +19,9 @@ struct Range {
     }
 };
 
-// How fast the sines change over the plane, per metre, where that is slowest.
+// The minimum rate of change of the sines over the plane, per metre.
 double min_slope(const ViewGeometry& geometry, const Grid& plane) {
-    // dn_x/dx = (1 - n_x²)/r, and the same in y, are least at the corners that are farthest from the eye.
+    // dn_x/dx = (1 - n_x²)/r, and likewise in y, is smallest at the corners farthest from the eye.
     double slope = std::numeric_limits<double>::infinity();
     for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
         for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2}) {
@@ -59,15 +59,16 @@ SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, doubl
         }
     }
     SineGrid grid;
-    // Nowhere coarser than the band itself, which has room for the pupil and its intensity, so that nothing aliases.
+    // Nowhere coarser than the band, which is sampled finely enough for the pupil and its intensity, so that nothing
+    // aliases.
     grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(geometry, plane);
-    // Light out of focus spreads by the blur, light in focus by some resolution cells of four samples each; the room
+    // Light out of focus spreads by the blur, light in focus by some resolution cells of four samples each. The margin
     // keeps both from wrapping around to the other side.
     constexpr double room = 64;
     const auto choose = [&](const Range& range, std::size_t& size, double& first) {
         const double wanted = (range.high - range.low + blur) / grid.step + room;
         size = math::good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
-        // Rows that are a large power of two apart fall on each other in the caches: ten times slower.
+        // Rows at distances of large powers of two map to the same cache sets, which is ten times slower.
         while (size % 128 == 0) size = math::good_fft_size(size + 1);
         first = 0.5 * (range.low + range.high) - 0.5 * static_cast<double>(size - 1) * grid.step;
     };

@@ -20,8 +20,8 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// e^{−2πi j (½ − N/2)/N} for j = first … first + count − 1: transforms count from the first sample, frequencies from
-// the window's middle. `samples` is N, `sign` −1 for the transform to the spectrum.
+// e^{−2πi j (½ − N/2)/N} for j = first … first + count − 1: the phase that moves the origin from the first sample of a
+// transform to the window's middle. `samples` is N, `sign` −1 for the transform to the spectrum.
 std::vector<Complex> centring(std::ptrdiff_t first, std::size_t count, std::size_t samples, double sign, double scale) {
     std::vector<Complex> phases(count);
     const double n = static_cast<double>(samples);
@@ -32,7 +32,7 @@ std::vector<Complex> centring(std::ptrdiff_t first, std::size_t count, std::size
     return phases;
 }
 
-// The steps of frequency in [low, high] that n samples carry around a carrier.
+// The range of frequency steps in [low, high] that n samples represent around a carrier.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> steps(double low, double high, double size, std::size_t n, double carrier) {
     const double half = 0.5 * static_cast<double>(n), middle = std::round(carrier * size);
     constexpr double rounding = 1e-6;
@@ -69,7 +69,7 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
     const auto grown = [](std::size_t samples, double size, double pitch) {
         const auto wanted = static_cast<std::size_t>(std::ceil(size / pitch));
         std::size_t n = math::good_fft_size(std::max(wanted, samples));
-        // The samples lie in the middle, so an even number must be added.
+        // The samples are in the middle, so an even number must be added.
         while ((n - samples) % 2 != 0) n = math::good_fft_size(n + 1);
         return n;
     };
@@ -109,7 +109,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const std::ptrdiff_t first_column = result.first_column, first_row = result.first_row;
     const std::size_t columns = result.width(), rows = result.height();
 
-    // Transforms along the rows, of which the band's columns are kept.
+    // Transforms the rows and keeps the band's columns.
     core::PagedArray half({plane.height, columns}, scratch);
     const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
@@ -139,7 +139,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
         tell();
     });
 
-    // Transforms down the columns, of which the band's rows are kept.
+    // Transforms the columns and keeps the band's rows.
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
     core::parallel_for(blocks_of(columns), [&](std::size_t block) {
         const std::size_t x0 = block * lines_together, width = std::min(lines_together, columns - x0);
@@ -184,7 +184,7 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
     const std::vector<Complex> centre_x =
         centring(spectrum.first_column, columns, width, 1, 1 / (window.size_x() * window.size_y()));
     const std::vector<Complex> centre_y = centring(spectrum.first_row, rows, height, 1, 1);
-    // Up the columns first, into the left part of the result, where the rows then are filled in place.
+    // First transforms the columns into the left part of the result, then the rows in place.
     core::parallel_for(blocks_of(columns), [&](std::size_t block) {
         const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns - x0);
         Array<Complex, 2> lines({count, stride_of(height)});
@@ -217,7 +217,8 @@ Band band_between(const Rectangle& from, const Rectangle& to, double distance, d
     const double dx_low = to.left - from.right, dx_high = to.right - from.left;
     const double dy_low = to.bottom - from.top, dy_high = to.top - from.bottom;
     const auto sines = [&](double low, double high, double other_low, double other_high) {
-        // Outwards the sine is largest where the other offset is least, inwards where it is most.
+        // Away from the axis the sine is largest where the other offset is smallest, towards the axis where it is
+        // largest.
         const double near = min_offset(other_low, other_high),
                      far = std::max(std::abs(other_low), std::abs(other_high));
         const auto sine = [&](double offset, double other) { return offset / std::hypot(offset, other, distance); };

@@ -34,7 +34,7 @@ Field sampled(const Grid& plane, const Value& value) {
     return field;
 }
 
-// The largest difference from a closed form, of the samples that `where` names.
+// The largest difference from a closed form over the samples selected by `where`.
 template <class Source, class Value, class Where>
 double worst(const Source& field, const Value& value, const Where& where) {
     const Grid& plane = field.grid().plane;
@@ -95,8 +95,8 @@ TEST(Spectrum, a_gaussian_beam_widens_and_curves) {
     }
 }
 
-// The spherical wave e^{ikr}/r of a point at the complex place z = ib solves the wave equation exactly and is a beam
-// with wide tails: no paraxial form to hide behind.
+// The spherical wave e^{ikr}/r of a point at the complex position z = ib is an exact, not a paraxial, solution of the
+// wave equation: a beam with wide tails.
 TEST(Spectrum, a_spherical_wave_stays_spherical) {
     const Grid plane{600, 560, 0.4_um, 0.4_um, 0, 0};
     const double b = 12_um, k = 2 * pi / wavelength;
@@ -112,7 +112,8 @@ TEST(Spectrum, a_spherical_wave_stays_spherical) {
     }
 }
 
-// Forth and back, in one step and in two, and the energy of it, for everything that samples carry and that travels.
+// Propagation in two steps equals that in one, back equals the original, and the energy is kept, for all propagating
+// frequencies that the samples represent.
 TEST(Spectrum, distances_add_and_energy_stays) {
     const Grid plane{240, 200, 0.8_um, 0.8_um, 0, 0};
     const Field field = noise(plane);
@@ -143,7 +144,7 @@ TEST(Spectrum, distances_add_and_energy_stays) {
               1e-5);
 }
 
-// A converging spherical wave through a round opening: Airy's pattern, peak πa²/λR.
+// A converging spherical wave through a round opening gives Airy's pattern with a peak of πa²/λR.
 TEST(Elements, a_round_lens_makes_airys_pattern) {
     const Grid plane{700, 700, 1_um, 1_um, 0, 0};
     const double radius = 0.25_mm, focal = 15_mm;
@@ -243,8 +244,7 @@ TEST(Elements, names_a_lens_that_would_do_where_one_is_too_steep_for_the_samples
     EXPECT_THROW(circular_aperture(wave, 0, 0, -1_mm), Error);
 }
 
-// A Gaussian beam as a tilted plane cuts it, along both axes at once, with and without propagation in between; and
-// back.
+// A Gaussian beam on a plane tilted about both axes, with and without propagation in between, and back.
 TEST(Tilt, a_tilted_plane_cuts_a_gaussian_beam) {
     const Grid plane{256, 256, 0.8_um, 0.8_um, 0.1_mm, -0.2_mm};
     const double w = 15_um;
@@ -258,7 +258,7 @@ TEST(Tilt, a_tilted_plane_cuts_a_gaussian_beam) {
     Orientation turned;
     turned.x = {std::cos(a), 0, -std::sin(a)};
     turned.y = normalize(cross({std::sin(a) * std::cos(b), std::sin(b), std::cos(a) * std::cos(b)}, turned.x));
-    // Around the beam's own direction on the new plane.
+    // A band around the beam's direction on the new plane.
     const double fx = turned.x.z / wavelength, fy = turned.y.z / wavelength, half = 0.1 / wavelength;
     Grid fine = window;
     fine.pitch_x = fine.pitch_y = 0.5_um;
@@ -303,7 +303,7 @@ TEST(Spectrum, is_the_same_for_any_number_of_threads_and_in_a_file) {
     EXPECT_TRUE(std::ranges::equal(all.samples.view().elements(), in_file.samples.view().elements()));
 }
 
-// Light from one rectangle to another has no other directions than these, and nearly all of these.
+// The band contains all directions of light from one rectangle to another, and few others.
 TEST(BandBetween, holds_every_direction_tightly) {
     const Rectangle from{Grid{10, 8, 1_mm, 1_mm, 1_mm, 0}}, to{Grid{3, 3, 1_mm, 1_mm, 40_mm, -5_mm}};
     const double z = 80_mm;

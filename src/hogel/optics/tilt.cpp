@@ -33,7 +33,7 @@ class Kernel {
     std::array<std::array<float, 10>, phases + 1> weights_;
 };
 
-// The value of the samples, zero outside, at a place between them.
+// The interpolated value at a position between samples; samples outside are zero.
 Complex interpolated(View<const Complex, 2> samples, const Kernel& kernel, double row, double column) {
     const double row0 = std::floor(row), column0 = std::floor(column);
     const auto& down = kernel.at(row - row0);

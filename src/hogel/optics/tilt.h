@@ -6,7 +6,7 @@
 
 namespace hogel::optics {
 
-/// The orientation of a plane: its axes, unit vectors at right angles, in the frame of another plane.
+/// The orientation of a plane: its axes, orthogonal unit vectors, in the frame of another plane.
 struct Orientation {
     Vec3 x{1, 0, 0}, y{0, 1, 0};
 
@@ -14,13 +14,12 @@ struct Orientation {
 };
 
 /// The same wave on a tilted plane through the window's centre ([K] 6.1.2): a rotation of its plane waves,
-/// S'(f') = S(f) f_z/f'_z, f being the frequency f' as seen from the old plane; the factor is the Jacobian.
-/// Between samples S is interpolated to 1e-3. Directions that do not cross both planes towards their fronts are
-/// dropped.
+/// S'(f') = S(f) f_z/f'_z, where f is the frequency f' in the frame of the old plane and the factor is the Jacobian. S
+/// is interpolated with an error of 1e-3. Directions that do not cross both planes towards their fronts are dropped.
 /// @param spectrum  of a field that fills no more than half of its window, in x and in y, around the centre
-/// @param window    of the new plane: its count and pitch; its size gives the steps of frequency
-/// @param band      the frequencies on the new plane that are wanted
-/// Throws Error(usage) for axes that are not unit vectors at right angles, and for a band with nothing in it.
+/// @param window    the window on the new plane, whose size gives the frequency steps
+/// @param band      the frequencies to compute on the new plane Throws Error(usage) for axes that are not orthogonal
+///                  unit vectors, and for a band without frequencies.
 Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& window, const Band& band,
               const ScratchOptions& scratch = {});
 

@@ -40,7 +40,7 @@ struct Difference {
     }
 };
 
-// A range of hogels or samples cut into blocks of at most `width` × `height`: block i.
+// Divides a range of hogels or samples into blocks of at most `width` × `height`.
 struct Blocks {
     std::size_t columns, rows, width, height;
 
@@ -112,8 +112,7 @@ SampleComparison compare(const LightField& a, const LightField& b, const Progres
     return result_of(sum);
 }
 
-SampleComparison compare(std::span<const std::shared_ptr<const FieldSource>> a,
-                         std::span<const std::shared_ptr<const FieldSource>> b, const Progress& progress) {
+SampleComparison compare(const Fields& a, const Fields& b, const Progress& progress) {
     const core::StopScope scope(progress);
     const auto grid = [](const std::shared_ptr<const FieldSource>& field) { return field->grid(); };
     if (!std::ranges::equal(a, b, {}, grid, grid)) sampled_differently("holograms");

@@ -15,7 +15,8 @@ namespace hogel {
 void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                        std::span<const Camera> cameras) {
     if (request.channels.empty()) throw Error(ErrorCode::usage, "a hologram needs a wavelength; there is none");
-    // The shortest wavelength is diffracted least, and has the finest detail in the light that enters a lens.
+    // The shortest wavelength is the most critical: it is diffracted least and has the finest detail in the light that
+    // enters a lens.
     const Channel& shortest = *std::ranges::min_element(request.channels, {}, &Channel::wavelength);
     const FieldGrid hologram = hologram_grid(faces, request.options(shortest));
     require_photographs(hologram, cameras);
@@ -48,9 +49,8 @@ std::string warning_about(const LightField& light_field, const HologramRequest& 
         parallax, hologram::max_parallax, enough(grid.directions_u), enough(grid.directions_v));
 }
 
-std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField& light_field,
-                                                               const HologramRequest& request) {
-    std::vector<std::shared_ptr<const FieldSource>> holograms;
+Fields make_holograms(const LightField& light_field, const HologramRequest& request) {
+    Fields holograms;
     for (const Channel& channel : request.channels) {
         Channel shown = channel;
         if (light_field.grid().channels == 1) shown.index = 0;
@@ -60,8 +60,7 @@ std::vector<std::shared_ptr<const FieldSource>> make_holograms(const LightField&
     return holograms;
 }
 
-std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const FieldSource>> holograms,
-                                      std::span<const Camera> cameras,
+std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
                                       const std::optional<PlaneWaveCameraOptions>& full, const Progress& progress) {
     const core::StopScope scope(progress);
     const std::size_t colours = holograms.size();
@@ -71,7 +70,10 @@ std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const Fiel
         const std::vector<Image> seen = full ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
                                              : photograph(*holograms[c], cameras, PhotographOptions(), part);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
-            if (c == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
+            if (c == 0) {
+                pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
+                pictures[i].provenance = seen[i].provenance;
+            }
             for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
                 pictures[i].pixels.data()[pixel * colours + c] = seen[i].pixels.data()[pixel];
         }
@@ -79,12 +81,14 @@ std::vector<Image> photograph_colours(std::span<const std::shared_ptr<const Fiel
     return pictures;
 }
 
-void write_holograms(const std::filesystem::path& path, std::span<const std::shared_ptr<const FieldSource>> holograms,
-                     const HologramFileOptions& options, const Progress& progress) {
+void write_holograms(const std::filesystem::path& path, const Fields& holograms, const HologramFileOptions& options,
+                     const Progress& progress) {
     const core::StopScope scope(progress);
     std::vector<FieldGrid> grids;
     for (const auto& hologram : holograms) grids.push_back(hologram->grid());
-    const auto sinks = create_hologram(path, grids, options);
+    HologramFileOptions file = options;
+    file.metadata = with_history(file.metadata, to_metadata(holograms.front()->provenance()));
+    const auto sinks = create_hologram(path, grids, file);
     for (std::size_t i = 0; i < sinks.size(); ++i) copy(*holograms[i], *sinks[i], 0, progress.part(i, sinks.size()));
 }
 

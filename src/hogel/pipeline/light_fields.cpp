@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the name of a scene to a light field that is rendered where it is read.
+// From the name of a scene to a light field that is rendered when it is read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,17 +14,18 @@
 namespace hogel {
 namespace {
 
-// A light field up to this size, in bytes, is kept in memory rather than rendered again each time that it is read.
+// Light fields up to this size, in bytes, are kept in memory instead of being rendered each time they are read.
 constexpr double max_kept_bytes = 2e9;
-// Of a larger one rows of hogels are kept up to this, while the tiles that they hold are read.
+// Maximum bytes of cached tiles for larger light fields.
 constexpr double max_cached_tile_bytes = 1e9;
 
-// The file that is named, or the failure to find it: what looks like a path was meant as one.
+// Throws unless a file of this name exists. A name that looks like a path is reported as a missing file, any other as
+// an unknown scene.
 void require_file(const std::string& name) {
     if (std::filesystem::exists(name)) return;
     if (name.find_first_of("./") != std::string::npos)
         throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
-    scenes().find(name);  // throws, with the nearest name
+    scenes().find(name);  // throws, naming the nearest scene
 }
 
 }  // namespace
@@ -79,11 +80,12 @@ LightField render_light_field(std::shared_ptr<const ShadedScene> scene, const Li
     std::vector<LightField::Source> faces;
     for (const LightFieldGrid& grid : request.grids())
         faces.push_back(make_renderer(request.renderer, scene, grid, request.samples));
-    return LightField(std::move(faces));
+    return LightField(std::move(faces), {{{"renderer", request.renderer}, {"shading", request.shading.model}}, {}});
 }
 
 LightField render_light_field(const Scene& scene, const LightFieldRequest& request, const Progress& progress) {
-    return render_light_field(light_scene(scene, request, progress), request);
+    const LightField rendered = render_light_field(light_scene(scene, request, progress), request);
+    return rendered.with({with_history({{"scene", scene.name}}, rendered.provenance().entries), {}});
 }
 
 LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
@@ -104,7 +106,9 @@ LightField prepare_for_reading(const LightField& light_field, std::size_t times,
 void write_light_field(const std::filesystem::path& path, const LightField& light_field,
                        const LightFieldFileOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
-    const auto sinks = create_light_field(path, light_field.grids(), options);
+    LightFieldFileOptions file = options;
+    file.metadata = with_history(file.metadata, to_metadata(light_field.provenance()));
+    const auto sinks = create_light_field(path, light_field.grids(), file);
     for (std::size_t i = 0; i < sinks.size(); ++i)
         copy(*light_field.faces()[i], *sinks[i], progress.part(i, sinks.size()));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written besides light fields and holograms, and what is asked of outputs before work begins.
+// Outputs other than light fields and holograms, and checks of outputs before work begins.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@
 namespace hogel {
 namespace {
 
-// The directions of one hogel of a row, put into a picture at a column.
+// Copies the directions of one hogel of a row into a picture at a column.
 void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::size_t column) {
     const auto& radiance = row.radiance;
     for (std::size_t c = 0; c < radiance.extent(0); ++c)
@@ -46,7 +46,8 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
         if (options.rows) {
             Image picture(grid.hogels_s * grid.directions_u, grid.directions_v, grid.channels);
             for (std::size_t i = 0; i < grid.hogels_s; ++i) paste(row, hogel_at(i, t), picture, i * grid.directions_u);
-            write_image(names[t], picture, options.exposure, options.provenance);
+            write_image(names[t], picture, options.exposure,
+                        with_history(options.metadata, to_metadata(light_field.provenance())));
             continue;
         }
         core::parallel_for(grid.hogels_s, [&](std::size_t i) {
@@ -59,7 +60,7 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
 }
 
 void require_writable(const std::filesystem::path& file) {
-    const core::OutputFile output(file);  // complains about a missing folder, or a folder in the file's place
+    const core::OutputFile output(file);  // throws for a missing folder, or if the file is a folder
     if (access(output.temporary().parent_path().c_str(), W_OK) != 0)
         throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
 }

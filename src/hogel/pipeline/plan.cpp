@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What work will take, before it begins. Memory and disk follow from the sizes of arrays; times from rates that were
-// measured on one machine, so they are estimates.
+// Estimates of the resources of work. Memory and disk space follow from the sizes of arrays. Times are estimates from
+// rates measured on one machine.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include "hogel/error.h"
 #include "hogel/optics/photograph_plan.h"
+#include "hogel/optics/spectrum.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 
@@ -19,16 +21,22 @@ namespace hogel {
 namespace {
 
 // Processor seconds, measured on two cores of an AMD EPYC (Zen 5) with g++ 12, 2026-11-22 (docs/performance.md).
-// A ray by epi takes this, and as much more for every million triangles; other renderers about ten times as much.
+// Seconds per ray with epi: a constant, and an addition per million triangles; other renderers take about ten times as
+// long.
 constexpr double seconds_a_ray = 1.9e-9, seconds_a_ray_and_million_triangles = 2.0e-9, other_renderers = 10;
-// A sample of a hologram to be synthesised, and to be brought into the narrow band of one eye.
+// Seconds per sample of a hologram for its synthesis, and for the narrow band of one eye.
 constexpr double seconds_a_sample = 5e-9, seconds_a_sample_and_eye = 1.8e-9;
+// Seconds per sample to compress a light field with the coder hogel, including the search for the step; other coders
+// take about as long.
+constexpr double seconds_a_coded_sample = 30e-9;
+// Seconds per sample of a propagated field, in a window 2.5 times as large along each side.
+constexpr double seconds_a_propagated_sample = 300e-9;
 
 double on_all_threads(double processor_seconds) {
     return processor_seconds / static_cast<double>(std::max<std::size_t>(thread_count(), 1));
 }
 
-// Bytes that the system can give to programs without swapping; infinity where it does not say.
+// Bytes that the system can give to programs without swapping; infinity if it does not say.
 double memory_available() {
     std::ifstream file("/proc/meminfo");
     for (std::string word; file >> word;)
@@ -47,8 +55,8 @@ double hologram_samples(std::span<const LightFieldGrid> faces, const HologramReq
     return samples;
 }
 
-// Bytes that one region of a renderer takes: its values, its depth buffer, and with several samples a ray those of the
-// finer light field, which is averaged block by block.
+// Bytes for one region of a renderer: its values, its depth buffer and, with several samples per ray, a block of the
+// finer light field.
 double region_bytes(const LightFieldSource& face, const LightFieldRequest& request, std::size_t values) {
     const LightFieldGrid& grid = face.grid();
     const HogelRange region = face.preferred_tile();
@@ -94,7 +102,7 @@ Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest
     Plan plan;
     plan.disk = samples * (file.type == SampleType::half ? 4 : 8);
     plan.seconds = on_all_threads(samples * seconds_a_sample);
-    // Tiles in work, of complex samples, with the rays that they are made of.
+    // Tiles of complex samples that are in progress, with their rays.
     const std::size_t hogel = hologram_grid(faces, request.options(request.channels.front())).plane.samples() /
                               std::max<std::size_t>(faces.front().hogels(), 1);
     plan.memory = static_cast<double>(4 * thread_count()) *
@@ -118,6 +126,55 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
             std::max(camera_bytes, optics::plan_photographs(grid, cameras, static_cast<double>(options.memory)).bytes);
     }
     plan.memory += camera_bytes;
+    return plan;
+}
+
+namespace {
+
+// Maximum bytes of the file: a quantiser alone needs one bit per 6.02 dB.
+double compressed_bytes(const LightField& light_field, const CompressionTarget& target) {
+    const double samples = light_field.samples();
+    if (const auto* rate = std::get_if<PixelsPerBit>(&target))
+        return samples / static_cast<double>(light_field.grid().channels) / 8 / rate->rate;
+    if (const auto* sqnr = std::get_if<Sqnr>(&target)) return samples * (sqnr->decibels / 6.02 + 0.5) / 8;
+    return samples * sizeof(float);
+}
+
+}  // namespace
+
+Plan plan_compression(const LightField& light_field, const CompressionOptions& options) {
+    const LightFieldGrid& grid = light_field.grid();
+    const auto coder = coders().find(options.method.coder).make(options.method, grid, {});
+    HogelRange tile = options.tile.value_or(coder->preferred_tile(grid));
+    tile.ns = std::min(tile.ns, grid.hogels_s);
+    tile.nt = std::min(tile.nt, grid.hogels_t);
+    const double tiles = std::ceil(static_cast<double>(grid.hogels()) / static_cast<double>(tile.hogels()));
+    const double at_once =
+        std::min(tiles, static_cast<double>(std::min<std::size_t>(coder->max_at_once(), thread_count())));
+    // A tile, its prediction, its residual and its coefficients, for each of the tiles in progress.
+    constexpr double arrays = 4;
+    const double tile_samples = static_cast<double>(tile.hogels() * grid.directions() * grid.channels);
+    Plan plan;
+    plan.memory = arrays * at_once * tile_samples * sizeof(float);
+    plan.disk = compressed_bytes(light_field, options.target);
+    if (options.with_depth) plan.disk += light_field.samples() / static_cast<double>(grid.channels) * sizeof(float);
+    plan.seconds = on_all_threads(light_field.samples() * seconds_a_coded_sample);
+    return plan;
+}
+
+Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options) {
+    Plan plan;
+    for (const FieldGrid& field : fields) {
+        const Grid& plane = field.plane;
+        const Grid window = optics::padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y());
+        // The spectrum and the wave computed from it.
+        const double bytes = 2 * static_cast<double>(window.samples()) * sizeof(std::complex<float>);
+        const double kept = std::min(bytes, static_cast<double>(options.scratch.memory));
+        const double result = static_cast<double>(plane.samples()) * sizeof(std::complex<float>);
+        plan.memory = std::max(plan.memory, kept);
+        plan.disk += result + (bytes - kept);
+        plan.seconds += on_all_threads(static_cast<double>(plane.samples()) * seconds_a_propagated_sample);
+    }
     return plan;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renderers against each other: what rays see every renderer sees, except at silhouettes, where rounding decides.
+// Compares renderers: all give the samples of ray casting, except at silhouettes, where rounding decides.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class Agreement : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, Agreement, ::testing::ValuesIn(renderer_names()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-// Whether a neighbouring direction sees something at another depth, as at a silhouette.
+// Whether a neighbouring direction has a different depth, as at a silhouette.
 bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u,
                      double jump) {
     const float here = light_field.depth(t, s, v, u);
@@ -42,8 +42,8 @@ struct Compared {
     std::size_t samples = 0, hits = 0;
 };
 
-// Compares all samples away from silhouettes, except those less than `margin` from the border of a hogel's view, whose
-// neighbours are not known.
+// Compares all samples away from silhouettes, except those closer than `margin` to the border of a hogel's view, whose
+// neighbours are unknown.
 void expect_agreement(const LightFieldBuffer& first, const LightFieldBuffer& second, std::size_t margin,
                       Compared& compared) {
     const LightFieldGrid& sampled = first.grid();
@@ -81,7 +81,7 @@ TEST_P(Agreement, with_ray_casting_on_random_scenes) {
     EXPECT_GT(compared.hits, static_cast<std::size_t>(rounds) * 3000);
 }
 
-// The smallest possible views of many more scenes, of one triangle and of several.
+// Many more scenes, of one and of several triangles, in the smallest possible views.
 TEST_P(Agreement, with_ray_casting_on_2000_random_scenes) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> aside(-0.4, 0.4);
@@ -91,7 +91,7 @@ TEST_P(Agreement, with_ray_casting_on_2000_random_scenes) {
         ShadedScene scene = random_scene(random, 8, behind);
         if (!behind && !crosses_plane(GetParam())) continue;
         scene.fronts_only = round % 8 >= 4;
-        // Each kind of triangle by itself, then all together.
+        // Each kind of triangle alone, then all together.
         if (round % 32 < 16) scene.triangles = {scene.triangles[static_cast<std::size_t>(round / 2 % 8)]};
         LightFieldGrid window{2, 2, 1.7_mm, 5, 4, Perspective{0.0758, 0.0516}, 3};
         window.range().center_u = aside(random);
@@ -103,9 +103,9 @@ TEST_P(Agreement, with_ray_casting_on_2000_random_scenes) {
     EXPECT_GT(compared.hits, 1500u);
 }
 
-// The renderers that decide by ObliqueTriangle which samples see a triangle give exactly what a test of every ray
-// against every triangle gives: they miss no sample, and order and region do not matter. The grid has samples at its
-// centre, where rays go through vertices and along edges.
+// The renderers that use ObliqueTriangle to decide which samples see a triangle give exactly the result of testing
+// every ray against every triangle, independently of order and region. The grid has samples at its centre, where rays
+// pass through vertices and along edges.
 class SampleFindingRenderer : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer,
                          ::testing::Values("simplex", "simploid", "simplex3d", "oblique", "mvr"),
@@ -144,7 +144,7 @@ TEST_P(SampleFindingRenderer, finds_what_a_test_of_every_ray_against_every_trian
     }
 }
 
-// Triangles much smaller than the distance between hogels, in front of the hologram plane, in it and behind it.
+// Triangles much smaller than the distance between hogels, in front of the hologram plane, on it and behind it.
 TEST(Renderers, agree_on_a_fine_mesh_around_the_hologram_plane) {
     ShadedScene scene;
     scene.background = {0.5f, 0.5f, 0.5f};
@@ -181,7 +181,7 @@ TEST(Renderers, agree_on_a_fine_mesh_around_the_hologram_plane) {
     }
 }
 
-// A sloping quadrilateral with a texture beside a plain triangle, in one channel and in three.
+// A sloping textured quadrilateral beside a plain triangle, in one channel and in three.
 TEST(Renderers, agree_on_textures_without_depth) {
     ShadedScene scene;
     scene.background = {0.1f, 0.2f, 0.3f};

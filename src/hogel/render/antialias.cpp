@@ -33,7 +33,7 @@ class Averaged final : public LightFieldSource {
     }
 
   private:
-    // Reads the block of ns × nt hogels whose first is (s, t) of the tile.
+    // Reads the block of ns × nt hogels that begins at (s, t) of the tile.
     void read_block(LightFieldTile& tile, std::size_t s, std::size_t t, std::size_t ns, std::size_t nt) const {
         const std::size_t n = samples_.hogel;
         const HogelRange& range = tile.range;
@@ -50,7 +50,7 @@ class Averaged final : public LightFieldSource {
                 }
     }
 
-    // The means of a row of directions of hogel (j, i) of the block.
+    // Computes the means for a row of directions of hogel (j, i) of the block.
     void average_row(const LightFieldTile& fine, std::size_t channel, std::size_t j, std::size_t i, std::size_t v,
                      std::vector<double>& sums, float* out) const {
         const double weight = 1 / static_cast<double>(samples_.count());
@@ -71,7 +71,7 @@ class Averaged final : public LightFieldSource {
         });
     }
 
-    // Visits the rows of fine samples in the cells of hogel (j, i) and row v of its directions, always in this order.
+    // Visits the rows of fine samples in the cells of hogel (j, i) and row v of its directions, in a fixed order.
     template <class Visit>
     void for_rows(std::size_t j, std::size_t i, std::size_t v, const Visit& visit) const {
         for (std::size_t fine_t = j * samples_.hogel; fine_t < (j + 1) * samples_.hogel; ++fine_t)

@@ -20,7 +20,7 @@ using namespace literals;
 constexpr double depth = 6e-3;
 const LightFieldGrid grid{6, 3, 1_mm, 12, 10, Perspective{0.4, 0.3}, 3};
 
-// Vertical stripes of a wall behind the hologram, each from one x to the next.
+// A wall behind the hologram made of vertical stripes, each from one x to the next.
 ShadedScene wall(const std::vector<double>& x, const std::function<Rgb(Vec3)>& radiance) {
     ShadedScene scene;
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
@@ -48,7 +48,7 @@ TEST(SamplesPerRay, keep_a_constant_exactly) {
 }
 
 // A wave on the wall is attenuated by sinc(f d) over the width of the hogel and by sinc(f ζ ΔU) over the cell of the
-// direction. With n samples instead of the whole box, sinc(x) becomes sin(πx)/(n sin(πx/n)).
+// direction. With n samples instead of a continuous box, sinc(x) becomes sin(πx)/(n sin(πx/n)).
 TEST(SamplesPerRay, attenuate_a_wave_as_a_box_does) {
     constexpr double pi = std::numbers::pi;
     std::vector<double> x;
@@ -136,7 +136,7 @@ TEST(SamplesPerRay, agree_between_renderers) {
             worst = std::max(worst, error);
         }
         EXPECT_LT(sum / double(seen.radiance.size()), 1e-4) << info.name;
-        EXPECT_LT(worst, 3.0 / double(samples.count())) << info.name;  // rounding decides about rays through an edge
+        EXPECT_LT(worst, 3.0 / double(samples.count())) << info.name;  // rounding decides for rays through an edge
     }
 }
 

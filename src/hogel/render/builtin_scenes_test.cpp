@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every renderer on the built-in scenes: against closed forms, and against ray casting.
+// Compares every renderer on the built-in scenes with closed forms and with ray casting.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using namespace literals;
 
 constexpr double size = 20_mm;
 
-// The scene of that name; instead of church-radiance, which takes long, a church that is baked with few rays and larger
-// triangles.
+// The scene of that name, except that church-radiance, which takes long, is replaced by a church that is baked with few
+// rays and larger triangles.
 Scene quick_scene(std::string_view name) {
     if (name != "church-radiance") return make_scene(name, size);
     Scene church = make_scene("church", size);
@@ -29,7 +29,7 @@ Scene quick_scene(std::string_view name) {
     return bake_scene(church, {.rays = 2, .bounces = 1, .tessellation = 2});
 }
 
-// Renders the scene as it is made, or moved behind the hologram plane for a renderer that needs that.
+// Renders the scene as it is, or moved behind the hologram plane for a renderer that needs that.
 LightFieldBuffer render_scene(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid,
                               bool behind = false) {
     LightFieldBuffer light_field(grid, true);
@@ -37,7 +37,7 @@ LightFieldBuffer render_scene(std::string_view algorithm, std::string_view name,
     const double back = behind ? bounds(scene).high.z + 1_mm : 0;
     for (Mesh& mesh : scene.meshes)
         for (Vec3& position : mesh.positions) position.z -= back;
-    // Without shadows, which take longest and are the same for all renderers.
+    // Without shadows, which take most time and are the same for all renderers.
     for (Light& light : scene.lights) {
         light.position.z -= back;
         light.casts_shadows = false;
@@ -95,7 +95,7 @@ TEST_P(ClosedForm, is_what_the_renderer_gives) {
     EXPECT_GT(hits, 0u);
 }
 
-// Whether the depth jumps between neighbouring directions, as at a silhouette.
+// Whether the depth is discontinuous between neighbouring directions, as at a silhouette.
 bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     const LightFieldGrid& grid = light_field.grid();
     float low = light_field.depth(t, s, v, u), high = low;

@@ -13,7 +13,7 @@ std::vector<float> cache_spacing(const ShadedScene& scene, const LightFieldGrid&
     for (const ShadedScene::Triangle& triangle : scene.triangles) {
         const auto [a, b, c] = triangle.vertices;
         const auto [low, high] = std::minmax({scene.positions[a].z, scene.positions[b].z, scene.positions[c].z});
-        const double nearest = std::max({low, -high, 0.0});  // 0 where it crosses the plane
+        const double nearest = std::max({low, -high, 0.0});  // 0 if it crosses the plane
         spacing.push_back(static_cast<float>(share * std::max(front.pitch, nearest * step)));
     }
     return spacing;

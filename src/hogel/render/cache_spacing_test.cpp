@@ -19,7 +19,7 @@ namespace {
 
 using namespace literals;
 
-// Another lighting, with a count of the points at which it is evaluated.
+// Wraps a lighting and counts the points at which it is evaluated.
 class Counted final : public SampleLighting {
   public:
     explicit Counted(std::shared_ptr<const SampleLighting> inner) : inner_(std::move(inner)) {}
@@ -99,7 +99,7 @@ TEST(CacheSpacing, is_the_smallest_width_of_a_sample_on_the_triangle) {
     EXPECT_FLOAT_EQ(cache_spacing(scene, fine, 2)[2], 2 * 1.5e-3f * 0.025f);
 }
 
-// The cache changes radiance at the edges of shadows only, and evaluates light at a twentieth of the points.
+// The cache changes radiance only at the edges of shadows, and evaluates light at a twentieth of the points.
 TEST(CacheSpacing, keeps_radiance_away_from_the_edges_of_shadows) {
     for (const char* model : {"direct", "shadowed"}) {
         std::shared_ptr<Counted> counted;
@@ -137,7 +137,8 @@ TEST(CacheSpacing, gives_the_same_bytes_for_any_tiling_and_number_of_threads) {
     }
     EXPECT_TRUE(std::ranges::equal(many.radiance.elements(), tiled.radiance.elements()));
     const LightFieldBuffer traced = render(shaded("direct", 0.5), "raytrace");
-    // Other renderers give nearly the same: at the edges of shadows epi interpolates between knots.
+    // Other renderers give nearly the same; only at the edges of shadows epi differs, because it interpolates between
+    // knots.
     std::size_t off = 0, far_off = 0;
     for (std::size_t i = 0; i < traced.radiance.size(); ++i) {
         const double expected = traced.radiance.data()[i], difference = many.radiance.data()[i] - expected;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every renderer against ray casting, over combinations of options: numbers of hogels and directions down to one, faces
-// and off-centre views, samples per ray, culling, and every shading model, on textures, gloss and shadows.
+// Compares every renderer with ray casting over combinations of options: numbers of hogels and directions down to one,
+// faces and off-centre views, samples per ray, culling, and every shading model, on textures, gloss and shadows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace literals;
 
 // A sloping textured wall, a glossy ball in front of it, and a matt triangle that shows its back and casts a shadow;
-// all around the hologram plane, or moved `back` behind it.
+// around the hologram plane, or moved back by `back`.
 Scene still_life(double back) {
     Scene scene;
     scene.background = {0.1f, 0.2f, 0.3f};
@@ -64,7 +64,7 @@ struct Case {
     SamplesPerRay samples;
     bool fronts_only;
     const char* model;
-    double spacing;  // of the radiance cache, as a share of a sample's width; 0: no cache
+    double spacing;  // of the radiance cache, as a fraction of a sample's width; 0: no cache
 
     std::string text() const {
         return std::to_string(front.hogels_s) + "x" + std::to_string(front.hogels_t) + " hogels, " +
@@ -112,8 +112,8 @@ class Combinations : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(renderer_names("raytrace")),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-// Rounding decides about rays along edges. With a radiance cache, epi interpolates between knots where the others read
-// the cache, which shows at the edges of shadows.
+// Rounding decides for rays along edges. With a radiance cache, epi interpolates between knots where the other
+// renderers read the cache, which makes a difference at the edges of shadows.
 TEST_P(Combinations, agree_with_ray_casting) {
     std::size_t hits = 0, rays = 0, hemicubes = 0;
     std::size_t number = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sides of a hemicube and off-centre directions, against the front view of the scene rotated around each hogel.
+// Compares the sides of a hemicube and off-centre directions with the front view of the scene rotated around each
+// hogel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,8 +44,8 @@ class Faces : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(renderer_names()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-// A face of a hogel sees what the front of a single hogel sees of the scene rotated around it, except for rays along
-// edges, where rounding decides.
+// A face of a hogel equals the front of a single hogel for the scene rotated around it, except for rays along edges,
+// where rounding decides.
 void compare_with_rotated_scene(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
     const LightFieldBuffer seen = render(name, scene, grid);
     std::size_t hits = 0, different = 0;
@@ -92,7 +93,7 @@ TEST_P(Faces, off_centre_directions_see_what_centred_ones_see) {
     aside.range().center_u = 0.7;
     aside.range().center_v = -0.4;
     compare_with_rotated_scene(GetParam(), scene, aside);
-    // The last six columns as a view of their own.
+    // The last six columns as a separate view.
     LightFieldGrid part = front;
     part.directions_u = 6;
     part.range().half_u = front.half_u() * 6 / 22;

@@ -11,17 +11,17 @@
 
 namespace hogel::render {
 
-/// A triangle projected along one direction (U, V) into the hologram plane, where the rays of that direction are
-/// points.
+/// A triangle projected along one direction (U, V) onto the hologram plane, in which rays of that direction are points.
 ///
 /// The renderers that collect candidate samples instead of testing every one (`simplex`, `simploid`, `simplex3d`,
-/// `oblique`, `mvr`) all decide here whether a ray meets a triangle and where. The answer depends on the ray and the
-/// triangle alone, so it is the same however a sample was found, how often, and in which region.
+/// `oblique`, `mvr`) all use this class to decide whether and where a ray meets a triangle. The result depends only on
+/// the ray and the triangle, not on how, how often and in which region a sample was found.
 ///
-/// The edge functions of docs/notation.md section 2 are those of the ray's own frame: E = p_A × p_B with p = (x − Uζ −
-/// s, y − Vζ − t). A rounded difference of two rounded products may vanish but never has the wrong sign, so triangles
-/// that share vertices tile the plane. A ray through an edge belongs to the triangle on the edge's left in the plane
-/// (above the edge if it is level), as if the ray ran a little to the left (and, much less, above) of where it does.
+/// The edge functions of docs/notation.md, section 2, are evaluated in the ray's frame: E = p_A × p_B with p = (x − Uζ
+/// − s, y − Vζ − t). A rounded difference of two rounded products may be zero but never has the wrong sign, so
+/// triangles that share vertices tile the plane. A ray through an edge belongs to the triangle to the left of the edge
+/// in the plane (above the edge if it is horizontal), as if the ray were shifted slightly to the left and, much less,
+/// upwards.
 class ObliqueTriangle {
   public:
     /// Along the slopes U = dx/dζ and V = dy/dζ.
@@ -48,7 +48,7 @@ class ObliqueTriangle {
         explicit operator bool() const { return depth < std::numeric_limits<double>::infinity(); }
     };
 
-    /// Where the ray through (s, t) meets the triangle, if it does.
+    /// The point where the ray through (s, t) meets the triangle, if it does.
     Hit at(double s, double t) const {
         std::array<double, 3> x, y, w;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -74,7 +74,7 @@ class ObliqueTriangle {
     ObliqueTriangle(const ShadedScene& scene, std::size_t index, Vec3 direction)
         : ObliqueTriangle(scene, index, direction.x / direction.z, direction.y / direction.z) {}
 
-    // Whether a triangle that lies to the left of the edge A → B (to the right for side = −1) has the points on it.
+    // Whether a triangle to the left of the edge A → B (to the right for side = −1) owns the points on the edge.
     static bool owns_edge(double ax, double ay, double bx, double by, double side) {
         const double rise = side * (by - ay), run = side * (bx - ax);
         return rise > 0 || (rise == 0 && run > 0);
@@ -84,7 +84,7 @@ class ObliqueTriangle {
     bool fronts_only_;
 };
 
-/// A sample of a region's depth buffer: 8 bytes. Weights and radiance are computed from the ray and the triangle once
+/// A sample of a region's depth buffer, 8 bytes. Weights and radiance are computed from the ray and the triangle after
 /// all triangles have been drawn.
 struct NearestTriangle {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -93,8 +93,8 @@ struct NearestTriangle {
     std::uint32_t triangle = none;
 };
 
-/// Records triangle `index` as what the ray through (s, t) sees if the ray meets it at a depth of at least `min_depth`
-/// and less than the recorded one. Of two triangles at equal depth the first stays.
+/// Records triangle `index` as the one that the ray through (s, t) sees, if the ray meets it at a depth of at least
+/// `min_depth` and less than the recorded one. Of two triangles at equal depth the first is kept.
 inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangle& triangle, double s, double t,
                 double min_depth = -std::numeric_limits<double>::infinity()) {
     if (seen.triangle == index) return;
@@ -103,7 +103,8 @@ inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangl
     if (hit && hit.depth >= min_depth && depth < seen.depth) seen = {depth, index};
 }
 
-/// Shades what the ray of hogel (t, s) of the tile in direction (v, u) saw, and stores it in the tile.
+/// Shades the triangle that the ray of hogel (t, s) of the tile in direction (v, u) sees, and stores the sample in the
+/// tile.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid,
                   const NearestTriangle& seen, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     VisiblePoint point;
@@ -117,8 +118,8 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
     store(tile, scene, grid, point, t, s, v, u);
 }
 
-/// The triangles that can be seen at all. One thinner than 1e-12 of its length covers no sample except by rounding.
-/// @param list  an earlier list whose memory is used again
+/// The triangles with an area. One that is thinner than 1e-12 of its length covers samples only by rounding.
+/// @param list  an earlier list whose memory is reused
 inline std::vector<std::uint32_t> triangles_with_area(const ShadedScene& scene, std::vector<std::uint32_t> list = {}) {
     list.clear();
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {

@@ -20,9 +20,9 @@ void add_triangle(ShadedScene& scene, std::size_t a, std::size_t b, std::size_t 
     scene.triangles.push_back({{index(a), index(b), index(c)}, ShadedScene::no_texture, 0});
 }
 
-// Corners at whole millimetres and depths, and rays at half millimetres along directions that take corners to corners,
-// so that most rays go through a vertex or along an edge. The depths of corners are random on both sides of the plane,
-// so the order of vertices in space is unrelated to their order in the picture.
+// Corners are at whole millimetres, and rays at half millimetres in directions that map corners to corners, so that
+// most rays pass through a vertex or along an edge. The depths of corners are random on both sides of the plane, so the
+// order of vertices in space is unrelated to their order in the picture.
 TEST(ObliqueTriangle, every_ray_through_a_mesh_belongs_to_exactly_one_triangle) {
     constexpr int n = 8;
     std::mt19937 random(3);
@@ -30,7 +30,7 @@ TEST(ObliqueTriangle, every_ray_through_a_mesh_belongs_to_exactly_one_triangle) 
     for (int round = 0; round < 50; ++round) {
         const int U = shift(random), V = shift(random);
         ShadedScene scene;
-        // Corner (i, j) lies on the ray (U, V) through point (i, j) of the plane.
+        // Corner (i, j) is on the ray (U, V) through point (i, j) of the plane.
         for (int j = 0; j <= n; ++j)
             for (int i = 0; i <= n; ++i) {
                 const int z = depth(random);
@@ -41,7 +41,7 @@ TEST(ObliqueTriangle, every_ray_through_a_mesh_belongs_to_exactly_one_triangle) 
             for (int i = 0; i < n; ++i) {
                 const std::size_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
                                   d = corner(i, j + 1);
-                // In both orientations, as seen from the front.
+                // In both orientations, seen from the front.
                 if (coin(random) == 0) {
                     add_triangle(scene, a, b, c);
                     add_triangle(scene, a, d, c);

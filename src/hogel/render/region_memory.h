@@ -7,7 +7,7 @@
 
 namespace hogel::render {
 
-// The shapes of the depth buffers that renderers keep for a region of hogels: one NearestTriangle a sample.
+// The shapes of renderers' depth buffers for a region of hogels, with one NearestTriangle per sample.
 
 /// [v][u][t][s]: the inner loops of `simplex` run over hogels.
 inline Shape<4> simplex_buffer(const LightFieldGrid& grid, const HogelRange& region) {
@@ -27,7 +27,7 @@ inline Shape<3> simplex3d_buffer(const LightFieldGrid& grid, const HogelRange& r
 /// [t][s]: one direction.
 inline Shape<2> oblique_buffer(const HogelRange& region) { return {region.nt, region.ns}; }
 
-/// The size of such a buffer in bytes, in floating point: regions may be larger than any memory.
+/// The size of such a buffer in bytes, as a floating-point number because a region may exceed any memory.
 template <std::size_t rank>
 double buffer_bytes(const Shape<rank>& shape) {
     double product = sizeof(NearestTriangle);

@@ -18,7 +18,7 @@
 namespace hogel {
 namespace {
 
-// Adapts a source that is no Renderer: it is made anew for each scene.
+// Adapts a source that is not a Renderer by making a new one for each scene.
 class RemadeRenderer final : public Renderer {
   public:
     RemadeRenderer(const RendererInfo& info, const LightFieldGrid& grid, std::unique_ptr<LightFieldSource> source)
@@ -32,7 +32,7 @@ class RemadeRenderer final : public Renderer {
     void set_scene(std::shared_ptr<const ShadedScene> scene) override { source_ = info_.make(std::move(scene), grid_); }
 
   private:
-    const RendererInfo& info_;  // rows of a table stay where they are
+    const RendererInfo& info_;  // references to rows of a table stay valid
     LightFieldGrid grid_;
     std::unique_ptr<LightFieldSource> source_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of renderers: names, what rows tell, and rows that a program adds.
+// The table of renderers: names, the facts in rows, and rows that a program adds.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -19,7 +19,7 @@ LightFieldGrid grid_of(Face face) {
     return grid;
 }
 
-// 8 bytes for each ray that docs/renderers.md says a renderer keeps.
+// 8 bytes for each ray that a renderer keeps according to docs/renderers.md.
 TEST(RendererTable, depth_buffers_take_8_bytes_a_ray_that_is_kept) {
     const LightFieldGrid grid = grid_of(Face::front);
     const HogelRange region{7, 3, 20, 10};
@@ -39,7 +39,7 @@ TEST(RendererTable, depth_buffers_larger_than_any_memory_have_a_size) {
     EXPECT_EQ(renderers().find("simplex").depth_buffer_bytes(grid, {0, 0, 1 << 20, 1 << 20}), 0x1p71);
 }
 
-// The code and the words of the error that making a renderer ends with.
+// The code and the message of the error when making a renderer.
 std::string complaint(std::string_view name, const LightFieldGrid& grid) {
     try {
         make_renderer(name, std::make_shared<const ShadedScene>(), grid);
@@ -70,7 +70,7 @@ TEST(RendererTable, rows_say_which_renderers_take_frequencies) {
     EXPECT_GT(taking, 0u);
 }
 
-// Rays that a program traces by itself; not a Renderer.
+// A light field source of a program, which is not a Renderer.
 class OwnRays final : public LightFieldSource {
   public:
     OwnRays(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
@@ -102,7 +102,7 @@ TEST(RendererTable, a_renderer_that_a_program_adds_is_used_like_any_other) {
     EXPECT_TRUE(same_bytes(render("own-rays", first, grid), render("raytrace", first, grid)));
     EXPECT_TRUE(same_bytes(render("own-rays", first, grid, {2, 3}), render("raytrace", first, grid, {2, 3})));
     EXPECT_EQ(OwnRays::made, 2);
-    // Made anew for another scene.
+    // A new source is made for another scene.
     const auto renderer = make_renderer("own-rays", std::make_shared<const ShadedScene>(first), grid);
     renderer->set_scene(std::make_shared<const ShadedScene>(second));
     LightFieldBuffer seen(grid, true);

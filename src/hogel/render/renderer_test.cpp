@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws that every renderer keeps.
+// Properties of every renderer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Renderers, EveryRenderer, ::testing::ValuesIn(renderer_
                          [](const auto& parameter) { return test_name(parameter.param); });
 
 // Radiance that is linear over a plane is reproduced exactly by interpolation over any of its triangles, also where the
-// plane passes through the hologram: there ζ changes sign and the view of a hogel turns inside out.
+// plane crosses the hologram, so that ζ changes sign.
 TEST_P(EveryRenderer, renders_a_tilted_plane_as_its_closed_form) {
     const auto radiance = [](Vec3 p) {
         return Rgb{float(0.5 + 40 * p.x), float(0.5 - 30 * p.y), float(0.5 + 50 * p.z)};
@@ -61,12 +61,12 @@ TEST_P(EveryRenderer, renders_a_tilted_plane_as_its_closed_form) {
     EXPECT_GT(behind, 100u);
 }
 
-// A wall of triangles that share edges and corners, many of which are met by rays exactly.
+// A wall of triangles that share edges and corners, many of which are exactly on rays.
 TEST_P(EveryRenderer, leaves_no_gap_between_triangles_that_share_edges) {
     ShadedScene scene;
     scene.background = {0, 0, 0};
     const double depth = 4e-3;
-    // With these steps many corners lie on rays: x = s + Uζ with U a multiple of ΔU/2.
+    // With these steps many corners are on rays: x = s + Uζ with U a multiple of ΔU/2.
     const double step_x = 0.5 * grid.step_u() * depth * 3, step_y = 0.5 * grid.step_v() * depth * 3;
     const auto corner = [&](int i, int j) { return Vec3{i * step_x, j * step_y, -depth}; };
     for (int j = -40; j < 40; ++j)
@@ -85,7 +85,7 @@ TEST_P(EveryRenderer, leaves_no_gap_between_triangles_that_share_edges) {
     for (float value : seen.radiance.elements()) ASSERT_NEAR(value, 1, 1e-6);
 }
 
-// A wall like the one above, one triangle at a time. (A ray caster may hit both neighbours where it meets their edge.)
+// A wall like the one above, one triangle at a time. (A ray caster may hit both neighbours at a shared edge.)
 TEST(Renderers, that_scan_convert_give_each_sample_to_one_of_two_adjacent_triangles) {
     const double depth = 4e-3, step_x = 0.5 * grid.step_u() * depth * 9, step_y = 0.5 * grid.step_v() * depth * 9;
     LightFieldGrid centred = grid;
@@ -133,7 +133,7 @@ TEST_P(EveryRenderer, gives_the_same_bytes_for_any_tiling) {
     for (const HogelRange& range : {HogelRange{0, 0, 1, 1}, HogelRange{2, 1, 3, 2}, HogelRange{4, 3, 1, 1},
                                     HogelRange{0, 2, 5, 1}, HogelRange{3, 0, 1, 4}, HogelRange{0, 0, 5, 4}}) {
         LightFieldTile tile(grid, range, true), expected(grid, range, true);
-        // What the tile holds before must not matter.
+        // The previous content of the tile must not matter.
         std::ranges::fill(tile.radiance.elements(), -7.0f);
         std::ranges::fill(tile.depth.elements(), -7.0f);
         renderer->read(tile);
@@ -152,8 +152,8 @@ TEST_P(EveryRenderer, renders_an_empty_scene_as_background_at_infinite_depth) {
         for (float value : seen.radiance[c].elements()) ASSERT_EQ(value, 0.1f * float(c + 1) + 0.0f) << c;
 }
 
-// A convex body of 32 faces around a point: an octahedron in a random orientation, its edges halved and all corners
-// moved onto a sphere. The corners of faces run counterclockwise as seen from outside.
+// A convex body of 32 faces around a point: an octahedron in a random orientation with its edges halved and all corners
+// moved onto a sphere. The corners of faces run counterclockwise seen from outside.
 std::vector<std::array<Vec3, 3>> random_body(std::mt19937& random, Vec3 middle) {
     std::normal_distribution<double> normal;
     const auto direction = [&] { return normalize(Vec3{normal(random), normal(random), normal(random)}); };
@@ -172,8 +172,8 @@ std::vector<std::array<Vec3, 3>> random_body(std::mt19937& random, Vec3 middle) 
     return faces;
 }
 
-// A ray meets a convex body exactly if some of its points lie on the inner side of all faces. It sees the same of a
-// body whose back faces are culled, and the far side of one that is turned inside out.
+// A ray meets a convex body exactly if some of its points are on the inner side of all faces. Culling back faces
+// changes nothing; if the body is turned inside out, its far side is visible.
 TEST_P(EveryRenderer, covers_a_closed_body_without_gaps) {
     std::mt19937 random(3);
     std::size_t inside = 0, outside = 0;
@@ -236,8 +236,8 @@ TEST(Renderers, that_do_not_cross_the_plane_refuse_scenes_that_do) {
     EXPECT_TRUE(crosses_plane("raytrace"));
 }
 
-// A tiny triangle in front of a hogel, at twice and at half the depth of the near plane, a millionth of the scene's
-// size.
+// A tiny triangle in front of a hogel at twice and at half the depth of the near plane, which is a millionth of the
+// scene's size.
 TEST(Renderers, that_do_not_cross_the_plane_see_up_to_their_near_plane) {
     const double size = 8e-3, near = 1e-6 * size;
     for (double depth : {2 * near, 0.5 * near}) {

@@ -7,11 +7,11 @@
 
 namespace hogel::render {
 
-/// The axes of epipolar planes, for renderers that go through a light field plane by plane. An epipolar plane holds all
-/// rays of one hogel position and one direction along a slow axis; in it hogels and directions vary along a fast axis.
-/// On the front, the top and the bottom the slow axis is t and V, the fast one s and U. On the left and the right they
-/// are transposed, because there the plane of fixed s and U holds all t and V. Source: [K] 5.3.2; docs/notation.md,
-/// section 2.
+/// The axes of epipolar planes, for renderers that process a light field plane by plane. An epipolar plane contains all
+/// rays of one hogel position and one direction along a slow axis; within it hogels and directions vary along a fast
+/// axis. On the front, the top and the bottom the slow axis is t and V, the fast one s and U. On the left and the right
+/// they are transposed, because there the plane of fixed s and U holds all t and V. Source: [K] 5.3.2;
+/// docs/notation.md, section 2.
 class RowAxes {
   public:
     explicit RowAxes(const LightFieldGrid& grid)
@@ -41,10 +41,10 @@ class RowAxes {
     }
     double slow_index(double direction) const { return transposed_ ? grid_.column(direction) : grid_.row(direction); }
     double fast_index(double direction) const { return transposed_ ? grid_.row(direction) : grid_.column(direction); }
-    /// +1 if the numbers of fast hogels grow with their coordinate (s), −1 if they fall (t).
+    /// +1 if the indices of fast hogels increase with their coordinate (s), −1 if they decrease (t).
     double fast_sign() const { return transposed_ ? -1 : 1; }
 
-    /// Hogel (slow, fast) and direction (slow, fast) as the light field numbers them.
+    /// The light field's indices of hogel (slow, fast) and direction (slow, fast).
     struct Sample {
         std::size_t t, s, v, u;
     };
@@ -52,8 +52,8 @@ class RowAxes {
         return transposed_ ? Sample{fast, slow, fast_dir, slow_dir} : Sample{slow, fast, slow_dir, fast_dir};
     }
 
-    /// A point as seen from the hogels at `slow_hogel`: its coordinate along the fast axis (s or t, not relative to a
-    /// hogel), along the slow axis relative to the hogels, and forward in the face's picture.
+    /// A point seen from the hogels at `slow_hogel`: its coordinate along the fast axis (s or t, not relative to a
+    /// hogel), along the slow axis relative to the hogels, and forward in the face's frame.
     struct Seen {
         double fast, slow, forward;
     };

@@ -10,7 +10,7 @@
 
 namespace hogel::render {
 
-/// The point that a ray sees: a triangle, the weights of its vertices, the depth.
+/// The point that a ray sees: a triangle, the weights of its vertices, and the depth.
 struct VisiblePoint {
     static constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
 
@@ -19,18 +19,18 @@ struct VisiblePoint {
     double depth = std::numeric_limits<double>::infinity();  ///< ζ, metres
 };
 
-/// The value of a light field with one channel, by the weights of Rec. ITU-R BT.709.
+/// The value of a light field with one channel: luminance by Rec. ITU-R BT.709.
 inline float luminance(Rgb radiance) { return 0.2126f * radiance.r + 0.7152f * radiance.g + 0.0722f * radiance.b; }
 
-/// How the ray (U, V) of a grid looks at the surface that it meets at depth ζ. Rays of neighbouring hogels meet the
-/// surface a hogel's pitch apart, and neighbouring rays of one hogel ζΔU apart: a sample covers the larger of the two.
+/// The ViewSample of the ray (U, V) of a grid at a surface at depth ζ. Rays of neighbouring hogels meet the surface at
+/// a distance of a hogel's pitch, neighbouring rays of one hogel at ζΔU; a sample covers the larger of the two.
 inline ViewSample view_sample(const LightFieldGrid& grid, double U, double V, double depth) {
     const Vec3 direction = grid.direction_of(U, V);
     const double spread = std::abs(depth / direction.z) * std::max(grid.step_u(), grid.step_v());
     return {normalize({-direction.x, -direction.y, direction.z}), std::max(grid.pitch, spread)};
 }
 
-/// Shades a visible point and stores it as sample (t, s, v, u) of a tile; t and s count from the tile's corner.
+/// Shades a visible point and stores it as sample (t, s, v, u) of a tile; t and s are relative to the tile's corner.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid, const VisiblePoint& point,
                   std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     Rgb radiance = scene.background;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer that is given another scene renders what a new renderer renders, to the last bit.
+// After set_scene() a renderer gives bit for bit the samples of a new renderer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace literals;
 
 const LightFieldGrid grid{6, 5, 1_mm, 20, 18, Perspective{0.5, 0.4}, 3};
 
-// A textured wall and a glossy ball behind the hologram plane, at a moment of a movement.
+// A textured wall and a glossy ball behind the hologram plane, at one moment of an animation.
 Scene moving_scene(double moment) {
     Scene scene;
     static const std::shared_ptr<const Image> picture = [] {
@@ -85,7 +85,7 @@ TEST_P(SetScene, takes_scenes_of_any_size) {
     }
 }
 
-// The loop of a viewer: one scene, shaded anew in place.
+// As in the loop of a viewer, one scene is shaded again in place.
 TEST_P(SetScene, takes_the_same_scene_with_new_contents) {
     for (const char* model : {"vertex", "shadowed", "direct"}) {
         const auto scene = std::make_shared<ShadedScene>(shade_scene(moving_scene(0), by(model)));

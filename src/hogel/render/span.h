@@ -5,9 +5,9 @@
 
 namespace hogel::render {
 
-/// Samples this close to an edge, in samples, count as inside while candidates are collected. It exceeds all rounding
-/// on the way and is small enough that few samples are found twice. ObliqueTriangle then decides whether the ray meets
-/// the triangle.
+/// The distance from an edge, in samples, within which samples count as inside while candidates are collected. It
+/// exceeds all rounding errors and is small enough that few samples are found twice. ObliqueTriangle then decides
+/// whether the ray meets the triangle.
 constexpr double scan_margin = 1e-6;
 
 /// Consecutive samples: first <= i < end.
@@ -19,7 +19,7 @@ struct Span {
 inline Span samples_between(double low, double high, std::size_t n) {
     const double from = low - scan_margin, to = high + scan_margin;
     if (!(from <= to) || to < 0 || from > static_cast<double>(n - 1)) return {};
-    // Conversions truncate, which costs less than std::ceil and std::floor.
+    // Conversions truncate, which is faster than std::ceil and std::floor.
     std::size_t first = from > 0 ? static_cast<std::size_t>(from) : 0;
     if (static_cast<double>(first) < from) ++first;
     const std::size_t end = to < static_cast<double>(n - 1) ? static_cast<std::size_t>(to) + 1 : n;

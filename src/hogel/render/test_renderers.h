@@ -13,7 +13,7 @@
 
 namespace hogel::render {
 
-/// The renderers that tests run over; without one that is their reference.
+/// The names of the renderers to test, without the one that is the reference.
 inline std::vector<std::string> renderer_names(std::string_view without = "") {
     std::vector<std::string> names = renderers().names();
     std::erase(names, without);
@@ -62,9 +62,9 @@ inline void add_triangle(ShadedScene& scene, Vec3 a, Vec3 b, Vec3 c, const std::
 
 inline Rgb white(Vec3) { return {1, 1, 1}; }
 
-/// Random triangles within 4 mm of the hologram plane, or from 1 to 9 mm behind it. Some have no area, some are as thin
-/// as a line, and some show their front to some hogels and their back to others; behind the plane some reach as close
-/// to it as any renderer can see.
+/// Random triangles within 4 mm of the hologram plane, or from 1 to 9 mm behind it. Some have no area, some are
+/// extremely thin, and some show their front to some hogels and their back to others; behind the plane some reach as
+/// close to it as any renderer can see.
 inline ShadedScene random_scene(std::mt19937& random, std::size_t count, bool behind) {
     std::uniform_real_distribution<double> coordinate(-4e-3, 4e-3);
     std::uniform_real_distribution<float> colour(0, 1);

@@ -20,8 +20,8 @@ constexpr double pi = std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Rgb background{0.02f, 0.02f, 0.03f};
 
-/// The pictures are sums of waves with whole periods across the picture, so that its texture may repeat. p to the right
-/// and q up run from 0 to 1.
+/// The radiance of picture `number`, a sum of waves with whole periods across the picture so that its texture can
+/// repeat. p (right) and q (up) run from 0 to 1.
 Rgb picture(int number, double p, double q) {
     const double a = 2 * pi * p, b = 2 * pi * q;
     if (number == 0)
@@ -97,8 +97,8 @@ Scene panel_scene(std::initializer_list<Panel> panels, double size) {
     return scene;
 }
 
-// The poles of the tessellation lie on the axis of the light, so the terminator is one of its rings and the kink of
-// max(0, n·l) lies between triangles.
+// The poles of the tessellation are on the axis of the light, so the terminator is one of its rings and the kink of
+// max(0, n·l) is between triangles.
 Mesh sphere_mesh(double size) {
     constexpr std::size_t columns = 240, rows = 160;
     const Vec3 side = normalize(cross({0, 1, 0}, to_lamp)), other = cross(to_lamp, side);

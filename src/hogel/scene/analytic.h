@@ -7,10 +7,10 @@
 
 namespace hogel::scene {
 
-/// A ray of the light field by a closed form.
+/// A ray of the light field given by a closed form.
 struct AnalyticSample {
     Rgb radiance;
-    double depth = 0;      ///< ζ, metres; +infinity where the ray meets nothing
+    double depth = 0;      ///< ζ, metres; +infinity if the ray meets nothing
     double clearance = 0;  ///< distance of the ray from the nearest silhouette, metres
 };
 
@@ -22,7 +22,7 @@ bool has_analytic_radiance(std::string_view name);
 /// is more than D/1000: radiance to 1e-3, depth to 1e-3 D (plane, two-planes and point: to rounding). Throws
 /// Error(usage) for a scene without closed form.
 ///   plane       a picture of half-width 0.425 D at ζ = 0.2 D
-///   two-planes  the same behind one of half-width 0.15 D at ζ = −0.1 D, centred at (−0.05 D, 0.04 D)
+///   two-planes  the same picture behind one of half-width 0.15 D at ζ = −0.1 D, centred at (−0.05 D, 0.04 D)
 ///   sphere      of radius 0.3 D around the hologram's centre, diffuse, one directional light and ambient light
 ///   point       a disc of radius 0.005 D and radiance 1 at (0.1 D, 0.05 D), ζ = 0.15 D
 AnalyticSample analytic_radiance(std::string_view name, double hologram_size, double s, double t, double U, double V);

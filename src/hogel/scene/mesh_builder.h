@@ -10,7 +10,7 @@
 
 namespace hogel::scene {
 
-/// Builds a mesh of coloured vertices. Normals are left to add_missing_normals(), which joins equal positions.
+/// Builds a mesh of coloured vertices without normals; add_missing_normals() adds them, joining equal positions.
 class MeshBuilder {
   public:
     using Index = std::uint32_t;
@@ -27,7 +27,7 @@ class MeshBuilder {
     }
 
     /// A patch of columns × rows quads with vertices at(i, k), 0 <= i <= columns, 0 <= k <= rows. Its front is the side
-    /// from which i runs to the right and k up. `wraps`: column `columns` is column 0 again.
+    /// from which i runs to the right and k up. If `wraps`, column `columns` is column 0.
     void patch(std::size_t columns, std::size_t rows, bool wraps,
                const std::function<Vec3(std::size_t, std::size_t)>& at, const std::function<Rgb(Vec3)>& color) {
         const std::size_t across = wraps ? columns : columns + 1;
@@ -63,7 +63,7 @@ class MeshBuilder {
     Mesh mesh;
 };
 
-/// A pseudo-random number in 0..1 that depends on the three integers alone.
+/// A pseudo-random number in 0..1 that depends only on the three integers.
 inline double hashed(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     std::uint32_t h = a * 0x9E3779B1u ^ b * 0x85EBCA77u ^ c * 0xC2B2AE3Du;
     h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
@@ -78,8 +78,8 @@ inline Rgb mix(Rgb a, Rgb b, double weight) {
     return (1 - w) * a + w * b;
 }
 
-/// Rotates a scene with its lights by `about_y` (radians) about the vertical, then by `about_x` about the x axis (its
-/// top towards the viewer where positive).
+/// Rotates a scene with its lights by `about_y` (radians) about the vertical axis, then by `about_x` about the x axis
+/// (positive: its top towards the viewer).
 inline void rotate(Scene& scene, double about_y, double about_x) {
     const double cy = std::cos(about_y), sy = std::sin(about_y), cx = std::cos(about_x), sx = std::sin(about_x);
     const auto rotated = [&](Vec3 p) {

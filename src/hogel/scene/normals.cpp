@@ -41,7 +41,7 @@ class Groups {
     std::vector<Index> parent_;
 };
 
-/// An edge of a triangle, by the welded vertices that it joins: `at_low` is the triangle's corner at the lower one.
+/// An edge of a triangle between two welded vertices; `at_low` is the triangle's corner at the lower-numbered one.
 struct Edge {
     Index low, high, at_low, at_high;
 };
@@ -77,7 +77,7 @@ void append_copy(std::vector<T>& values, Index i) {
     if (!values.empty()) values.push_back(T(values[i]));
 }
 
-/// Joins the corners of neighbouring triangles that meet at no more than `crease` radians.
+/// Joins the corners of neighbouring triangles that meet at an angle of at most `crease` radians.
 Groups smoothing_groups(const Mesh& mesh, const std::vector<Vec3>& faces, double crease) {
     const std::vector<Edge> edges = sorted_edges(mesh, weld(mesh.positions));
     Groups groups(3 * mesh.triangles.size());
@@ -101,7 +101,7 @@ void add_normals(Mesh& mesh, double crease) {
     std::vector<Vec3> sums(3 * mesh.triangles.size());
     for (Index corner = 0; corner < sums.size(); ++corner) sums[groups.find(corner)] += faces[corner / 3];
 
-    // A vertex keeps its index for the first group that uses it, and is copied for every further one.
+    // A vertex keeps its index for the first group that uses it and is copied for every further group.
     constexpr Index none = ~Index{0};
     struct Use {
         Index group = none, next_copy = none;

@@ -9,10 +9,10 @@
 namespace hogel {
 namespace {
 
-// A checksum of the checksums and lengths of several arrays.
+// Combines the checksums and lengths of several arrays.
 class Checksums {
   public:
-    // T has no padding.
+    // Adds an array. T must have no padding.
     template <class T>
     void add(std::span<const T> values) {
         sums_.push_back(core::checksum({reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()}));
@@ -24,7 +24,7 @@ class Checksums {
             sums_.push_back(0);
             return;
         }
-        // Many meshes may share a picture.
+        // Meshes may share a picture, whose checksum is computed once.
         const auto [known, is_new] = pictures_.try_emplace(picture.get());
         if (is_new) {
             const std::span<const float> pixels = picture->pixels.elements();

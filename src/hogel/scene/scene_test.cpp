@@ -15,7 +15,7 @@
 namespace hogel::scene {
 namespace {
 
-/// The box from −1 to 1, with two triangles a side and eight shared vertices.
+/// The box from −1 to 1, with two triangles per side and eight shared vertices.
 Scene cube() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
@@ -129,7 +129,7 @@ TEST(Scene, bounds_hold_the_vertices_of_triangles_only) {
     EXPECT_THROW(bounds(Scene{}), Error);
 }
 
-// Each change gives another checksum; names do not matter.
+// Each change gives another checksum, except names.
 TEST(Scene, checksum_covers_everything_visible) {
     const auto picture = [](float value) {
         auto image = std::make_shared<Image>(2, 3, 3);

@@ -51,7 +51,7 @@ void add_ball(MeshBuilder& builder, Vec3 center, double radius, std::size_t colu
 
 void add_tube(MeshBuilder& builder, std::size_t columns, std::size_t steps, const std::function<Vec3(std::size_t)>& at,
               const std::function<double(std::size_t)>& radius, const std::function<Rgb(Vec3)>& color) {
-    // The frame is transported along the path and rotates only with it.
+    // The frame is transported along the path without twist.
     std::vector<Across> frames;
     for (std::size_t k = 0; k <= steps; ++k) {
         const Vec3 along = normalize(at(std::min(k + 1, steps)) - at(k > 0 ? k - 1 : 0));
@@ -104,7 +104,7 @@ void add_box(MeshBuilder& builder, Vec3 low, Vec3 high, double patch, const std:
     std::array<std::size_t, 3> parts{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         parts[axis] = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(size[axis] / patch - 1e-9)));
-    // A face for each axis and end. Faces share their edges' points to the last bit.
+    // A face for each axis and end. Faces have bit for bit the same points on shared edges.
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const bool far : {false, true}) {
             const std::size_t right = (axis + (far ? 1 : 2)) % 3, up = (axis + (far ? 2 : 1)) % 3;

@@ -14,8 +14,8 @@ struct Ring {
     double latitude;
     Rgb color;
 };
-/// A ball whose poles lie along `axis`, in rings at the given latitudes (from -π/2 to π/2, both included). Two rings
-/// close to each other make a sharp line between two colours.
+/// A ball whose poles are along `axis`, in rings at the given latitudes (from -π/2 to π/2, both included). Two rings
+/// close to each other make a sharp boundary between two colours.
 void add_ball(MeshBuilder& builder, Vec3 center, double radius, Vec3 axis, std::size_t columns,
               std::span<const Ring> rings);
 
@@ -44,7 +44,7 @@ void polish(Scene& scene, std::string_view mesh, float reflectance, float metall
 /// Removes triangles with (almost) no area, as surfaces of revolution have at their poles.
 void drop_slivers(Mesh& mesh);
 
-/// Two unit vectors that form a right-handed frame with a third, `along`: first × second = along.
+/// Two unit vectors that form a right-handed frame with the unit vector `along`: first × second = along.
 struct Across {
     Vec3 first, second;
 };

@@ -19,7 +19,7 @@ TextureCoordinate weighted_sum(TextureCoordinate a, TextureCoordinate b, Texture
 }
 Rgb weighted_sum(Rgb a, Rgb b, Rgb c, float wa, float wb, float wc) { return wa * a + wb * b + wc * c; }
 
-/// Cuts the triangles of one mesh. Vertices keep their indices; new ones on edges and inside follow as they are met.
+/// Cuts the triangles of one mesh. Vertices keep their indices; new ones on edges and inside triangles are appended.
 class Cutter {
   public:
     Cutter(const Mesh& mesh, std::size_t n) : from_(mesh), n_(n) {
@@ -43,7 +43,7 @@ class Cutter {
     }
 
   private:
-    /// The vertex i steps towards the second corner and j steps towards the third.
+    /// The vertex i steps from the first corner towards the second and j steps towards the third.
     Index vertex(const std::array<Index, 3>& corners, std::size_t i, std::size_t j) {
         const std::size_t k = n_ - i - j;
         const auto& [a, b, c] = corners;
@@ -56,7 +56,8 @@ class Cutter {
         return add(a, b, c, k, i, j);
     }
 
-    /// The vertex `step` steps from a to b. Made once for both triangles at the edge, from its lower-numbered end.
+    /// The vertex `step` steps from a to b. It is made once for both triangles at the edge, from the lower-numbered
+    /// end.
     Index on_edge(Index a, Index b, std::size_t step) {
         if (a > b) return on_edge(b, a, n_ - step);
         const auto [known, is_new] = edges_.try_emplace(std::uint64_t{a} << 32 | b, Index{0});

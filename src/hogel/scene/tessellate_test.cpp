@@ -46,7 +46,7 @@ TEST(Tessellate, cuts_triangles_and_keeps_the_surface) {
     }
 }
 
-// A closed surface then has as many vertices as Euler's formula requires.
+// The number of vertices of a closed surface satisfies Euler's formula.
 TEST(Tessellate, shares_vertices_along_edges) {
     Scene scene;
     Mesh mesh;

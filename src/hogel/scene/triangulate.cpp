@@ -60,7 +60,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3> poly
     while (ring.size() > 3) {
         std::size_t tries = 0;
         while (tries < ring.size() && !is_ear(points, ring, i % ring.size())) ++i, ++tries;
-        i %= ring.size();  // without an ear the polygon is degenerate, and any corner will do
+        i %= ring.size();  // without an ear the polygon is degenerate, and any corner may be clipped
         const std::size_t n = ring.size();
         triangles.push_back({ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]});
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));

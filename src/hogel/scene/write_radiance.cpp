@@ -18,11 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers of the glTF 2.0 specification.
+// Constants of the glTF 2.0 specification.
 constexpr int floats = 5126, unsigned_ints = 5125, vertex_data = 34962, index_data = 34963;
 constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
-/// A glTF file while it is written: its JSON part, and the data that it describes.
+/// Builds a glTF file: its JSON part and the data that it describes.
 class Gltf {
   public:
     Gltf() {
@@ -68,7 +68,7 @@ class Gltf {
             file.insert(file.end(), first, first + size);
         };
         const auto number = [&](std::size_t value) {
-            const auto word = static_cast<std::uint32_t>(value);  // little-endian, as this machine is
+            const auto word = static_cast<std::uint32_t>(value);  // little-endian, like this machine
             append(&word, sizeof word);
         };
         number(magic), number(version), number(total);
@@ -131,7 +131,7 @@ void add_mesh(Gltf& gltf, const Mesh& mesh, std::map<const Image*, std::size_t>&
     material["pbrMetallicRoughness"] = {{"metallicFactor", 0}};
     if (const auto& image = mesh.material.base_color_texture; image && !mesh.texture_coordinates.empty()) {
         for (const TextureCoordinate& t : mesh.texture_coordinates)
-            coordinates.insert(coordinates.end(), {t.u, 1 - t.v});  // glTF's v runs down
+            coordinates.insert(coordinates.end(), {t.u, 1 - t.v});  // glTF's v points downwards
         attributes["TEXCOORD_0"] = gltf.accessor(coordinates, 2, vertex_data);
         const auto [known, is_new] = textures.try_emplace(image.get(), 0);
         if (is_new) known->second = gltf.texture(*image);

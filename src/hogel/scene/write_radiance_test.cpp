@@ -79,7 +79,8 @@ TEST(WriteBakedScene, gives_the_same_bytes_every_time) {
     EXPECT_EQ(bytes("a.glb"), bytes("b.glb"));
 }
 
-// Truncated files and files with a flipped bit: refused in one line, or read as another scene, but never a crash.
+// Truncated files and files with a flipped bit are refused with a one-line message or read as another scene, but never
+// crash.
 TEST(WriteBakedScene, damaged_files_are_refused_or_read) {
     const Folder folder;
     const std::filesystem::path path = folder.path / "x.glb";

@@ -22,12 +22,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t vertices_per_task = 256;
-constexpr std::size_t fewer_rays = 8;  // all rounds but the last send this fraction of the rays
-// Vertices lie on edges, often where other surfaces begin. Rays therefore start this part of the way towards the middle
-// of their triangles.
+constexpr std::size_t fewer_rays = 8;  // all rounds but the last divide the number of rays by this
+// The fraction of the way from a vertex to the middle of its triangles at which rays start, because vertices are often
+// on edges where other surfaces begin.
 constexpr double inside = 0.08;
 
-/// A scene's vertices in one list, with the points at which they gather light.
+/// All vertices of a scene in one list, with the points at which they gather light.
 struct Surfaces {
     explicit Surfaces(const Scene& scene, ShadedScene without_light)
         : shaded(std::move(without_light)), caster(all_triangles(shaded)), offset(ray_offset(scene)) {
@@ -51,12 +51,12 @@ struct Surfaces {
             }
     }
 
-    ShadedScene shaded;  // `radiance`: of the vertices so far
+    ShadedScene shaded;  // `radiance` is that of the previous round
     trace::RayCaster caster;
     double offset;
-    std::vector<Vec3> eyes, normals;  // eyes: where rays of a vertex start
+    std::vector<Vec3> eyes, normals;  // eyes: origins of the rays of each vertex
     std::vector<Rgb> colors, emissions;
-    std::vector<char> given;  // whether a vertex brings its radiance
+    std::vector<char> given;  // whether the radiance of a vertex is given
 };
 
 ShadedScene unlit(const Scene& scene) {
@@ -81,7 +81,7 @@ void for_vertices(std::size_t n, const Progress& progress, double from, double t
     });
 }
 
-/// The direct light that each vertex reflects.
+/// The radiance of each vertex due to direct light.
 std::vector<Rgb> direct_light(const Scene& scene, const Surfaces& surfaces, const Progress& progress, double from,
                               double to) {
     std::vector<Rgb> radiance(surfaces.normals.size());
@@ -101,7 +101,7 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
     const auto random = core::philox({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(rays), 0, 0},
                                      {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
     const double shift_a = random[0] / 4294967296.0, shift_b = random[1] / 4294967296.0;
-    // Multiples of the inverse powers of the plastic number fill the square evenly. Each vertex shifts them at random.
+    // Multiples of the inverse powers of the plastic number fill the square evenly; each vertex adds a random shift.
     constexpr double plastic = 1.32471795724474602596;
     Rgb sum{0, 0, 0};
     for (std::size_t k = 0; k < rays; ++k) {
@@ -123,7 +123,7 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
     return 1 / static_cast<float>(rays) * sum;
 }
 
-/// Sets the radiance of each vertex in the meshes that bring none.
+/// Sets the radiance of each vertex of meshes without given radiance.
 void set_radiance(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>& values) {
     std::size_t base = 0;
     for (Mesh& mesh : scene.meshes) {
@@ -170,7 +170,7 @@ Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress&
     require_normals(scene);
     Scene baked = scene;
     {
-        // Tessellation interpolates the radiance, which here is the light that arrives indirectly.
+        // Here `radiance` holds the indirect light that arrives, which the tessellation interpolates.
         Surfaces coarse(scene, unlit(scene));
         set_radiance(baked, coarse, indirect_light(scene, coarse, options, progress));
     }

@@ -42,7 +42,7 @@ Scene box(float albedo, float emission) {
     return scene;
 }
 
-// In a closed room of any shape whose walls emit radiance e and reflect half: e (1 + ½ + ¼ + …).
+// In a closed room of any shape whose walls emit radiance e and reflect half, the radiance is e (1 + ½ + ¼ + …).
 TEST(Bake, a_furnace_has_the_radiance_of_its_series) {
     for (const std::size_t bounces : {0, 1, 2, 6}) {
         const Scene baked = bake_scene(box(0.5f, 1), {.rays = 16, .bounces = bounces});
@@ -51,8 +51,8 @@ TEST(Bake, a_furnace_has_the_radiance_of_its_series) {
     }
 }
 
-// In an integrating sphere, reflected light is the same everywhere, wherever the lamp is. With power Φ and albedo ρ its
-// radiance is ρ²Φ/(4π²r²(1−ρ)), and the walls absorb the power of the lamp.
+// In an integrating sphere, reflected light is the same everywhere for any position of the lamp. With power Φ and
+// albedo ρ its radiance is ρ²Φ/(4π²r²(1−ρ)), and the walls absorb the power of the lamp.
 TEST(Bake, an_integrating_sphere_is_lit_uniformly) {
     constexpr double albedo = 0.6, intensity = 2, power = 4 * pi * intensity;
     Scene scene = hollow_ball(float(albedo));

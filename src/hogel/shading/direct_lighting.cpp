@@ -32,8 +32,8 @@ class DirectLighting final : public SampleLighting {
         }
     }
 
-    // On matt surfaces the radiance; on glossy ones the irradiance, the part of it that depends on the lobe, and the
-    // visibility of each lamp.
+    // The light is the radiance on matt surfaces; on glossy ones it is the irradiance, the part of it that depends on
+    // the lobe, and the visibility of each lamp.
     Size size_of_light(std::size_t mesh) const override {
         const Surface& surface = surfaces_[mesh];
         if (surface.given) return {};
@@ -124,7 +124,7 @@ class DirectLighting final : public SampleLighting {
     LampTable lamps_;
     ShadowMaps maps_;
     Rgb ambient_;
-    std::vector<Surface> surfaces_;  // one a mesh
+    std::vector<Surface> surfaces_;  // one per mesh
     std::vector<Vec3> normals_;
     std::vector<Rgb> colors_;
 };

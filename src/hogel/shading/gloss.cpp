@@ -45,7 +45,7 @@ GlossyFloats::GlossyFloats(const GlossyPoint& point)
 LightInLobe GlossySums::total() const {
     std::array<float, 6> sum;
     for (std::size_t i = 0; i < 6; ++i) {
-        // Adds one half to the other until one number is left, a form that compilers vectorise.
+        // Adds one half to the other until one number remains, a form that compilers vectorise.
         std::array<float, LampTable::block> rest;
         std::ranges::copy(values[i], rest.begin());
         for (std::size_t half = LampTable::block / 2; half > 0; half /= 2)

@@ -11,7 +11,7 @@
 
 namespace hogel::shading {
 
-/// The lamps of a scene as arrays of numbers, padded with dark lamps to whole blocks.
+/// The lamps of a scene as a structure of arrays, padded with dark lamps to whole blocks.
 class LampTable {
   public:
     static constexpr std::size_t block = 16;  ///< floats of the widest vector
@@ -34,14 +34,14 @@ struct GlossyPoint {
     double roughness = 1;              ///< at least min_roughness
 };
 
-/// The light in the lobe, the sum of Reflection::lobe over the lamps, in single precision. Twins that give the same
-/// bits: both sum the lamps at each index of a block, then these sums.
+/// The light in the lobe, the sum of Reflection::lobe over the lamps, in single precision. The twins give the same
+/// bits: both first sum the lamps at each index of a block, then these sums.
 /// @param visibility  share of each lamp's light that arrives at the point; `lamps.size()` numbers, any values for dark
 ///                    lamps
 LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
 LightInLobe gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
 
-/// A point's numbers in the form that the twins use.
+/// The values of a point in single precision, used by both twins.
 struct GlossyFloats {
     float px, py, pz, nx, ny, nz, vx, vy, vz;
     float cos_view, alpha2, less_alpha2, masked_view;

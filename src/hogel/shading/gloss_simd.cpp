@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of gloss.cpp, compiled for every instruction set and chosen when first called.
+// The vector twin of gloss.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/shading/gloss_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <numbers>

@@ -11,7 +11,7 @@
 
 namespace hogel::shading {
 
-/// The rows of shading_models(), each defined in a file of its own.
+/// The rows of shading_models(), each defined in its own file.
 ShadingInfo vertex_shading();
 ShadingInfo direct_shading();
 ShadingInfo shadowed_shading();
@@ -20,8 +20,8 @@ ShadingInfo given_shading();
 /// ShadingInfo::shadow_map_bytes of models with a map of options.shadow_map texels for each light.
 double bytes_of_shadow_maps(const Scene& scene, const ShadingOptions& options);
 
-/// The lighting of an earlier shading for its memory, where it is of the same type and nothing else holds it; a new one
-/// otherwise.
+/// Returns the lighting of an earlier shading, to reuse its memory, if it has the same type and no other owner;
+/// otherwise a new one.
 template <class Lighting>
 std::shared_ptr<Lighting> take_lighting(ShadedScene& shaded) {
     auto last = std::dynamic_pointer_cast<Lighting>(
@@ -29,11 +29,11 @@ std::shared_ptr<Lighting> take_lighting(ShadedScene& shaded) {
     return last && last.use_count() == 1 ? last : std::make_shared<Lighting>();
 }
 
-/// Shadow rays start this far above a surface, a ten-thousandth of the scene's diagonal, so that a surface does not
-/// shadow itself.
+/// The distance above a surface at which shadow rays start, so that a surface does not shadow itself: a ten-thousandth
+/// of the scene's diagonal.
 double ray_offset(const Scene& scene);
 
-/// The irradiance from all lights that a point of a surface sees.
+/// The irradiance at a point of a surface from all lights that are visible from there.
 Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal);
 
 /// The colour of a vertex before the texture.

@@ -11,7 +11,7 @@ using namespace shading;
 
 namespace {
 
-/// Texels per metre on the triangle, by the ratio of its areas.
+/// Texels per metre on the triangle, from the ratio of its areas in the texture and in space.
 double texels_per_metre(const ShadedScene& scene, const ShadedScene::Triangle& triangle) {
     const auto [a, b, c] = triangle.vertices;
     const Vec3 ab = scene.positions[b] - scene.positions[a], ac = scene.positions[c] - scene.positions[a];
@@ -34,7 +34,7 @@ Rgb texture_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, 
     return texture.sample({b0 * ta.u + b1 * tb.u + b2 * tc.u, b0 * ta.v + b1 * tb.v + b2 * tc.v}, width);
 }
 
-// The radiance of a point whose light is evaluated for samples, from the cache or here.
+// The radiance of a point whose light is evaluated for samples, either read from the cache or evaluated here.
 Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
                  const ViewSample& view) {
     const std::size_t size = scene.lighting->size_of_light(scene.triangles[index].mesh).sum();

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t empty = 0, being_filled = 1;
 constexpr double max_cells = LightGrid::node_bits;  // along a side
 
-// The number of cells along a side, whose outermost points lie inset from its ends.
+// The number of cells along a side; the outermost points are inset from its ends.
 double cells(double side, double spacing) {
     if (side <= spacing) return 0;
     return std::max(1.0, std::ceil(side / spacing - 2 * LightGrid::inset));
@@ -23,8 +23,8 @@ float node(std::size_t i, std::uint32_t count) {
     return (static_cast<float>(i) + LightGrid::inset) / (static_cast<float>(count) + 2 * LightGrid::inset);
 }
 
-// The layout of a point: a word for each value, with the state after the third, then four shares a word, padded to
-// whole vectors of four words.
+// The layout of a point: one word per value, with the state after the third, then four shares per word, padded to whole
+// vectors of four words.
 std::size_t word_of(std::size_t number) { return number + (number < 3 ? 0 : 1); }
 std::size_t first_share(SampleLighting::Size size) { return std::max<std::size_t>(4, size.values + 1); }
 std::size_t words_of(SampleLighting::Size size) { return (first_share(size) + (size.shares + 3) / 4 + 3) / 4 * 4; }
@@ -43,7 +43,7 @@ RadianceCache::RadianceCache(const ShadedScene& scene, std::span<const float> sp
         const SampleLighting::Size size = scene.lighting->size_of_light(mesh);
         if (size.sum() == 0 || !(spacing[i] > 0)) continue;
         const auto& vertices = scene.triangles[i].vertices;
-        std::array<double, 3> side;  // opposite each corner
+        std::array<double, 3> side;  // length of the side opposite each corner
         for (std::size_t k = 0; k < 3; ++k)
             side[k] = length(scene.positions[vertices[(k + 1) % 3]] - scene.positions[vertices[(k + 2) % 3]]);
         const auto corner = static_cast<std::uint32_t>(std::ranges::min_element(side) - side.begin());
@@ -92,7 +92,7 @@ bool RadianceCache::read(const ShadedScene& scene, std::size_t index, const std:
     for (std::size_t first = 0; first < size.shares; first += 4) {
         const std::size_t word = first_share(size) + first / 4, last = std::min(first + 4, size.shares);
         const std::uint32_t four = points[0][word];
-        // Usually all points have the same shares; only at the edges of shadows they differ.
+        // Usually all points have the same shares; they differ only at the edges of shadows.
         const bool same = four == points[1][word] && four == points[2][word] && four == points[3][word];
         for (std::size_t i = first; i < last; ++i) {
             const auto share = [=](const std::uint32_t* p) { return share_of(p[word], i - first); };
@@ -125,7 +125,7 @@ RadianceCache::FourPoints RadianceCache::four_points(const ShadedScene& scene, s
         if (scratch.size() < 4 * std::size_t{grid.right}) scratch.resize(4 * std::size_t{grid.right});
         std::uint32_t* mine = scratch.data() + k * grid.right;
         compute_point(scene, index, r, c, mine);
-        // Written by the first thread only; all of them have the same numbers.
+        // Only the first thread writes; all threads compute the same numbers.
         std::uint32_t* words = points_.get() + (points[k] - points_.get());
         std::uint32_t expected = empty;
         if (std::atomic_ref(words[3]).compare_exchange_strong(expected, being_filled, std::memory_order_relaxed)) {
@@ -142,7 +142,7 @@ void RadianceCache::compute_point(const ShadedScene& scene, std::size_t index, s
                                   std::uint32_t* words) const {
     const LightGrid& grid = grids_[index];
     const SampleLighting::Size size = scene.lighting->size_of_light(scene.triangles[index].mesh);
-    // A single row lies at the centroid.
+    // A single row is at the centroid.
     const float towards = grid.rows == 0 ? 2.0f / 3 : node(row, grid.rows), along = node(column, grid.columns);
     std::array<float, 3> weights;
     weights[grid.corner] = 1 - towards;

@@ -15,7 +15,7 @@ namespace {
 
 using Weights = std::array<float, 3>;
 
-// Light of a known form, with a count of evaluations.
+// Light of a known form that counts evaluations.
 class KnownLight final : public SampleLighting {
   public:
     explicit KnownLight(double wave) : wave_(wave) {}
@@ -42,7 +42,7 @@ class KnownLight final : public SampleLighting {
     double wave_;
 };
 
-// A broad triangle, slivers whose shortest side is each of the three, and two triangles without area.
+// A large triangle, slivers whose shortest side is each of the three, and two triangles without area.
 ShadedScene triangles() {
     ShadedScene scene;
     scene.positions = {{-1, -1, 0}, {1, -0.9, 0.2}, {0.1, 1, -0.3}, {-0.99, -1, 0}, {0.1, 1.01, -0.3}};
@@ -79,8 +79,8 @@ TEST(RadianceCache, is_exact_for_linear_light_and_of_second_order_for_a_wave) {
             const double offset = index == 0 ? 0 : 0.5 * 0.015;
             ASSERT_NEAR(seen.r, exact[0], 2.3 * offset + 2e-6) << index;
             ASSERT_NEAR(seen.b, exact[6], 0.4 * offset + 1.25 * 1.25 * 0.5 / 255 + 1e-6) << index;  // a share is a byte
-            // At most h²/8 f″ along each of the two axes of the grid, and a little more a quarter of a cell beyond the
-            // outermost points.
+            // The error is at most h²/8 f″ along each of the two axes of the grid, and a little more up to a quarter of
+            // a cell beyond the outermost points.
             ASSERT_NEAR(seen.g, exact[1], 0.9 * (offset * wave + 2 * 1.25 * spacing * spacing / 8 * wave * wave) + 1e-6)
                 << index;
         }

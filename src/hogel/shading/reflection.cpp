@@ -30,7 +30,7 @@ double visibility(double cos_light, double cos_view, double alpha) {
     return 0.5 / (l + v);
 }
 
-/// The albedo as a sum over facet normals, distributed as in the lobe.
+/// The albedo, by a sum over facet normals distributed as in the lobe.
 LobeAlbedo integrate(double cosine, double roughness) {
     constexpr std::uint32_t samples = 1024;
     const double alpha = roughness * roughness;
@@ -63,7 +63,7 @@ struct AlbedoTable {
     std::array<LobeAlbedo, cells> mean;
 
     static double cosine(std::size_t i) {
-        // Denser towards grazing angles, where the albedo changes fast.
+        // Denser towards grazing angles, where the albedo changes rapidly.
         const double x = (static_cast<double>(i) + 1e-3) / (cells - 1 + 1e-3);
         return x * x;
     }

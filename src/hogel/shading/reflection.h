@@ -5,8 +5,9 @@
 
 namespace hogel::shading {
 
-/// The light on a point that may be reflected diffusely, for any viewer: Σ E n·l/π less what the lobe reflects of the
-/// incident light, part of which is a multiple of the lobe's reflectance: arriving − reflectance · for_lobe.
+/// The light on a point that is available for diffuse reflection to any viewer: Σ E n·l/π minus the part of the
+/// incident light that the lobe reflects. Since the lobe's albedo is linear in its reflectance, it is arriving −
+/// reflectance · for_lobe.
 struct LightUnderLobe {
     Rgb arriving{0, 0, 0}, for_lobe{0, 0, 0};
 
@@ -14,13 +15,13 @@ struct LightUnderLobe {
     void add(const Material& material, Rgb irradiance, double cos_light);
 };
 
-/// The radiance that a lobe shows: its reflectance at normal incidence times `scale`, plus `offset`.
+/// The radiance reflected by a lobe: its reflectance at normal incidence times `scale`, plus `offset`.
 struct LightInLobe {
     Rgb scale{0, 0, 0}, offset{0, 0, 0};
 };
 
-/// The albedo of a lobe whose reflectance at normal incidence is r: r · scale + offset. Both come from a table over
-/// cosine and roughness, within 0.5 %.
+/// The albedo of a lobe whose reflectance at normal incidence is r: r · scale + offset. Both are read from a table over
+/// cosine and roughness with an error below 0.5 %.
 struct LobeAlbedo {
     double scale, offset;
 };
@@ -34,14 +35,15 @@ LobeAlbedo mean_lobe_albedo(double roughness);
 ///
 /// The lobe is D V F: the distribution of Trowbridge and Reitz, the masking and shadowing of Smith for correlated
 /// heights and Schlick's reflectance (Walter et al., "Microfacet models for refraction", 2007; Heitz, "Understanding
-/// the masking-shadowing function", 2014). The diffuse part gets what the lobe leaves of incident and reflected light:
+/// the masking-shadowing function", 2014). The diffuse part has the incident and reflected light that the lobe leaves:
 ///     color/π · (1 − E(n·l)) (1 − E(n·v)) / (1 − mean of E),
-/// where E is the lobe's albedo (Kelemen and Szirmay-Kalos, 2001). In uniform light a white surface shows that light.
+/// where E is the lobe's albedo (Kelemen and Szirmay-Kalos, 2001). In uniform light a white surface has the radiance of
+/// that light.
 class Reflection {
   public:
-    /// @param color     of the diffuse part, and of the lobe in the measure in which the material is metallic
-    /// @param cos_view  n·v; the diffuse part looks the same from behind (n·v < 0), the lobe is seen from the front
-    /// only
+    /// @param color     of the diffuse part and, in proportion to Material::metallic, of the lobe
+    /// @param cos_view  n·v; the diffuse part looks the same from behind (n·v < 0), the lobe is visible only from the
+    ///                  front
     Reflection(const Material& material, Rgb color, double cos_view);
 
     /// The two parts: the lobe, for one direction or for a sum of lights, and the diffuse part, for any sum of lights.
@@ -65,7 +67,8 @@ class Reflection {
     double left_by_lobe_ = 1;  // (1 − E(n·v)) / (1 − mean of E)
 };
 
-/// Smoother surfaces are treated as this rough: a lamp is a point, and its mirror image would be one too.
+/// The minimum roughness; smoother surfaces are treated as this rough, because the mirror image of a point light would
+/// be a point.
 inline constexpr double min_roughness = 0.15;
 
 }  // namespace hogel::shading

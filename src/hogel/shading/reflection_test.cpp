@@ -33,8 +33,8 @@ double in_uniform_light(const Material& m, double cos_view, Rgb color = {1, 1, 1
     double sum = 0;
     for (int i = 0; i < rows; ++i)
         for (int k = 0; k < columns; ++k) {
-            // Uniform in the polar angle, and dense around the mirror direction, where lobes at grazing angles are
-            // narrow: the azimuth is π (1 + x³).
+            // Uniform in the polar angle and, with the azimuth π (1 + x³), dense around the mirror direction, where
+            // lobes at grazing angles are narrow.
             const double polar = 0.5 * pi * (i + 0.5) / rows, x = 2 * (k + 0.5) / columns - 1;
             const Vec3 to_light = at_angle(std::cos(polar), pi * (1 + x * x * x));
             sum += reflection.towards(normal, to_viewer, to_light, to_light.z).r * std::sin(polar) * 3 * pi * x * x;

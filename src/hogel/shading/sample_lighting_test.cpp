@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lighting at samples against closed forms and against lighting at vertices.
+// Compares lighting at samples with closed forms and with lighting at vertices.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ Scene roofed() {
     return scene;
 }
 
-// In the middle of a large triangle, where light interpolated between vertices would be far off.
+// Exact even in the middle of a large triangle, where interpolation between vertices would be far off.
 TEST(SampleLighting, direct_is_the_closed_form_at_every_point) {
     Scene scene = roofed();
     const ShadedScene shaded = shade_scene(scene, by("direct"));

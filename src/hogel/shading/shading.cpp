@@ -36,7 +36,7 @@ void require_room(const Scene& scene, const ShadingOptions& options, double byte
                         options.shadow_map, scene.lights.size(), bytes / 1e9, options.max_shadow_bytes / 1e9));
 }
 
-/// The textures of a scene while it is shaded, each picture once. Those of the last shading are used again.
+/// The textures of a scene that is being shaded, each picture once. Textures of the last shading are reused.
 class Textures {
   public:
     Textures(std::vector<Texture>& textures, bool filtered)

@@ -106,7 +106,7 @@ TEST(ShadingModels, unknown_names_are_usage_errors_that_list_the_known_ones) {
     }
 }
 
-// Every vertex as bright as a count of lights.
+// A model in which the radiance of every vertex is the number of lights.
 TEST(ShadingModels, a_model_that_a_program_adds_is_used_like_any_other) {
     shading_models().add({.name = "counted",
                           .text = "the number of lights",

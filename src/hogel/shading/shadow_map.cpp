@@ -16,7 +16,7 @@ constexpr std::size_t cube_faces = 6;
 
 double component(Vec3 p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// A direction through a face of the cube: 1 along the face's axis, b and c along the two axes after it.
+/// A direction through a face of the cube: 1 along the face's axis, b and c along the next two axes.
 Vec3 on_face(std::size_t face, double b, double c) {
     std::array<double, 3> p{};
     const std::size_t axis = face / 2;
@@ -103,8 +103,8 @@ float ShadowMap::visibility(Vec3 point, Vec3 normal) const {
     const double column = std::floor(here.column), row = std::floor(here.row);
     const std::array columns{std::clamp(column, 0.0, last), std::clamp(column + 1, 0.0, last)};
     const std::array rows{std::clamp(row, 0.0, last), std::clamp(row + 1, 0.0, last)};
-    // A texel's ray meets the tangent plane at (height − start)/fall. Both are sums of a term of the texel's column and
-    // one of its row.
+    // A texel's ray meets the tangent plane at (height − start)/fall; `start` and `fall` are each a sum of a term of
+    // the texel's column and one of its row.
     const std::size_t axis = here.face / 2;
     const double fall = point_light_ ? (here.face % 2 == 0 ? 1 : -1) * component(normal, axis) : dot(normal, forward_);
     const double along_columns = point_light_ ? component(normal, (axis + 1) % 3) : width_ * dot(normal, right_);
@@ -115,7 +115,7 @@ float ShadowMap::visibility(Vec3 point, Vec3 normal) const {
     const auto compare = [&](std::size_t i, std::size_t j) {
         const double added = of_columns[i] + of_rows[j];
         const double f = point_light_ ? fall + added : fall, h = point_light_ ? height : height - added;
-        // Behind a point light its rays meet nothing.
+        // Rays of a point light meet nothing behind it.
         const bool meets = point_light_ ? f * h > 0 : f != 0;
         const double plane = meets ? h / f : limit;
         const std::size_t at =

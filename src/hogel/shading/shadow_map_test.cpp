@@ -44,7 +44,7 @@ ShadowMap map_of(const Scene& scene, const Light& light, std::size_t n) {
     return map;
 }
 
-// A square above a floor: the edges of the shadow follow from similar triangles.
+// A square above a floor, whose shadow's edges follow from similar triangles.
 TEST(ShadowMap, edges_of_shadows_are_where_geometry_puts_them) {
     Scene scene;
     add_square(scene, {0, 0, 0}, {2, 0, 0}, {0, 2, 0});
@@ -67,7 +67,7 @@ TEST(ShadowMap, edges_of_shadows_are_where_geometry_puts_them) {
     }
 }
 
-// At any slope and resolution of the map.
+// For any slope and resolution of the map.
 TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
     std::mt19937 engine(9);
     std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -88,8 +88,8 @@ TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
         }
 }
 
-// Against shadow rays, on scenes that are difficult for shadow maps. Points within two texels of a shadow's edge or of
-// a crease are skipped.
+// Compares with shadow rays on scenes that are difficult for shadow maps. Points within two texels of a shadow's edge
+// or of a crease are skipped.
 TEST(ShadowMap, neither_leaks_nor_speckles_on_built_in_scenes) {
     for (const char* name : {"pumpkin", "billiards", "tower"}) {
         const Scene scene = make_scene(name, 1);
@@ -110,7 +110,7 @@ TEST(ShadowMap, neither_leaks_nor_speckles_on_built_in_scenes) {
                 const Vec3 p = blockers.positions[a] + w1 * ab + w2 * ac, normal = normalize(cross(ab, ac));
                 const Illumination from = illuminate(light, p);
                 if (dot(normal, from.to_light) < 0.15) continue;
-                // Shadow rays from around the point, as far from it as two texels there.
+                // Shadow rays from around the point, at a distance of two texels.
                 const double texel = light.kind == Light::Kind::point ? 2 * from.distance / n : 1.5 / (2 * n);
                 const Vec3 side = normalize(cross(normal, from.to_light + Vec3{1e-3, 2e-3, 0})),
                            other = cross(normal, side);
@@ -153,7 +153,7 @@ TEST(ShadowMap, handles_a_light_on_a_surface_or_inside_a_body) {
     const ShadowMap on = map_of(scene, lamp({0.2, 0.1, 0}, 1), 32);
     EXPECT_TRUE(std::isfinite(on.visibility({0.2, 0.1, 0}, {0, 0, 1})));
     EXPECT_TRUE(std::isfinite(on.visibility({0.5, 0.1, 0}, {0, 0, 1})));
-    // Between two plates, seen from outside both.
+    // A lamp between two plates lights the nearer sides of both; the third plate is in shadow.
     add_square(scene, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
     add_square(scene, {0, 0, 3}, {1, 0, 0}, {0, 1, 0});
     const ShadowMap between = map_of(scene, lamp({0, 0, 0.5}, 1), 64);

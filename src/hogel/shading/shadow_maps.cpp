@@ -7,7 +7,7 @@
 namespace hogel::shading {
 namespace {
 
-// A map of one texel a face, for lamps that the vector twin evaluates in vain.
+// A dummy map of one texel per face, for lamps whose evaluation by the vector twin is not used.
 constexpr float far = std::numeric_limits<float>::infinity();
 constexpr std::array no_depth{far, far, far, far, far, far};
 

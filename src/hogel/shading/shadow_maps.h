@@ -17,16 +17,17 @@ class ShadowMaps {
     explicit ShadowMaps(std::vector<ShadowMap> maps) { set(std::move(maps)); }
 
     void set(std::vector<ShadowMap> maps);
-    /// Takes the maps out.
+    /// Moves the maps out.
     std::vector<ShadowMap> release() { return std::move(maps_); }
 
-    /// ShadowMap::visibility() of a point for several lamps. Twins that give the same bits.
+    /// ShadowMap::visibility() of a point for several lamps. The twins give the same bits.
     /// @param lamps  indices of the lamps
-    /// @param shares  receives one share for each
+    /// @param shares  receives one share per lamp
     void visibility_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
     void visibility(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
 
-    /// The data of the vector twin: of point lights with shadows; of others values that are safe to evaluate.
+    /// The data of the vector twin: those of point lights with shadows, and for other lamps values that are safe to
+    /// evaluate.
     struct Table {
         using Doubles = std::vector<double, CacheLineAllocator<double>>;
         Doubles x, y, z, side;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of shadow_maps.cpp, compiled for every instruction set and chosen when first called.
+// The vector twin of shadow_maps.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/shading/shadow_maps_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -17,16 +17,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::ScalableTag<double>;
 using IndexTag = hn::RebindToSigned<Tag>;
-using HalfTag = hn::Rebind<float, Tag>;  // as many floats
+using HalfTag = hn::Rebind<float, Tag>;  // as many floats as doubles
 using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
 constexpr std::size_t max_lanes = HWY_MAX_BYTES / 8;
 
-// As std::clamp.
+// Like std::clamp.
 HWY_INLINE Doubles clamp(Doubles v, Doubles low, Doubles high) { return hn::Min(hn::Max(v, low), high); }
 
-// Vectors hold one lamp a lane, and the steps are those of ShadowMap::visibility. All functions are inline, so that
+// Vectors hold one lamp per lane, and the steps are those of ShadowMap::visibility(). All functions are inline, so that
 // their values stay in registers.
 
 // The component along a face's axis, or along the first or second axis after it: pass x, y, z in rotated order.
@@ -43,7 +43,8 @@ struct Projected {
     Doubles x, y, z;  // from the lamp
     Doubles side, depth, face, column, row;
     FaceAxis along;
-    Mask backwards, in_front;  // whether the face looks against its axis; whether the point is not at the lamp
+    Mask backwards,
+        in_front;  // whether the face is on the negative side of its axis; whether the point is not at the lamp
 };
 
 HWY_INLINE Projected project(const ShadowMaps::Table& table, hn::Vec<IndexTag> lamp, Vec3 point) {
@@ -74,7 +75,7 @@ HWY_INLINE Projected project(const ShadowMaps::Table& table, hn::Vec<IndexTag> l
     return p;
 }
 
-// The columns and rows of the four texels around a point, whole numbers.
+// The columns and rows of the four texels around a point, which are whole numbers.
 struct TexelsAround {
     Doubles columns[2], rows[2];
     hn::Vec<HalfTag> right, down;  // weights of the second column and row

@@ -43,7 +43,7 @@ TEST_P(ShadowMapKernels, vector_and_plain_twin_give_the_same_bits) {
         const Vec3 normal = somewhere();
         const Vec3 lamp = scene.lights[random() % scene.lights.size()].position;
         if (round % 11 == 0) point = lamp;
-        if (round % 13 == 0) point = lamp + Vec3{0.25, -0.25, 0.25};  // on an edge of its cube map
+        if (round % 13 == 0) point = lamp + Vec3{0.25, -0.25, 0.25};  // on an edge of the lamp's cube map
         if (round % 17 == 0) point = 5 * point;                       // beyond all stored depths
         std::vector<std::uint32_t> lamps(random() % 24);
         for (std::uint32_t& number : lamps) number = static_cast<std::uint32_t>(random() % scene.lights.size());

@@ -45,7 +45,7 @@ class ShadowedLighting final : public SampleLighting {
         constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < intensities_.size(); first += block) {
-            std::array<std::uint32_t, block> shining;  // lamps that contribute, and their reflected light
+            std::array<std::uint32_t, block> shining;  // lamps that contribute; `lights`: their reflected light
             std::array<Rgb, block> lights;
             std::size_t count = 0;
             for (std::size_t k = first; k < std::min(first + block, intensities_.size()); ++k) {
@@ -89,7 +89,7 @@ class ShadowedLighting final : public SampleLighting {
 
     ShadowMaps maps_;
     std::vector<Rgb> intensities_;
-    std::vector<bool> given_;  // whether a mesh brings its radiance
+    std::vector<bool> given_;  // whether the radiance of a mesh is given
     std::vector<Rgb> colors_, unshadowed_;
     std::vector<float> irradiance_;  // [vertex][light], per intensity
 };

@@ -86,7 +86,8 @@ Texture::Texture(std::shared_ptr<const Image> finest, bool filtered) : finest_(s
 }
 
 Rgb Texture::sample(TextureCoordinate at, double width) const {
-    // Interpolation within a level averages over about one of its texels; two levels are blended for widths in between.
+    // Interpolation within a level averages over about one of its texels; two levels are blended for widths between
+    // them.
     const double level = width > 1 ? std::min(std::log2(width), static_cast<double>(coarser_.size())) : 0;
     const auto fine = static_cast<std::size_t>(level);
     const auto weight = static_cast<float>(level - static_cast<double>(fine));

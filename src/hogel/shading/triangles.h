@@ -6,10 +6,10 @@
 
 namespace hogel::shading {
 
-/// All triangles, both sides of them and numbered as in the scene: what light meets.
+/// A caster of all triangles with both sides, numbered as in the scene, for light.
 trace::RayCaster all_triangles(const ShadedScene& scene);
 
-/// Gives a caster the sides of a scene's triangles that are seen (ShadedScene::fronts_only), in the memory that it has.
+/// Gives a caster the visible sides of a scene's triangles (ShadedScene::fronts_only), reusing its memory.
 void set_seen_triangles(trace::RayCaster& caster, const ShadedScene& scene);
 
 }  // namespace hogel::shading

@@ -21,9 +21,9 @@ constexpr std::size_t packet = 16;  // rays that Embree traces together
 
 }  // namespace
 
-// Embree works in single precision, so it gets coordinates in which the scene's box is centred and about 2 wide, and
-// rays that begin where they enter the sphere around that box. It only chooses the triangle: distance and weights are
-// then computed in double precision from the caller's own ray and triangle.
+// Embree works in single precision, so it receives coordinates in which the scene's box is centred and about 2 wide,
+// and rays that begin where they enter the sphere around that box. It only selects the triangle; distance and weights
+// are computed in double precision from the caller's ray and triangle.
 struct RayCaster::Device {
     TriangleMesh mesh;
     Vec3 center;
@@ -48,7 +48,7 @@ struct RayCaster::Device {
     void set_frame();
     void build();
 
-    /// A ray in Embree's frame: origin, unit direction, length; and where it begins on the caller's ray.
+    /// A ray in Embree's frame: origin, unit direction and length, and its beginning on the caller's ray.
     struct Segment {
         double start = 0;  ///< in units of the caller's direction
         float x = 0, y = 0, z = 0, dx = 0, dy = 0, dz = 0;
@@ -125,7 +125,7 @@ bool RayCaster::Device::is_front(Vec3 direction, std::uint32_t index) const {
     return dot(cross(p[b] - p[a], p[c] - p[a]), direction) < 0;
 }
 
-// Rejects hits on the backs of triangles, so that these rays go on.
+// Rejects hits on the backs of triangles, so that these rays continue.
 void RayCaster::Device::skip_backs(const RTCFilterFunctionNArguments* hits) {
     const auto& device = *static_cast<const Device*>(hits->geometryUserPtr);
     for (unsigned i = 0; i < hits->N; ++i) {
@@ -141,7 +141,7 @@ RayCaster::Device::Segment RayCaster::Device::enter(Vec3 origin, Vec3 direction,
     const double speed = length(direction);
     const Vec3 unit = direction / speed;
     const Vec3 from_center = origin - center;
-    const double middle = -dot(from_center, unit);  // of the chord, in metres along the ray
+    const double middle = -dot(from_center, unit);  // middle of the chord, in metres along the ray
     const double half_squared = radius * radius - dot(from_center, from_center) + middle * middle;
     if (!(half_squared >= 0)) return segment;
     const double half = std::sqrt(half_squared);
@@ -171,8 +171,8 @@ RayHit RayCaster::Device::refine(Vec3 origin, Vec3 direction, double far, std::u
     double b1 = dot(to_origin, p) * inverse, b2 = dot(direction, q) * inverse;
     double distance = dot(ac, q) * inverse;
     if (!(b1 >= 0 && b2 >= 0 && b1 + b2 <= 1)) {
-        // The single-precision hit lies on the triangle's edge and the exact one just outside; for a triangle seen
-        // edge-on that may be far away along the ray. Take the nearest point of the triangle itself.
+        // The exact hit may be just outside the triangle although the single-precision hit is on its edge; for a
+        // triangle seen edge-on it may be far away along the ray. So the nearest point of the triangle is used.
         b1 = b1 > 0 ? std::min(b1, 1.0) : 0;
         b2 = b2 > 0 ? std::min(b2, 1.0) : 0;
         const double sum = std::max(b1 + b2, 1.0);
@@ -278,7 +278,7 @@ void RayCaster::occluded(Vec3 origin, std::span<const Vec3> directions, double n
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    // A ray that starts inside the sphere around the scene has left it after the sphere's diameter.
+    // A ray that starts inside the sphere around the scene leaves it within the sphere's diameter.
     const Vec3 from_center = origin - device_->center;
     const double end = std::min(far, 2 * device_->radius), scale = device_->scale;
     if (dot(from_center, from_center) > device_->radius * device_->radius || !(near < end)) {

@@ -20,7 +20,7 @@ struct RayHit {
     float b1 = 0, b2 = 0;           ///< barycentric weights of the second and third vertex
 };
 
-/// The sides of a triangle that are hit: a ray meets the front if it sees the corners in counterclockwise order.
+/// The sides of triangles that can be hit. A ray meets the front if it sees the corners in counterclockwise order.
 enum class Sides { both, fronts };
 
 struct TriangleMesh {
@@ -31,7 +31,7 @@ struct TriangleMesh {
 /// Intersects rays with triangles, by Embree. Rays may be cast from several threads at once, but not during set().
 class RayCaster {
   public:
-    /// No triangles.
+    /// A caster without triangles.
     RayCaster();
     /// @param sides  that closest() hits; occluded() always hits both
     RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
@@ -42,17 +42,17 @@ class RayCaster {
 
     /// Replaces the triangles. Throws Error(bad_input) for an index without a position.
     void set(TriangleMesh mesh, Sides sides = Sides::both);
-    /// Takes the triangles out, for a caller that refills their memory; until the next set() no ray hits anything.
+    /// Moves the triangles out, so that the caller can reuse their memory; until the next set() no ray hits anything.
     TriangleMesh release();
 
     /// The first hit along origin + distance · direction, distance in [0, far].
     RayHit closest(Vec3 origin, Vec3 direction, double far) const;
-    /// The same for many rays that start and point close to each other: `hits` receives one hit a ray.
+    /// As above for many rays with similar origins and directions; `hits` receives one hit per ray.
     void closest(std::span<const Vec3> origins, std::span<const Vec3> directions, double far,
                  std::span<RayHit> hits) const;
-    /// Whether anything lies on origin + distance · direction for distance in [near, far].
+    /// Whether any triangle is on origin + distance · direction for distance in [near, far].
     bool occluded(Vec3 origin, Vec3 direction, double near, double far) const;
-    /// The same for many rays from one origin, with directions of unit length: `hidden` receives one answer a ray.
+    /// As above for many rays from one origin with directions of unit length; `hidden` receives one answer per ray.
     void occluded(Vec3 origin, std::span<const Vec3> directions, double near, double far, std::span<bool> hidden) const;
 
   private:

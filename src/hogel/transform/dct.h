@@ -10,8 +10,8 @@ namespace hogel::transform {
 constexpr std::size_t dct_block = 8;
 
 /// The windowed DCT on lines of one length, `lane_count` lines at a time, in the layout of WaveletLine: blocks of eight
-/// samples from the start of the line, the last one shorter if need be, each replaced by its orthonormal DCT-II.
-/// Frequency k of a block takes the place of its sample k.
+/// samples from the start of the line (the last one may be shorter) are replaced by their orthonormal DCT-II. Frequency
+/// k of a block is stored at its sample k.
 class DctLine {
   public:
     explicit DctLine(std::size_t length) : length_(length) {}

@@ -25,7 +25,7 @@ WaveletLine::WaveletLine(const Wavelet& wavelet, std::size_t length)
         const std::ptrdiff_t known = std::min<std::ptrdiff_t>(step.extension, sources);
         for (std::ptrdiff_t i = 0; i < targets; ++i) {
             if (i >= begin && i < end) continue;
-            // Taps that fall outside are folded onto the samples that the source is continued from.
+            // Taps outside the source are folded onto the samples from which it is continued.
             std::vector<double> folded(static_cast<std::size_t>(sources));
             for (std::ptrdiff_t k = 0; k < reach; ++k) {
                 const std::ptrdiff_t at = i + step.first + k;

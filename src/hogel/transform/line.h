@@ -9,18 +9,18 @@
 
 namespace hogel::transform {
 
-/// How many lines are transformed side by side.
+/// The number of lines that are transformed side by side.
 constexpr std::size_t lane_count = 16;
 
-/// One level of a wavelet on lines of one length, `lane_count` lines at a time, as its lifting steps alone or with
-/// scales. A tile holds sample k of all lines in its row k, rows[k·lane_count + lane]; while it is transformed the even
-/// samples come first and the odd ones after them.
+/// One level of a wavelet on lines of one length, `lane_count` lines at a time, as its lifting steps with optional
+/// scales. Row k of a tile holds sample k of all lines, rows[k·lane_count + lane]; during the transform even samples
+/// come first, then the odd ones.
 class WaveletLine {
   public:
     WaveletLine(const Wavelet& wavelet, std::size_t length);
 
     /// forward() divides sample k by before[k] before its steps and multiplies row k by after[k] after them; inverse()
-    /// undoes both.
+    /// inverts both.
     void set_scales(const std::vector<double>& before, const std::vector<double>& after);
 
     /// The sample of the line that is in a row of the tile before forward() and after inverse().
@@ -53,8 +53,8 @@ class WaveletLine {
 
 /// All levels of a wavelet on lines of one length, scaled so that every synthesis basis function has norm 1, also at
 /// the ends of the line: an error of a coefficient is then an error of nearly the same energy in the signal (exactly
-/// the same for orthogonal bases). In several dimensions basis functions are products of these. There are at most as
-/// many levels as lead to a single sample.
+/// the same for orthogonal bases). In several dimensions basis functions are products of these. The number of levels is
+/// limited to that which leads to a single sample.
 std::vector<WaveletLine> wavelet_levels(const Wavelet& wavelet, std::size_t length, int levels);
 
 /// The plain twins of WaveletLine: one level of one line without scales, directly from the definition and in double

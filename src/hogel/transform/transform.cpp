@@ -77,7 +77,7 @@ void transform_tile(const Plan& plan, Direction direction, std::span<const std::
 
 template <class Plan>
 void transform_lines(const Plan& plan, Direction direction, const Lines& lines, std::span<float> elements) {
-    // Enough work for one task of a thread.
+    // A task transforms several tiles, enough to outweigh its overhead.
     const std::size_t tiles = (lines.count() + lane_count - 1) / lane_count;
     const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 16) / (plan.length() * lane_count));
     core::parallel_for((tiles + batch - 1) / batch, [&](std::size_t task) {
@@ -91,7 +91,7 @@ void transform_lines(const Plan& plan, Direction direction, const Lines& lines, 
     });
 }
 
-// Transforms the axes of a group level by level, each in the coarse samples of the level before. Axes of a level
+// Transforms the axes of a group level by level, each in the coarse samples of the previous level. The axes of a level
 // commute.
 void transform_group(const Wavelet& wavelet, const Pyramid& pyramid, const AxisGroup& group, Direction direction,
                      std::span<float> elements) {

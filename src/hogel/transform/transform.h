@@ -15,14 +15,14 @@ class Transform {
   public:
     std::string_view name() const { return wavelet_ ? wavelet_->name : "dct8"; }
     bool is_wavelet() const { return wavelet_ != nullptr; }
-    /// Only if it is a wavelet.
+    /// The wavelet. Must not be called for the DCT.
     const Wavelet& wavelet() const { return *wavelet_; }
 
-    /// Transforms an array in place, a row-major one of the pyramid's shape. The DCT transforms the axes of all groups
-    /// once, whatever their levels. All threads; the same result for any number of them. Cost: O(size · axes).
-    /// Throws Error(usage) if the number of elements is not the pyramid's.
+    /// Transforms a row-major array of the pyramid's shape in place. The DCT transforms the axes of all groups once,
+    /// regardless of their levels. Works on all threads; the result does not depend on their number. Cost: O(size ·
+    /// axes). Throws Error(usage) if the number of elements is not the pyramid's.
     void forward(const Pyramid& pyramid, std::span<float> elements) const;
-    /// The inverse of forward(), to rounding.
+    /// The inverse of forward(), up to rounding.
     void inverse(const Pyramid& pyramid, std::span<float> elements) const;
 
   private:
@@ -31,8 +31,8 @@ class Transform {
     const Wavelet* wavelet_;  // null: the DCT
 };
 
-/// By name: haar|d4|d6|ai13|ai31|ai33|i22|i24|i42|i44|cdf31|cdf33|cdf42|cdf44|cdf97|dct8.
-/// Throws Error(usage) with that list for any other name.
+/// The transform of that name: haar|d4|d6|ai13|ai31|ai33|i22|i24|i42|i44|cdf31|cdf33|cdf42|cdf44|cdf97|dct8. Throws
+/// Error(usage) with that list for any other name.
 Transform transform(std::string_view name);
 
 /// All names, in that order.

@@ -30,8 +30,8 @@ double max_difference(std::span<const float> a, std::span<const float> b) {
     return most;
 }
 
-// The coefficients of one level and of all levels of a line by the plain twin, each divided by the norm of what it
-// stands for, measured.
+// The coefficients of one level and of all levels of a line by the plain twin, each multiplied by the measured norm of
+// its basis function.
 std::vector<double> plain_inverse(const Wavelet& wavelet, int levels, std::vector<double> line) {
     for (int level = levels - 1; level >= 0; --level)
         inverse_line_plain(wavelet, std::span(line).first(((line.size() - 1) >> level) + 1));
@@ -71,7 +71,7 @@ TEST(Transform, names_are_found_and_others_named) {
     }
 }
 
-// Separately over the dimensions a transform of a product is the product of the transforms, to its last level.
+// If dimensions are transformed separately, the transform of a product is the product of the transforms.
 TEST(Transform, of_a_product_is_the_product) {
     const Extents shape{9, 16, 7, 21};
     const Pyramid pyramid = Pyramid::separate(shape, {{0}, {1}, {2}, {3}});
@@ -99,7 +99,7 @@ TEST(Transform, of_a_product_is_the_product) {
     }
 }
 
-// Interleaved in 2D: what a coefficient stands for is the product of two functions of the same level.
+// Interleaved in 2D, the basis function of a coefficient is the product of two functions of the same level.
 TEST(Transform, interleaved_basis_functions_are_products_of_one_level) {
     const Transform chosen = transform("ai33");
     const Pyramid pyramid(Extents{13, 22}, {{{0, 1}, 3}});
@@ -111,7 +111,7 @@ TEST(Transform, interleaved_basis_functions_are_products_of_one_level) {
     };
     for (std::size_t y = 0; y < 13; ++y)
         for (std::size_t x = 0; x < 22; ++x) {
-            int level = 3;  // of the band, by either axis that has details
+            int level = 3;  // level of the band, from an axis with details
             while (level > 1 && (y >= pyramid.coarse_extent(0, level - 1) || x >= pyramid.coarse_extent(1, level - 1)))
                 --level;
             const std::vector<float> both = response(pyramid, y * 22 + x),
@@ -122,7 +122,8 @@ TEST(Transform, interleaved_basis_functions_are_products_of_one_level) {
         }
 }
 
-// At the ends too, and in bands of all levels: the error of a quantised coefficient has the same energy in the array.
+// In bands of all levels and also at the ends, so the error of a quantised coefficient has the same energy in the
+// array.
 TEST(Transform, every_basis_function_has_unit_norm) {
     for (std::string_view name : transform_names())
         for (const Pyramid& pyramid : {Pyramid::interleaved({150}), Pyramid::interleaved({9, 14}),
@@ -165,12 +166,13 @@ TEST(Transform, four_dimensions_come_back_interleaved_separate_and_in_part) {
                 EXPECT_EQ(values, original);
             }
             transform(name).inverse(pyramid, values);
-            // Rounding grows with the condition number of the ends, to the fourth power: cdf42 is the worst.
+            // Rounding errors grow with the fourth power of the condition number of the ends, which is largest for
+            // cdf42.
             EXPECT_LT(max_difference(values, original), 5e-4) << name;
         }
 }
 
-// <forward x, forward y> = <x, y> where everything is orthonormal, and forward's adjoint is then its inverse.
+// For orthonormal transforms <forward x, forward y> = <x, y>, so the adjoint of forward() is its inverse.
 TEST(Transform, haar_and_dct_keep_energy_up_to_the_ends) {
     const Extents shape{8, 16, 8, 32};
     for (const char* name : {"haar", "dct8"}) {

@@ -12,9 +12,9 @@ namespace hogel::transform {
 enum class Half { detail, coarse };
 
 /// target[i] += Σ_k taps[k] · source[i + first + k].
-/// Beyond an end of the line the source is continued by the polynomial through its last `extension` samples (fewer when
-/// it has fewer; 0 continues with zeros). With an extension of N samples a step keeps polynomials of degree < N
-/// up to the ends.
+/// Beyond an end of the line the source is continued by the polynomial through its last `extension` samples (or all, if
+/// it has fewer; 0 continues with zeros). With an extension of N samples a step keeps polynomials of degree < N up to
+/// the ends.
 struct LiftingStep {
     Half target;
     int first;
@@ -27,8 +27,9 @@ struct LiftingStep {
 /// In a name (N,Ñ) the first number is the order of interpolation or polynomial reproduction: the details of
 /// polynomials of degree < N vanish. The second is the number of vanishing moments that lifting gives the other side:
 /// the synthesis wavelets are orthogonal to polynomials of degree < Ñ, so dropping details keeps moments 0..Ñ−1 of the
-/// signal. N holds up to both ends of a line whose halves have as many samples as the extensions of the steps (shorter
-/// lines have a lower order); Ñ holds in the interior. Lines of every length can be inverted, as lifting always can.
+/// signal. N holds up to both ends of a line whose halves have at least as many samples as the extensions of the steps
+/// (shorter lines have a lower order); Ñ holds in the interior. The transform is invertible for lines of every length,
+/// as is any lifting.
 struct Wavelet {
     std::string_view name;
     int reproduction;  // N

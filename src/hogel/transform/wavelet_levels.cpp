@@ -7,15 +7,15 @@
 namespace hogel::transform {
 namespace {
 
-// Basis functions that are farther than this from both ends hardly reach them, and have equal norms.
+// Basis functions farther than this from both ends hardly reach them and have equal norms.
 constexpr std::size_t reach = 16;
 
 // The norms of the synthesis functions of all rows of the last of these levels (coarse samples, then details), measured
-// as responses of the unscaled levels to impulses, a tile of them at a time.
+// as impulse responses of the unscaled levels, a tile at a time.
 std::vector<double> synthesis_norms(std::span<const WaveletLine> levels) {
     const WaveletLine& last = levels.back();
     const std::size_t length = last.length(), coarse_count = (length + 1) / 2;
-    // Rows near the ends of each half are measured individually, one in the middle stands for all others.
+    // Rows near the ends of each half are measured individually; one in the middle represents all others.
     std::vector<std::size_t> measured;
     std::vector<std::size_t> stands_for(length);
     for (std::size_t half = 0; half < 2; ++half) {

@@ -29,8 +29,8 @@ std::vector<double> trimmed(const std::vector<double>& taps) {
     return {taps.begin() + static_cast<std::ptrdiff_t>(begin), taps.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
-// The filters of one level in the middle of a long line, measured: analysis by feeding impulses, one sample after the
-// other; synthesis as the response to one coefficient.
+// The measured filters of one level in the middle of a long line: analysis by impulses at each sample, synthesis as the
+// response to one coefficient.
 constexpr std::size_t length = 64, middle = 16;
 Filters analysis(const Wavelet& wavelet) {
     Filters filters;
@@ -52,7 +52,7 @@ Filters synthesis(const Wavelet& wavelet) {
     return {trimmed(low), trimmed(high)};
 }
 
-// Filters are known up to a factor, which each author chooses: bring both to norm 1, and to the same sign.
+// Filters are defined up to a factor, so both are normalised to norm 1 and the same sign.
 void expect_same_up_to_factor(const std::vector<double>& measured, const std::vector<double>& published,
                               double tolerance, std::string_view what) {
     ASSERT_EQ(measured.size(), published.size()) << what;
@@ -83,7 +83,7 @@ TEST(Wavelet, impulse_responses_are_the_published_taps) {
     EXPECT_NEAR(d6[5], 0.0352262918857095, 1e-12);
     expect_same_up_to_factor(analysis(named("d4")).low, d4, 1e-12, "d4");
     expect_same_up_to_factor(analysis(named("d4")).high, {d4[3], -d4[2], d4[1], -d4[0]}, 1e-12, "d4");
-    // This factorization has the direction of time the other way round.
+    // This factorization is reversed in time.
     expect_same_up_to_factor(analysis(named("d6")).low, {d6.rbegin(), d6.rend()}, 1e-12, "d6");
     expect_same_up_to_factor(analysis(named("d6")).high, {d6[0], -d6[1], d6[2], -d6[3], d6[4], -d6[5]}, 1e-12, "d6");
 
@@ -110,8 +110,8 @@ TEST(Wavelet, impulse_responses_are_the_published_taps) {
                              "cdf(1,3)");
 }
 
-// What makes (N,Ñ): the synthesis scaling functions of cdf* are B-splines, those of i* interpolate (Deslauriers and
-// Dubuc), the analysis ones of ai31 are cell averages.
+// The definitions of the families: the synthesis scaling functions of cdf* are B-splines, those of i* interpolate
+// (Deslauriers and Dubuc), and the analysis ones of ai31 are cell averages.
 TEST(Wavelet, families_have_their_defining_scaling_functions) {
     for (const char* name : {"cdf31", "cdf33"})
         expect_same_up_to_factor(synthesis(named(name)).low, {1, 3, 3, 1}, 1e-13, name);
@@ -134,7 +134,7 @@ double moment(const std::vector<double>& taps, int degree, double centre) {
 TEST(Wavelet, details_and_wavelets_have_the_moments_that_the_names_say_and_no_more) {
     for (const Wavelet& wavelet : wavelets()) {
         const std::vector<double> analysis_high = analysis(wavelet).high, synthesis_high = synthesis(wavelet).high;
-        // Off centre, so that symmetry alone makes no moment vanish.
+        // Off centre, so that no moment vanishes by symmetry alone.
         for (int degree = 0; degree <= wavelet.reproduction; ++degree) {
             const double value = moment(analysis_high, degree, 2.3);
             if (degree < wavelet.reproduction)
@@ -152,8 +152,8 @@ TEST(Wavelet, details_and_wavelets_have_the_moments_that_the_names_say_and_no_mo
     }
 }
 
-// To the order that is promised at both ends, for all lengths with as many samples in both halves, and at every level:
-// the coarse samples of a polynomial are one again.
+// Up to the promised order, at both ends, for all lengths with enough samples in both halves, and at every level,
+// because the coarse samples of a polynomial are a polynomial again.
 TEST(Wavelet, polynomials_have_no_details_up_to_the_ends) {
     for (const Wavelet& wavelet : wavelets())
         for (std::size_t n = static_cast<std::size_t>(2 * wavelet.edge_order); n <= 40; ++n)
@@ -184,7 +184,7 @@ TEST(Wavelet, lines_of_any_length_come_back) {
         }
 }
 
-// The fast lines against the plain ones, for every length, with different numbers in every lane.
+// Compares the fast lines with the plain ones for every length, with different numbers in every lane.
 TEST(WaveletLine, agrees_with_the_plain_line) {
     std::vector<std::size_t> lengths{53, 97, 127};
     for (std::size_t n = 1; n <= 40; ++n) lengths.push_back(n);

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes the example streams of this folder anew, after a change of the draft format: make.sh HOGEL
+# Remakes the example streams of this folder after a change of the draft format: make.sh HOGEL
 set -eu
 hogel=$(realpath "$1")
 out=$(realpath "$(dirname "$0")")

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t samples_of_tile = std::size_t{1} << 24;
 
-// What is coded, and how its dimensions are transformed.
+// The quantity that is coded, and the dimensions that are transformed together.
 enum class Content {
     radiance,   // L, all four dimensions interleaved
     amplitude,  // √L, hogels and directions independently
@@ -80,7 +80,7 @@ class ClassicCoder : public TileCoder {
 
     void decode_coefficients(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
         if (!directional()) return TileCoder::decode_coefficients(bytes, tile);
-        // Only the transform of the hogels is undone.
+        // Inverts only the transform of the hogels.
         const transform::Pyramid whole = pyramid_of(tile);
         decode(bytes, transform::Pyramid(whole.shape(), {whole.groups().front()}), tile);
     }
@@ -90,7 +90,7 @@ class ClassicCoder : public TileCoder {
                                                      double step) const = 0;
     virtual void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                                 std::span<float> values) const = 0;
-    // Replaces values by what decode_channel() makes of their code.
+    // Replaces values by those that decode_channel() restores from their code.
     virtual void round_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                                std::span<float> values) const {
         decode_channel(pyramid, code, values);
@@ -103,7 +103,7 @@ class ClassicCoder : public TileCoder {
         return content_ == Content::amplitude ? transform::Pyramid::separate(axes, {{0, 1}, {2, 3}})
                                               : transform::Pyramid::interleaved(axes);
     }
-    // Undoes the transform along the groups of `back`.
+    // Decodes a tile and inverts the transform along the groups of `back`.
     void decode(std::span<const std::uint8_t> bytes, const transform::Pyramid& back, LightFieldTile& tile) const {
         ByteReader reader(bytes, "tile");
         const transform::Pyramid pyramid = pyramid_of(tile);
@@ -113,7 +113,7 @@ class ClassicCoder : public TileCoder {
         if (reader.left() > 0) reader.damaged("bytes are left over");
         restore(back, tile, [&](std::size_t c, std::span<float> values) { decode_channel(pyramid, codes[c], values); });
     }
-    // Undoes the transform of coefficients, which make(channel, values) fills in, and joins the colours.
+    // Inverts the transform of the coefficients that make(channel, values) fills in, and combines the colours.
     template <class Make>
     void restore(const transform::Pyramid& back, LightFieldTile& tile, Make&& make) const {
         core::parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
@@ -127,7 +127,7 @@ class ClassicCoder : public TileCoder {
         if (content_ == Content::amplitude)
             for (float& value : tile.radiance.elements()) value *= value;
     }
-    // Cuts embedded codes by the same fraction each, so that with their lengths they take `most` bytes.
+    // Cuts embedded codes by equal fractions, so that they take `most` bytes including their lengths.
     static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t most) {
         std::size_t all = 0;
         for (const auto& code : codes) all += code.size();
@@ -147,7 +147,7 @@ class ClassicCoder : public TileCoder {
     Content content_;
 };
 
-// The smallest step whose levels a coder can represent, or the given one.
+// The given step, or the smallest one whose levels a coder can represent if that is larger.
 double usable_step(std::span<const float> values, double step) {
     return std::max(step, static_cast<double>(coding::max_magnitude(values)) * 0x1p-29);
 }
@@ -174,7 +174,7 @@ class ThreePassCoder final : public ClassicCoder {
 class EzwCoder final : public ClassicCoder {
   public:
     using ClassicCoder::ClassicCoder;
-    // The codes may be empty; their lengths remain.
+    // Codes may be empty, so the minimum is that of their lengths.
     std::optional<std::size_t> min_bytes(const LightFieldGrid& grid) const override {
         return grid.channels * sizeof(std::uint32_t);
     }

@@ -25,7 +25,7 @@ void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& ti
     });
 }
 
-// A stream, and its tiles that were decoded last.
+// A stream with a cache of the tiles that were decoded last.
 class DecodedStream {
   public:
     DecodedStream(const std::filesystem::path& path, const StreamOptions& options, bool coefficients,
@@ -51,12 +51,12 @@ class DecodedStream {
 
     const StreamHeader& info() const { return reader_.info(); }
 
-    // Reads a face: the directions of a part from a place on, as many as the tile has.
+    // Reads a face: as many directions of a part as the tile has, starting at `place`.
     void read(std::size_t part, Unfolding::Place place, LightFieldTile& tile) const {
         const Tiling& tiling = reader_.tiling();
         const HogelRange &r = tile.range, &size = tiling.size();
         const LightFieldGrid& grid = reader_.parts()[part];
-        // A whole tile of the stream is decoded in place.
+        // A whole tile of the stream is decoded directly into the caller's tile.
         const std::size_t first = r.t0 / size.nt * tiling.across() + r.s0 / size.ns;
         const bool whole = tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
         if (tiling[first] == r && whole && recent_.kept() < tiling.count()) return decode({part, first}, tile);
@@ -113,7 +113,7 @@ class DecodedStream {
 
     std::size_t number(Index index) const { return index.part * reader_.tiling().count() + index.tile; }
 
-    // Calls use(), whose Error(bad_input) gets the name of the file and the number of the tile.
+    // Calls use() and adds the file name and the tile number to an Error(bad_input) that it throws.
     template <class Use>
     auto with_tile_named(Index index, Use&& use) const {
         try {
@@ -143,7 +143,7 @@ class DecodedStream {
         with_tile_named(index, [&] { decoder->read(tile); });
     }
 
-    // Copies the hogels that a tile of the stream has in common with the wanted tile.
+    // Copies the hogels that a tile of the stream shares with the requested tile.
     void read_common(Index index, Unfolding::Place place, LightFieldTile& tile) const {
         const auto decoder = recent_.get(index, [&] { return std::make_shared<const Decoder>(open(index)); });
         const LightFieldGrid& grid = reader_.parts()[index.part];
@@ -159,7 +159,7 @@ class DecodedStream {
     }
 
     StreamReader reader_;
-    std::vector<std::unique_ptr<TileCoder>> coders_;  // of each part
+    std::vector<std::unique_ptr<TileCoder>> coders_;  // one per part
     bool coefficients_;
     std::size_t layers_;
     mutable core::LruCache<Index, Decoder> recent_;
@@ -208,11 +208,12 @@ LightField open_stream(const std::filesystem::path& path, const StreamOptions& o
     for (std::size_t face = 0; face <= info.sides.size(); ++face)
         faces.push_back(std::make_shared<DecodedFace>(
             stream, face, depth ? std::make_unique<DecodedFace>(depth, face) : std::unique_ptr<DecodedFace>()));
-    return LightField(std::move(faces));
+    return LightField(std::move(faces), to_provenance(info.metadata));
 }
 
 LightField open_coefficients(const std::filesystem::path& path) {
-    return std::make_shared<const DecodedFace>(std::make_shared<const DecodedStream>(path, StreamOptions{}, true), 0);
+    const auto stream = std::make_shared<const DecodedStream>(path, StreamOptions{}, true);
+    return LightField({std::make_shared<const DecodedFace>(stream, 0)}, to_provenance(stream->info().metadata));
 }
 
 }  // namespace hogel

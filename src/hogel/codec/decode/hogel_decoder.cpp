@@ -100,7 +100,7 @@ const std::vector<Block>* HogelDecoder::context_blocks(std::size_t hogel) const 
     return references.empty() ? nullptr : &coded_[references.front().hogel].blocks;
 }
 
-// The syntax elements of the hogel's context references must be known.
+// Reads the syntax elements of hogel k. Those of its context references must be known.
 void HogelDecoder::read_syntax(std::size_t k) {
     const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
     const auto warped = warped_blocks(hogel, coded_, setup_.grid, setup_.aspect);
@@ -119,7 +119,7 @@ void HogelDecoder::read_syntax(std::size_t k) {
     syntax_read_[k] = true;
 }
 
-// Reads the syntax elements of hogels, and of their context references before, on all threads.
+// Reads the syntax elements of hogels, and before them those of their context references, on all threads.
 void HogelDecoder::read_syntax_in_wavefronts(const std::vector<std::size_t>& wanted) {
     const auto& order = setup_.order.hogels();
     std::vector<bool> needed(order.size());
@@ -143,7 +143,7 @@ void HogelDecoder::want_block(std::size_t k, std::size_t column, std::size_t row
     wanted_[k] = true;
 }
 
-// Marks the blocks of this hogel and of others that its wanted blocks are predicted from.
+// Marks all blocks, of this and of other hogels, on which the wanted blocks of this hogel depend.
 void HogelDecoder::want_references(std::size_t k) {
     const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
     ReferenceWeights weights(hogel, setup_.noise, setup_.aspect);

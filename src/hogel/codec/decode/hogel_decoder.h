@@ -9,17 +9,17 @@
 
 namespace hogel::codec::decode {
 
-// A tile of the coder "hogel", decoded as far as it is read: a hogel needs the syntax elements of those that it is
-// predicted from, and of their samples only the blocks that it shows. What has been decoded is kept.
+// Decodes a tile of the coder "hogel" on demand. A hogel needs the syntax elements of the hogels that it is predicted
+// from, but only those blocks of their samples that predict its own. Decoded hogels and blocks are kept.
 class HogelDecoder final : public TileDecoder {
   public:
-    // @param layers   that `bytes` have; the syntax elements of hogels of further layers are predicted
-    // Throws Error(bad_input).
+    // @param layers   number of layers in `bytes`; the syntax elements of hogels of further layers are predicted Throws
+    //                 Error(bad_input).
     HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
                  std::size_t layers);
     void read(LightFieldTile& part) override;
 
-    // What has been decoded so far: hogels whose syntax elements are known, and blocks that are reconstructed.
+    // Statistics for tests: hogels whose syntax elements are known, and blocks that have been reconstructed.
     std::size_t hogels_read() const;
     std::size_t blocks_reconstructed() const;
 
@@ -38,19 +38,19 @@ class HogelDecoder final : public TileDecoder {
     std::vector<std::uint8_t> bytes_;
     HogelRange range_;
     format::TileSetup setup_;
-    std::vector<std::size_t> place_;                    // of hogels, row by row, in the order
-    std::vector<format::BlockModels> models_;           // of each layer, in their initial states
-    std::vector<std::span<const std::uint8_t>> codes_;  // of the hogels of these layers
+    std::vector<std::size_t> place_;                    // [hogel, row by row]: its index in the order
+    std::vector<format::BlockModels> models_;           // one per layer, in their initial states
+    std::vector<std::span<const std::uint8_t>> codes_;  // one per hogel of these layers
 
-    std::mutex mutex_;  // guards all that follows, but for pictures that are complete
+    std::mutex mutex_;  // guards all members below, except complete pictures
     std::vector<format::CodedHogel> coded_;
-    std::vector<std::uint8_t> syntax_read_, wanted_;  // bools, of hogels
+    std::vector<std::uint8_t> syntax_read_, wanted_;  // one bool per hogel
     std::vector<format::BlockState> blocks_;          // of all hogels
     std::vector<format::Picture> pictures_;
     std::vector<std::atomic<bool>> complete_;
 };
 
-// Samples of a hogel padded to whole blocks.
+// The number of samples of a hogel padded to whole blocks.
 std::size_t samples_in_blocks(const LightFieldGrid& grid);
 // Whether a tile is within the limits of the format.
 bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range);

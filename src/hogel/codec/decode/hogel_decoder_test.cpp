@@ -56,7 +56,7 @@ TEST(HogelDecoder, any_part_has_the_samples_of_the_whole) {
         for (std::size_t k = 0; k < whole.hogels(); ++k) {
             HogelRange range{k % whole.ns, k / whole.ns, 1, 1};
             HogelDecoder decoder = example.open();
-            for (int more = 0; more < 2; ++more) {  // then more of the same tile
+            for (int more = 0; more < 2; ++more) {  // a second reading of the same tile decodes more of it
                 LightFieldTile part(example.field.grid(), range, false);
                 decoder.read(part);
                 ASSERT_TRUE(example.has(part)) << range.s0 << " " << range.t0;
@@ -67,8 +67,8 @@ TEST(HogelDecoder, any_part_has_the_samples_of_the_whole) {
     }
 }
 
-// Lines that come from above on the right, which the first hogel continues by intra prediction. The other hogels see it
-// shifted by more than a block, so that they need only one end of it.
+// The first hogel has lines from the upper right, which intra prediction continues. The other hogels see them shifted
+// by more than a block, so that they need only one end of the first hogel.
 TEST(HogelDecoder, a_part_of_intra_blocks_gets_the_samples_above_on_the_right) {
     LightFieldBuffer field({5, 1, 1e-3, 64, 40, Perspective{0.3, 0.3}, 1});
     for (std::size_t s = 0; s < 5; ++s)
@@ -86,7 +86,7 @@ TEST(HogelDecoder, a_part_of_intra_blocks_gets_the_samples_above_on_the_right) {
     }
 }
 
-// A few of each layer, not the whole tile.
+// Decoding one hogel reads a few hogels of each layer, not the whole tile.
 TEST(HogelDecoder, a_hogel_needs_few_others) {
     const Example example(32, 32, 16, 16, 1);
     std::size_t max_read = 0, all_blocks = 0;
@@ -100,7 +100,7 @@ TEST(HogelDecoder, a_hogel_needs_few_others) {
         all_blocks += decoder.blocks_reconstructed();
         const std::size_t blocks = decoder.blocks_reconstructed();
         decoder.read(part);
-        EXPECT_EQ(decoder.blocks_reconstructed(), blocks);  // nothing is done twice
+        EXPECT_EQ(decoder.blocks_reconstructed(), blocks);  // no block is reconstructed twice
     }
     EXPECT_GE(max_read, 10u);
     EXPECT_LE(max_read, 160u);
@@ -144,7 +144,7 @@ TEST(HogelDecoder, each_layer_reduces_the_error) {
     EXPECT_GT(before, 25);
 }
 
-// Reading ends with other samples or in an Error(bad_input).
+// Reading gives other samples or throws Error(bad_input).
 TEST(HogelDecoder, damaged_bytes_do_no_harm) {
     const Example example(5, 5, 16, 16, 1);
     std::size_t refused = 0;
@@ -176,7 +176,7 @@ TEST(ModelStates, are_near_the_counted_ratios_and_come_back) {
     std::vector<BitCount> counts(ModelStates().count(), {300, 100});
     counts[numbers.main.sign] = {0, 5000};
     counts[numbers.intra[0]] = {0, 0};
-    counts[numbers.intra[1]] = {3, 2};  // too few to pay
+    counts[numbers.intra[1]] = {3, 2};  // too few to be worth a change of state
     const ModelStates states(counts, ModelStates());
     BlockModels models = states.models();
     EXPECT_NEAR(models.mode[0][1][2].zero(), 0.75 * 65536, 0.02 * 65536);

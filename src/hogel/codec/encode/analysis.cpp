@@ -16,15 +16,15 @@ using namespace format;
 
 namespace {
 
-// Estimated bits (docs/decisions/0036-codec-encoder-search.md): of intra prediction, also in the first hogel, and of
-// the intra predictor.
+// Estimated bits (docs/decisions/0036-codec-encoder-search.md) of intra prediction, in general and in the first hogel,
+// and of the choice of intra predictor.
 constexpr float intra_block = 12, first_intra_block = 1;
 constexpr float bits_of_predictor(int predictor) { return predictor == 0 ? 0 : predictor < first_directional ? 2 : 5; }
-// Estimated bits of partitions, and the bits that they must be able to save before they are searched.
+// Estimated bits of partitions, and the minimum saving in bits for which they are searched.
 constexpr float of_partitions = 14, min_gain_of_partitions = 16;
 constexpr float bits_of_partitions(const Block& block) { return block.mode == mode_partitioned ? of_partitions : 0; }
 
-// The decisions on the blocks of one hogel, one after the other.
+// Decides on the blocks of one hogel, one after the other.
 class Analysis {
   public:
     Analysis(const TileSetup& setup, std::size_t hogel, const Picture& source, const KnownDisparities& known,
@@ -66,7 +66,8 @@ class Analysis {
         quantise(truth, error, step_, intra, setup_.reconstruction_offset(intra), channel);
     }
 
-    // The best inter prediction of the first channel, or an intra one if that is cheaper; its levels.
+    // Chooses the best inter prediction of the first channel, or an intra prediction if that costs less, and quantises
+    // it.
     void choose_prediction(std::size_t k, const BlockSamples& target, const Candidates& candidates, Block& block) {
         const BlockSearch::Found& best = search_.run(k, target, candidates);
         block.mode = best.mode;
@@ -89,7 +90,8 @@ class Analysis {
         for (int predictor = 0; predictor < intra_predictors; ++predictor) {
             predict_intra(picture_[0], x_, y_, predictor, other_.prediction);
             float cost = squared_difference(other_.prediction, target);
-            // All hogels inherit from the first one, so each predictor is tried with the levels that it leaves.
+            // All hogels are predicted from the first one, so each predictor is tried including the quantisation of its
+            // residual.
             if (first_) {
                 quantise_channel(target, cost, true, other_);
                 cost = other_.cost;
@@ -103,7 +105,7 @@ class Analysis {
         }
     }
 
-    // Tries partitions, and disparities around the one that was found, where the block is still expensive.
+    // Tries partitions and neighbouring disparities if the block still costs much.
     void improve(const BlockSamples& target, const Candidates& candidates, Block& block) {
         const BlockSearch::Found& best = search_.found();
         const auto offer_partitions = [&] {
@@ -126,7 +128,7 @@ class Analysis {
         }
     }
 
-    // Takes `other`, whose prediction is in other_, in place of the block if it costs less.
+    // Replaces the block by `other`, whose prediction is in other_, if that costs less.
     void offer(const Block& other, const BlockSamples& target, float error, Block& block) {
         quantise_channel(target, error, false, other_);
         if (!(other_.cost + rate_weight_ * bits_of_partitions(other) <
@@ -145,7 +147,7 @@ class Analysis {
         quantise_channel(truth, squared_difference(channel_.prediction, truth), block.mode == mode_intra, channel_);
     }
 
-    // Codes and reconstructs all channels; the first one is decided.
+    // Codes and reconstructs all channels; the first one has already been decided.
     void code_channels(Block& block, CodedHogel& coded) {
         for (std::size_t c = 0; c < setup_.grid.channels; ++c) {
             if (c > 0) predict_and_quantise(block, c, block_of(source_[c], x_, y_));
@@ -171,9 +173,9 @@ class Analysis {
     WarpedBlocks warped_;
     PartitionSearch partitions_;
     BlockSearch search_;
-    // The block that is decided on:
+    // The current block:
     std::size_t x_ = 0, y_ = 0;
-    CodedChannel channel_, other_;  // its first channel, and an alternative
+    CodedChannel channel_, other_;  // the first channel of the block, and an alternative
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace hogel::codec::encode {
 
-// Decides on all blocks of a hogel, and reconstructs its picture, whose memory is there, as a decoder will have it. The
-// result has the predictor candidates, too.
+// Decides on all blocks of a hogel and reconstructs its picture, in memory that the caller provides, exactly as a
+// decoder will. The result includes the predictor candidates.
 format::CodedHogel analyse(const format::TileSetup& setup, std::size_t hogel, const format::Picture& source,
                            const KnownDisparities& known, std::vector<format::Picture>& pictures);
 

@@ -16,11 +16,12 @@ namespace {
 // Estimated bits (docs/decisions/0036-codec-encoder-search.md).
 constexpr float first_candidate = 0.3f, other_candidate = 2, each_candidate = 0.7f, new_disparity = 14;
 constexpr float best_of_all_sides = 0.3f, one_side = 7;
-// Thresholds of the same page, in squared steps a block, for most layers and for the last one, from which no other
-// hogel inherits: a prediction that costs less ends the search, and one that costs more is worth looking farther.
+// Thresholds from the same page, in squared steps per block, for most layers and for the last one, from which no other
+// hogel is predicted. A prediction that costs less than the first ends the search; one that costs more than the second
+// justifies a wider search.
 constexpr float good_enough = 1.5f, good_enough_last = 2;
 constexpr float worth_looking_most = 12, worth_looking_last = 16;
-// No prediction is likely to have a smaller error.
+// A lower bound on the error that a prediction is likely to have.
 constexpr float min_error = 1;
 constexpr int max_slope_steps = 2;
 constexpr std::size_t max_nearby = 3;
@@ -45,7 +46,7 @@ BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel,
     min_error_ = min_error * step * step;
 }
 
-// Enters a prediction if it is the best so far, and returns whether it is.
+// Keeps a prediction if it is the best so far, and returns whether it is.
 bool BlockSearch::take_if_better(const BlockSamples& prediction, float error, float bits, int side, int disparity) {
     const float cost = error + rate_weight_ * bits;
     if (!(cost < best_.cost)) return false;
@@ -89,8 +90,8 @@ int BlockSearch::codable(float disparity) const {
     return first_candidate_ + static_cast<int>(units) * (away < 0 ? -unit_ : unit_);
 }
 
-// With a wrong disparity a reference shows the block a little shifted. A Gauss–Newton step leads from the best
-// disparity so far to the one with the least squared difference over all sides together.
+// With a slightly wrong disparity a reference shows the block a little shifted. Gauss–Newton steps lead from the best
+// disparity so far to the one with the least squared difference, summed over all sides.
 void BlockSearch::follow_slopes() {
     if (!slopes_known_) {
         const auto reach = static_cast<std::ptrdiff_t>(slope_reach);
@@ -116,7 +117,7 @@ void BlockSearch::follow_slopes() {
     if (disparity != from) try_any_side(disparity, new_disparity);
 }
 
-// Tries the known disparities of surfaces around the block: where one ends, another begins.
+// Tries the known disparities of neighbouring blocks, because the surface of one of them may continue here.
 void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
     std::array<int, Candidates{}.disparity.size() + max_nearby> tried;
     std::copy_n(candidates.disparity.begin(), candidates.count, tried.begin());

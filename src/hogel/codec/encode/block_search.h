@@ -8,39 +8,39 @@
 
 namespace hogel::codec::encode {
 
-// Disparities that are known of a hogel before its blocks are coded.
+// Disparities of a hogel that are known before its blocks are coded.
 struct KnownDisparities {
-    std::span<const std::int16_t> estimated{};                   // of its blocks; may be empty
-    std::span<const format::Block* const> warped{};              // the warped blocks; may be empty
-    const std::vector<format::Block>* context_blocks = nullptr;  // of the first context reference; may be null
+    std::span<const std::int16_t> estimated{};                   // one per block; may be empty
+    std::span<const format::Block* const> warped{};              // the warped block of each block; may be empty
+    const std::vector<format::Block>* context_blocks = nullptr;  // blocks of the first context reference; may be null
 };
 
-// The search for the disparity and side that predict a block of the first channel best. It tries what costs few bits
-// first, stops at a prediction that is good enough, and leaves out what cannot win because of its bits alone.
+// Searches the disparity and side that best predict a block of the first channel. Choices of few bits are tried first.
+// The search stops at a prediction that is good enough, and skips choices whose bits alone cost more than the best one.
 class BlockSearch {
   public:
-    // @param warped   cache of the block that is searched
+    // @param warped   cache of warped blocks for the current block
     BlockSearch(const format::TileSetup& setup, const format::HogelOrder::Hogel& hogel, const format::Plane& source,
                 WarpedBlocks& warped, format::ReferenceWeights& weights, const KnownDisparities& known);
     BlockSearch(const BlockSearch&) = delete;
     BlockSearch& operator=(const BlockSearch&) = delete;
 
     struct Found {
-        float cost = std::numeric_limits<float>::infinity();  // squared error, and bits times their weight
+        float cost = std::numeric_limits<float>::infinity();  // squared error plus λ times the bits
         float error = 0;                                      // Σ (prediction − target)²
-        std::uint8_t mode = format::mode_intra;               // intra: nothing was found
+        std::uint8_t mode = format::mode_intra;               // mode_intra: no prediction was found
         std::int16_t disparity = 0;
         const format::BlockSamples* prediction = nullptr;
     };
     // Searches for block k, whose samples are `target`. Valid until the next call.
     const Found& run(std::size_t k, const format::BlockSamples& target, const format::Candidates& candidates);
     const Found& found() const { return best_; }
-    // Tries disparities around the one that was found, far ones first. Returns whether one is better, which is found
-    // then.
+    // Tries disparities around the best one, distant ones first. Returns whether one of them is better; it then is the
+    // result.
     bool look_around();
-    // Whether what was found is good enough to stop.
+    // Whether the best prediction is good enough to stop.
     bool good() const { return best_.cost < good_enough_; }
-    // A block that costs more than this in the end is worth looking around.
+    // For blocks that finally cost more than this, look_around() is worth its time.
     float worth_looking() const { return worth_looking_; }
 
   private:
@@ -50,7 +50,7 @@ class BlockSearch {
     void try_single_sides(int disparity, float bits);
     void follow_slopes();
     void try_nearby(std::size_t k, const format::Candidates& candidates);
-    // The nearest disparity that can be coded: a whole number of units from the first candidate.
+    // The nearest disparity that can be coded: one that differs from the first candidate by a whole number of units.
     int codable(float disparity) const;
 
     const format::TileSetup& setup_;
@@ -62,12 +62,12 @@ class BlockSearch {
     float rate_weight_, good_enough_, worth_looking_, min_error_;
     int unit_;
 
-    // The block that is searched:
+    // The current block:
     std::size_t x_ = 0, y_ = 0;
     const format::BlockSamples* target_ = nullptr;
     int first_candidate_ = 0;
     Found best_;
-    std::array<format::BlockSamples, 2> kept_;  // the best prediction, and room for the next one
+    std::array<format::BlockSamples, 2> kept_;  // the best prediction, and scratch for the next one
     bool slopes_known_ = false;
     format::Slopes slopes_;
 };

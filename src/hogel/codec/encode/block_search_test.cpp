@@ -12,7 +12,7 @@ using namespace format;
 
 namespace {
 
-// Five by five hogels that see a texture with a disparity; the last hogel is searched, the others are coded.
+// Five by five hogels that see a texture at one disparity. The last hogel is searched; the others are coded.
 struct Views {
     TileSetup setup{HogelOrder(5, 5, 1, 1), 32, 32, 1, 0.003f, 1.35f, 1};
     std::vector<Picture> pictures;
@@ -47,7 +47,7 @@ struct Views {
     }
 };
 
-// From nearly a direction away.
+// The search starts nearly one direction away from the right disparity.
 TEST(BlockSearch, slopes_lead_to_the_disparity) {
     for (const int disparity : {-70, 0, 33})
         for (const int away : {-56, -20, 9, 48}) {
@@ -59,8 +59,8 @@ TEST(BlockSearch, slopes_lead_to_the_disparity) {
         }
 }
 
-// Where most references show something else, slopes mislead, but looking around or the disparity of a neighbouring
-// block helps. A candidate that is right is taken.
+// If most references show another surface, slopes mislead, and either look_around() or the disparity of a neighbouring
+// block is needed. A right candidate is taken at once.
 TEST(BlockSearch, looks_farther_only_if_necessary) {
     constexpr int disparity = 20, away = 26;
     Views views(disparity);

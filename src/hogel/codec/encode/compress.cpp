@@ -27,10 +27,10 @@ using namespace codec::format;
 
 namespace {
 
-// The fraction of the bytes asked for that may be missing, where a step is searched with some of the tiles and then
-// with all (docs/decisions/0037-codec-rate-control.md). Filler makes up for the rest.
+// The fraction of the requested bytes that may be missing when a step is searched, with some of the tiles first and
+// then with all (docs/decisions/0037-codec-rate-control.md). Filler takes their place.
 constexpr double first_tolerance = 0.02, last_tolerance = 0.004;
-constexpr std::size_t sampled = 8;  // tiles that are coded to guess the step
+constexpr std::size_t sampled = 8;  // number of tiles that are coded to estimate the step
 
 std::vector<std::size_t> all_tiles(std::size_t count) {
     std::vector<std::size_t> tiles(count);
@@ -38,14 +38,14 @@ std::vector<std::size_t> all_tiles(std::size_t count) {
     return tiles;
 }
 
-// Some tiles, spread over the light field.
+// The indices of some tiles, spread over the light field.
 std::vector<std::size_t> some_tiles(std::size_t count) {
     std::vector<std::size_t> tiles;
     for (std::size_t i = 0; i < sampled; ++i) tiles.push_back((2 * i + 1) * count / (2 * sampled));
     return tiles;
 }
 
-// The step of a prediction that makes tiles smallest, by halving and doubling a likely one.
+// The step of a prediction that makes tiles smallest, found by halving and doubling a likely step.
 double smallest_step(const TileCompression& compression, const CompressionTarget& target) {
     constexpr int most = 8;
     const bool lossless = std::holds_alternative<Lossless>(target);
@@ -66,7 +66,8 @@ double smallest_step(const TileCompression& compression, const CompressionTarget
     return std::ldexp(start, best);
 }
 
-// Throws Error(usage) for a method that does not exist or does not suit the target. Returns it as a stream names it.
+// Returns the coding method with the name that a stream stores. Throws Error(usage) for a method that does not exist or
+// does not suit the target.
 CodingMethod method_for(const CompressionOptions& options) {
     CodingMethod method = options.method;
     if (is_exact(options.target)) {
@@ -113,7 +114,7 @@ Companding companding_for(const LightField& light_field, const CompressionOption
     return companding;
 }
 
-// A coding of all tiles that meets a target.
+// The result of a search for a coding of all tiles that meets a target.
 struct Found {
     CodingOutcome outcome;
     double step = 0;
@@ -121,8 +122,9 @@ struct Found {
     std::uint64_t filler = 0;
 };
 
-// Cuts or fills up the file, all of whose tiles have been written, so that it has the bytes asked for.
-// @param room   most bytes without filler
+// Cuts embedded codes or adds filler, after all tiles have been written, so that the file has the requested number of
+// bytes.
+// @param room   maximum number of bytes without filler
 void meet_rate(const PixelsPerBit& target, double bytes, double room, StepFound where, TileCompression& compression,
                const StreamWriter& writer, Found& found) {
     if (compression.embedded() && static_cast<double>(writer.size()) > bytes) {
@@ -135,7 +137,7 @@ void meet_rate(const PixelsPerBit& target, double bytes, double room, StepFound 
     found.filler = std::min(static_cast<std::uint64_t>(bytes) - writer.size(), std::uint64_t{max_filler});
 }
 
-// For a target that is an SQNR or a rate.
+// Searches the step for a target that is an SQNR or a rate.
 Found search_step(const CompressionTarget& target, double rays, const std::string& coder, TileCompression& compression,
                   const StreamWriter& writer) {
     const std::vector<std::size_t> all = all_tiles(compression.tiles());
@@ -186,7 +188,7 @@ CompressionResult compress(const LightField& light_field, const std::filesystem:
     StreamHeader header;
     header.grid = grid;
     header.method = method_for(options);
-    header.metadata = options.metadata;
+    header.metadata = with_history(options.metadata, to_metadata(light_field.provenance()));
     require_perspective(grid, ErrorCode::usage, "a compressed light field");
     header.companding = companding_for(light_field, options, progress);
     const LightField coded = header.companding.changes() ? companded(light_field, header.companding) : light_field;

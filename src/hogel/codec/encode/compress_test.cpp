@@ -31,7 +31,7 @@ CompressionOptions with_sqnr(const CodingMethod& method, double sqnr) {
     return options;
 }
 
-// Undoing the transform of the directions gives the amplitudes.
+// The inverse transform along the directions gives the amplitudes.
 TEST(Coefficients, are_those_of_amplitudes_along_directions) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(9, 7, 24, 20, 3);
@@ -48,7 +48,7 @@ TEST(Coefficients, are_those_of_amplitudes_along_directions) {
     EXPECT_EQ(code_of([&] { open_coefficients(folder / "b.hgl"); }), ErrorCode::bad_input);
 }
 
-// Measured in the decoded signal, not in coefficients, with every transform.
+// The SQNR is measured on the decoded samples, not on coefficients, with every transform.
 TEST(Compress, meets_the_sqnr_asked_for) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(8, 6, 24, 20, 1);
@@ -73,7 +73,7 @@ TEST(Compress, meets_the_rate_asked_for_to_the_byte) {
                           {{31, 1, 1e-3, 33, 1, Perspective{0.3, 0.3}, 1}, 0.2}}) {
         LightFieldBuffer field = textured_planes(c.grid.hogels_s, c.grid.hogels_t, c.grid.directions_u,
                                                  c.grid.directions_v, c.grid.channels);
-        // The code of a dark tile cannot be cut.
+        // A dark tile has a code too short to be cut.
         LightFieldTile dark(c.grid, {0, 0, 5, std::min<std::size_t>(c.grid.hogels_t, 4)}, false);
         field.write(dark);
         const auto pixels = static_cast<double>(c.grid.hogels() * c.grid.directions());
@@ -93,7 +93,7 @@ TEST(Compress, meets_the_rate_asked_for_to_the_byte) {
     }
 }
 
-// Filler is no part of the metadata that readers get.
+// Readers do not see filler among the metadata.
 TEST(Compress, rate_is_met_with_little_filler) {
     const TestFolder folder;
     CompressionOptions options;
@@ -121,7 +121,7 @@ TEST(Compress, impossible_rates_are_refused) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
 }
 
-// Finer than floats and levels can be.
+// Qualities finer than floats or levels can represent.
 TEST(Compress, impossible_quality_is_refused) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(4, 3, 12, 10, 1);
@@ -206,7 +206,7 @@ TEST(Compress, impossible_requests_are_refused) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
 }
 
-// A coder that stores the floats.
+// A coder that stores plain floats.
 class FloatCoder final : public TileCoder {
   public:
     HogelRange preferred_tile(const LightFieldGrid&) const override { return {0, 0, 3, 2}; }
@@ -254,13 +254,13 @@ TEST(Search, finds_the_band_of_a_falling_function) {
     for (const double start : {-12.0, 0.0, 3.0, 11.0}) {
         Search search(29.5, 30, start, -5.5);
         int values = 0;
-        // With a varying slope and some disorder.
+        // A function with a varying slope and some noise.
         const auto value = [](double x) { return 40 - 3 * x - 0.2 * x * std::abs(x) + 0.05 * std::sin(40 * x); };
         while (!search.add(value(search.next()))) ASSERT_LT(++values, 12) << start;
         EXPECT_GE(value(search.next()), 29.5);
         EXPECT_LE(value(search.next()), 30);
     }
-    // A function that jumps over the band is bracketed from both sides.
+    // If the function jumps over the band, the search brackets the jump from both sides.
     Search search(29.5, 30, 0, -5.5);
     for (int i = 0; i < 40; ++i) search.add(search.next() < 1.25 ? 40 : 20);
     EXPECT_NEAR(search.above().value(), 1.25, 1e-3);

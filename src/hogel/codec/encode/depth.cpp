@@ -19,7 +19,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Of finite depths; nearest > farthest where there are none.
+// The range of finite depths; nearest > farthest if there are none.
 struct Range {
     float nearest = infinity, farthest = -infinity;
 
@@ -71,7 +71,8 @@ class DepthAsRadiance final : public LightFieldSource {
 DepthCoding::DepthCoding(double nearest, double farthest, double wanted_error) {
     const double range = farthest > nearest ? farthest - nearest : std::max(std::abs(farthest), 1e-6);
     error = wanted_error > 0 ? wanted_error : 1e-3 * range;
-    // Far enough for any rounding, and no farther, because the edge of infinity is coded.
+    // Far enough for any rounding, but not farther, because edges between finite and infinite depths cost more if the
+    // jump is larger.
     beyond = farthest + 4 * error + 1e-2 * range;
     nothing = beyond + (beyond - farthest);
 }

@@ -10,13 +10,13 @@
 
 namespace hogel::codec::encode {
 
-// How depths are coded in the depth stream: as a light field of one channel, each within an error. All in metres.
+// How depths are coded in the depth stream: as a light field of one channel with a bounded error. All values in metres.
 struct DepthCoding {
     double error = 0;
-    double nothing = 0;  // stands for infinity: a depth behind all others
-    double beyond = 0;   // decoded depths from here on are infinity
+    double nothing = 0;  // the depth behind all others that represents infinity
+    double beyond = 0;   // decoded depths of this value or more mean infinity
 
-    // For depths from `nearest` to `farthest`; an error of 0 is a 1,000th of their range.
+    // For depths from `nearest` to `farthest`. An error of 0 means a 1,000th of their range.
     DepthCoding(double nearest, double farthest, double wanted_error);
 };
 
@@ -26,7 +26,7 @@ DepthCoding depth_coding(const LightField& light_field, double wanted_error);
 // The depths of a light field as radiance of one channel.
 LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding);
 
-// Writes the depth stream to a file of its own. Throws Error(usage) where there are no depths, or for an impossible
+// Writes the depth stream to a separate file. Throws Error(usage) for a light field without depth and for an impossible
 // error.
 StreamInfo::Depth compress_depth(const LightField& light_field, const std::filesystem::path& path,
                                  const CompressionOptions& options);

@@ -15,19 +15,19 @@ using namespace format;
 
 namespace {
 
-// In squared steps of the first layer, for each neighbour that counts: with less error than this the disparity of a
-// neighbouring block is taken as it is.
+// Below this error, in squared steps of the first layer per neighbour that counts, the disparity of a neighbouring
+// block is taken unchanged.
 constexpr float well_estimated = 1;
-// In squared finest steps, for each neighbour that counts: with this error or more neighbours do not show the same.
+// From this error on, in squared finest steps per neighbour that counts, neighbours do not show the same surface.
 constexpr float max_shared_error = 6.4f;
 constexpr float unknown = std::numeric_limits<float>::infinity();
 
-// Compares the blocks of a hogel with its neighbours at distances of 1, 2 and 4 hogels.
+// Compares the blocks of a hogel with those of its neighbours at distances of 1, 2 and 4 hogels.
 class Estimation {
   public:
     Estimation(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel)
         : setup_(setup), picture_(picture_at(tile, hogel.s, hogel.t)) {
-        for (const int apart : {-4, 4, -2, 2, -1, 1}) {  // the most significant first
+        for (const int apart : {-4, 4, -2, 2, -1, 1}) {  // the most discriminating first
             const std::size_t s = hogel.s + static_cast<std::size_t>(apart);
             const std::size_t t = hogel.t + static_cast<std::size_t>(apart);
             if (s < tile.range.ns) neighbours_[0].push_back({{0, apart, 0}, picture_at(tile, s, hogel.t)});
@@ -63,7 +63,7 @@ class Estimation {
         return in_tile ? as_in_tile(tile, setup_, s, t) : picture_of(tile, setup_, s, t);
     }
 
-    // The error of a neighbour's block, with the shift rounded to whole directions or as it is.
+    // The error of a neighbour's block, with the shift exact or rounded to whole directions.
     float error(const Neighbour& neighbour, int disparity, bool whole_directions) const {
         const Plane& plane = neighbour.picture[0];
         const Shift shift = shift_of(disparity, neighbour.place, setup_.aspect);
@@ -77,8 +77,8 @@ class Estimation {
         return squared_difference(other, block_);
     }
 
-    // The sum of the errors of the better half of the neighbours along each axis: what one side hides the other may
-    // show. A sum of `most` or more need not be exact.
+    // The sum of the errors of the better half of the neighbours along each axis, because a surface that is hidden on
+    // one side may be visible on the other. A sum of `most` or more need not be exact.
     float cost(int disparity, bool whole_directions, float most) const {
         float sum = 0;
         for (const auto& axis : neighbours_) {
@@ -89,7 +89,7 @@ class Estimation {
                 std::size_t at = n;
                 for (; at > 0 && here < smallest[at - 1]; --at) smallest[at] = smallest[at - 1];
                 smallest[at] = here;
-                // Each neighbour left may replace one of the smallest errors.
+                // Each of the remaining neighbours may replace one of the smallest errors.
                 const std::size_t left = axis.size() - 1 - n;
                 float at_least = sum;
                 for (std::size_t i = 0; i + left < better; ++i) at_least += smallest[i];
@@ -115,7 +115,7 @@ class Estimation {
         block_ = block_of(picture_[0], column * block_side, row * block_side);
         best_ = 0;
         least_ = bound_ = unknown;
-        // Most blocks continue the surface on their left or above.
+        // Most blocks continue the surface of the block to their left or above them.
         if (column > 0) try_one(known[k - 1], false);
         if (row > 0 && !(least_ < well_known)) try_one(known[k - setup_.grid.columns], false);
         int part = 4;
@@ -127,7 +127,7 @@ class Estimation {
             for (const int middle = best_; const int sign : {-1, 1}) try_one(middle + sign * part, false);
     }
 
-    // Quarters of a direction up to four, whole directions up to 16.
+    // Tries disparities in steps of a quarter direction up to four directions, in whole directions up to 16.
     void search_all() {
         const int continued = best_;
         const float of_continued = least_;
@@ -151,12 +151,12 @@ class Estimation {
     const TileSetup& setup_;
     Picture picture_;
     std::array<std::vector<Neighbour>, 2> neighbours_;  // along s, along t
-    // The block that is searched:
+    // The current block:
     int x_ = 0, y_ = 0;
     BlockSamples block_;
     int best_ = 0;           // disparity
     float least_ = unknown;  // its cost
-    float bound_ = unknown;  // a cost that will be reached; more need not be known exactly
+    float bound_ = unknown;  // an upper bound on the final cost; higher costs need not be exact
 };
 
 }  // namespace

@@ -12,11 +12,10 @@ namespace {
 
 constexpr std::size_t per_octave = std::size_t{1} << (23 - ToneCurve::low_bits);
 constexpr std::size_t max_octaves = 20;
-constexpr double evenly = 0.1;  // fraction of all samples that counts as spread evenly
+constexpr double evenly = 0.1;  // fraction of all samples that is treated as evenly distributed
 
-// Slopes of the curve over logarithms: in proportion to the densities, at most 1, and rising by `height` altogether,
-// which is less than the sum of the widths. The paper repeats this until few samples are above the ceiling; here none
-// is.
+// Slopes of the curve over the logarithm: proportional to the densities, at most 1, with a total rise of `height`,
+// which is less than the sum of the widths. The paper iterates until few samples are above the ceiling; here none is.
 std::vector<double> limited_slopes(const std::vector<double>& densities, const std::vector<double>& widths,
                                    double height) {
     std::vector<double> slopes(densities.size(), 0);
@@ -37,7 +36,7 @@ std::vector<double> limited_slopes(const std::vector<double>& densities, const s
 }  // namespace
 
 std::optional<ToneCurve> tone_curve_of(const LuminanceHistogram& histogram, double decades) {
-    // Bins of normal numbers.
+    // Only the bins of normal (not subnormal) numbers.
     const std::span<const std::uint64_t> counts = histogram.counts().subspan(per_octave, 254 * per_octave);
     const auto some = [](std::uint64_t count) { return count > 0; };
     const auto highest = std::find_if(counts.rbegin(), counts.rend(), some);
@@ -58,7 +57,7 @@ std::optional<ToneCurve> tone_curve_of(const LuminanceHistogram& histogram, doub
     for (std::size_t i = 0; i < widths.size(); ++i)
         densities.push_back((1 - evenly) * static_cast<double>(counts[begin + i]) / widths[i] + evenly * total / width);
     const std::vector<double> slopes = limited_slopes(densities, widths, height);
-    // If the end of the last bin is infinity, the last point is its beginning.
+    // If the last bin ends at infinity, the last point is the bin's beginning.
     const auto first = static_cast<std::uint32_t>(begin + per_octave);
     const std::size_t last = end == counts.size() ? end - 1 : end;
     std::vector<float> values(last - begin + 1);

@@ -21,9 +21,9 @@ constexpr std::size_t tried = 2;        // tiles of each face, of the size for t
 constexpr double separate_step = 2;     // estimate: the step of `faces` with the quality of a step of `stacked`
 constexpr double sqnr_tolerance = 1.5;  // decibels
 constexpr double bytes_tolerance = 0.2;
-constexpr double db_per_doubling = 8;  // estimate: decibels that twice as many bytes gain
+constexpr double db_per_doubling = 8;  // estimate: decibels gained by twice as many bytes
 
-// Some tiles of each face, coded in both layouts.
+// Codes some tiles of each face in both layouts.
 class Trial {
   public:
     Trial(const LightField& light_field, const StreamInfo& info, std::optional<HogelRange> tile,
@@ -99,7 +99,7 @@ class Trial {
     bool finite_ = true;
 };
 
-// Compares codings of different quality: the lower, the better.
+// A figure by which codings of different quality are compared; lower is better.
 double cost(const CodingOutcome& outcome) { return std::log2(outcome.bytes) - outcome.sqnr() / db_per_doubling; }
 
 StepBand near(double sqnr) {

@@ -7,14 +7,14 @@
 
 namespace hogel::codec::encode {
 
-// The search for two partitions of a block: the prediction of each, and the edge between them.
+// Searches the best two partitions of a block: the prediction of each, and the edge between them.
 class PartitionSearch {
   public:
-    // @param warped   cache of the block that is searched
+    // @param warped   cache of warped blocks for the current block
     PartitionSearch(WarpedBlocks& warped, format::ReferenceWeights& weights) : warped_(warped), weights_(weights) {}
 
     // Starts with a block whose samples are `target`, and tries its candidates as disparities of partitions.
-    // @param rate_weight   squared error that a bit is worth
+    // @param rate_weight   λ, the squared error that one bit is worth
     void begin(const format::BlockSamples& target, const format::Candidates& candidates, float rate_weight);
     // Tries one more disparity.
     void add(int disparity);
@@ -36,7 +36,7 @@ class PartitionSearch {
 
     WarpedBlocks& warped_;
     format::ReferenceWeights& weights_;
-    // The block that is searched:
+    // The current block:
     const format::BlockSamples* target_ = nullptr;
     float rate_weight_ = 0;
     std::vector<InterPrediction> tried_;

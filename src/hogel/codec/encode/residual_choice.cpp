@@ -14,15 +14,15 @@ using namespace format;
 
 namespace {
 
-// Estimated bits (docs/decisions/0036-codec-encoder-search.md): of a coded block, of a basis other than cosines, and of
-// a level by its basis.
+// Estimated bits (docs/decisions/0036-codec-encoder-search.md) of a coded block, of a basis other than cosines, and of
+// a level in each basis.
 constexpr float coded_block = 8, other_basis = 3;
 constexpr float level_of_cosines = 3.5f, level_of_samples = 5.5f, level_of_half = 4.5f;
 // Added before rounding down: less than a half, as smaller levels take fewer bits.
 constexpr float rounding_intra = 0.36f, rounding_inter = 0.2f;
 constexpr std::int32_t max_level = 1 << 24;
 
-// The levels of a residual in a basis. Returns the squared error that they remove less the weight of their bits, in
+// Quantises a residual in a basis. Returns the squared error that the levels remove minus λ times their bits, in
 // squared steps.
 float gain_of_levels(const BlockSamples& residual, float step, float rounding, float reconstruction_offset, Basis basis,
                      Levels& levels) {

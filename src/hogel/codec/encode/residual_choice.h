@@ -5,16 +5,16 @@
 
 namespace hogel::codec::encode {
 
-// A channel of a block: its prediction, and the levels of its residual.
+// One channel of a block: its prediction, and the levels of its residual.
 struct CodedChannel {
     format::BlockSamples prediction;
     bool any_levels = false;
     std::uint8_t basis = 0;
     format::Levels levels;
-    float cost = 0;  // squared error, and the bits of the levels times their weight
+    float cost = 0;  // squared error plus λ times the bits of the levels
 };
 
-// Chooses basis and levels of the residual of a channel's prediction; no levels where they cost more than they gain.
+// Chooses the basis and the levels of a channel's residual, or no levels if they cost more than they gain.
 // @param error   Σ (truth − prediction)²
 void quantise(const format::BlockSamples& truth, float error, float step, bool intra, float reconstruction_offset,
               CodedChannel& channel);

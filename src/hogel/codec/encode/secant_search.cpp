@@ -11,7 +11,7 @@ bool Search::add(double value) {
     if (std::isfinite(value)) {
         if (last_ && last_->first != next_) {
             const double slope = (value - last_->second) / (next_ - last_->first);
-            // A slope far from the expected one is disorder.
+            // A slope far from the expected one is noise and is ignored.
             if (slope < 0.2 * slope_ && slope > 5 * slope_) slope_ = slope;
         }
         last_ = {next_, value};
@@ -21,7 +21,7 @@ bool Search::add(double value) {
     double step = std::isfinite(value) ? (aim - value) / slope_ : value > 0 ? 4.0 : -4.0;
     step = std::clamp(step, -8.0, 8.0);
     double there = next_ + step;
-    // Every fourth time bisection, in case the secant approaches from one side only.
+    // Every fourth step is a bisection, in case the secant approaches from one side only.
     if (above_ && below_ && (++bracketed_ % 4 == 0 || there <= *above_ || there >= *below_))
         there = (*above_ + *below_) / 2;
     next_ = there;

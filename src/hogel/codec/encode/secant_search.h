@@ -6,18 +6,18 @@
 
 namespace hogel::codec::encode {
 
-// Finds where a falling function is within a band, from as few values as possible: by the secant through the last two
-// places, or by bisection of the interval that is left where the secant leads out of it.
+// Finds an argument at which a falling function is within a band, in few evaluations: by the secant through the last
+// two points, or by bisection of the remaining interval if the secant leads out of it.
 class Search {
   public:
     Search(double low, double high, double start, double slope) : low_(low), high_(high), next_(start), slope_(slope) {}
 
-    // The place to evaluate next.
+    // The argument to evaluate next.
     double next() const { return next_; }
     // Takes the function's value at next(). Returns whether it is within the band.
     bool add(double value);
     double slope() const { return slope_; }
-    // The places nearest to the band from both sides: where the function is above it, and below it.
+    // The arguments nearest to the band at which the function is above it, and below it.
     std::optional<double> above() const { return above_; }
     std::optional<double> below() const { return below_; }
 
@@ -25,7 +25,7 @@ class Search {
     double low_, high_, next_, slope_;
     std::optional<double> above_, below_;
     std::optional<std::pair<double, double>> last_;
-    int bracketed_ = 0;  // values since there are places on both sides
+    int bracketed_ = 0;  // evaluations since the band is bracketed
 };
 
 }  // namespace hogel::codec::encode

@@ -46,7 +46,7 @@ double StepSearch::code_at(double place, const Code& code) {
 
 StepFound StepSearch::run(const StepBand& band, const Code& code) {
     Search search(band.low, band.high, place_, slope_.value_or(band.slope));
-    std::optional<std::pair<double, double>> best;  // place and figure
+    std::optional<std::pair<double, double>> best;  // logarithm of the step, and its figure
     for (int pass = 0; pass < max_passes; ++pass) {
         const double place = search.next(), figure = code_at(place, code);
         const bool found = search.add(figure);

@@ -8,37 +8,38 @@
 
 namespace hogel::codec::encode {
 
-// Sums over tiles that were coded with a step.
+// Sums over tiles coded with one step.
 struct CodingOutcome {
     double signal = 0, error = 0, bytes = 0;
-    double samples = 0;  // with those that do not count
+    double samples = 0;  // including those that do not count
 
     double sqnr() const;
     void add(const CodingOutcome& other);
 };
 
-// The band in which a figure must lie: an SQNR, or the logarithm of the number of bytes. Both fall with the logarithm
-// of the step.
+// The band in which a figure must lie. A figure is an SQNR or the logarithm of the number of bytes; both fall with the
+// logarithm of the step.
 struct StepBand {
     double low, high;
-    bool above_is_better;  // where nothing is in the band, the nearest figure above it is taken, otherwise below it
+    bool above_is_better;  // if no figure is in the band: whether the nearest one above it is taken, or the nearest
+                           // below it
     double slope;          // expected
 };
 
 StepBand band_of_sqnr(double sqnr);
-// @param bytes       at most; for an embedded code at least, as it is made a little too long and cut
-// @param tolerance   fraction that may be missing, or be too much
+// @param bytes       maximum; for an embedded code the minimum, because the code is made a little too long and then cut
+// @param tolerance   fraction by which the number may fall short, or for an embedded code exceed
 StepBand band_of_bytes(double bytes, double tolerance, bool embedded);
 
-// How a search ended.
+// The outcome of a search.
 enum class StepFound {
     in_band,
-    beside_band,  // at the nearest figure on the better side; there are some on the other side, too
-    only_above,   // no step gives a figure as low as the band
-    only_below,   // no step gives a figure as high as the band
+    beside_band,  // the nearest figure on the better side; figures on the other side exist, too
+    only_above,   // all figures are above the band
+    only_below,   // all figures are below the band
 };
 
-// Searches for a step. A further search starts from the step that was found.
+// Searches for a step. The next search starts from the step that this one found.
 class StepSearch {
   public:
     using Code = std::function<CodingOutcome(double step)>;
@@ -47,7 +48,7 @@ class StepSearch {
     // @param place   logarithm of the step to start with
     StepSearch(double place, Figure figure) : place_(place), figure_(std::move(figure)) {}
 
-    // The last coding is that of the step that was found.
+    // Runs a search. The last coding is the one with the step that was found.
     StepFound run(const StepBand& band, const Code& code);
     double step() const;
     const CodingOutcome& outcome() const { return outcome_; }

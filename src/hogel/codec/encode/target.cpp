@@ -10,10 +10,10 @@
 namespace hogel::codec::encode {
 namespace {
 
-constexpr double likely_bounded_step = 3;        // times the error
+constexpr double likely_bounded_step = 3;        // times the error bound
 constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
 constexpr double likely_step_of_rate = 0.1;      // times the root mean square
-// More than a sample can hold: floats have 24 significant bits.
+// The most bits that a sample can need, because floats have 24 significant bits.
 constexpr double max_bits_of_sample = 24;
 
 template <class... Cases>
@@ -61,7 +61,7 @@ bool is_exact(const CompressionTarget& target) {
 
 double likely_step(const CompressionTarget& target, double rms) {
     return std::visit(Overloaded{
-                          // Detail of the step's size everywhere has an error of step²/12.
+                          // With detail of the step's size everywhere, the squared error is step²/12 per sample.
                           [&](const Sqnr& t) { return rms * (std::sqrt(12) * std::pow(10, -t.decibels / 20)); },
                           [&](const PixelsPerBit&) { return rms * likely_step_of_rate; },
                           [](const Step& t) { return t.radiance; },

@@ -9,26 +9,26 @@
 
 namespace hogel::codec::encode {
 
-// What a CompressionTarget asks for, and refusals of what cannot be had. All refusals are Error(usage).
+// Evaluates a CompressionTarget, and refuses impossible ones with Error(usage).
 
-// Refuses numbers that make no sense.
+// Refuses numbers out of range.
 void check(const CompressionTarget& target);
 
 // Whether a target bounds the error of every sample.
 bool is_exact(const CompressionTarget& target);
 
-// A step that may meet the target, to begin a search with.
+// An estimate of the step that meets the target, with which a search begins.
 // @param rms   root mean square of the signal
 double likely_step(const CompressionTarget& target, double rms);
 
-// The bytes of a file of a rate. Refuses more than samples can hold.
+// The size in bytes of a file with a rate. Refuses a size that the samples cannot fill.
 double bytes_of_rate(const PixelsPerBit& target, double rays, double samples);
 
-// @param bytes     that were asked for
-// @param nearest   bytes of the file that is nearest to it
+// @param bytes     the requested size
+// @param nearest   size of the nearest possible file
 [[noreturn]] void refuse_rate(const PixelsPerBit& target, double bytes, std::uint64_t nearest);
 
-// Refuses a quality for whose steps levels or floats are too short, so that errors are many times as large as the step.
+// Refuses a quality whose step is too small for levels or floats, so that errors are many times as large as the step.
 void check_quality(const CompressionTarget& target, const CodingOutcome& outcome, double step,
                    const std::string& coder);
 

@@ -17,7 +17,7 @@ using namespace format;
 
 namespace {
 
-// Sizes that sum up to `room` bytes, each reduced by the same fraction of what exceeds `least`.
+// Sizes with a sum of `room` bytes: each is `least` plus the same fraction of what exceeded `least`.
 std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::size_t least, double room) {
     std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) - least * sizes.size();
     auto bytes = static_cast<std::size_t>(std::max(room - static_cast<double>(least * sizes.size()), 0.0));

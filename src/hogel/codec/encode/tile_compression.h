@@ -12,7 +12,7 @@
 
 namespace hogel::codec::encode {
 
-// Tiles that have been coded, whose memory is used again for the next ones: new memory costs more than writing to it.
+// A pool of tiles whose memory is reused, because allocating pages of new memory takes longer than writing to them.
 class SpareTiles {
   public:
     LightFieldTile take(const LightFieldGrid& grid, const HogelRange& range);
@@ -23,7 +23,7 @@ class SpareTiles {
     std::vector<LightFieldTile> tiles_;
 };
 
-// An array of directions that a stream holds, and the coder of its tiles.
+// One array of directions of a stream, and the coder of its tiles.
 struct CodedPart {
     LightField::Source source;
     std::unique_ptr<TileCoder> coder;
@@ -40,18 +40,18 @@ class TileCompression {
           writer_(writer),
           progress_(progress) {}
 
-    // The number of tiles of all parts; those of the first part come before those of the second.
+    // The number of tiles of all parts. Tiles are numbered part by part.
     std::size_t tiles() const { return parts_.size() * tiling_.count(); }
     bool embedded() const { return parts_.front().coder->min_bytes(parts_.front().source->grid()).has_value(); }
     double samples() const;
 
     // Codes some tiles, and writes them if `write`.
-    // @param max_bytes   of each tile; empty: no limit
+    // @param max_bytes   limit of each tile; empty: no limit
     CodingOutcome code(std::span<const std::size_t> tiles, double step, bool write,
                        std::span<const std::size_t> max_bytes = {});
     // Sums over the signal only.
     CodingOutcome look(std::span<const std::size_t> tiles);
-    // The bytes of the middle of the tile in the middle, and the root mean square of the signal there.
+    // Codes the middle of the middle tile. Returns its bytes and the root mean square of the signal there.
     std::pair<double, double> try_middle(double step) const;
     // The sizes to which the tiles that were written last are cut, so that the file has `file` bytes.
     std::vector<std::size_t> cut(double file) const;

@@ -5,23 +5,23 @@
 
 namespace hogel::codec::encode {
 
-// The blocks of references that one block of the first channel is compared with, warped by disparities: a cache that
-// several searches share.
+// A cache, shared by several searches, of the warped blocks of references with which one block of the first channel is
+// compared.
 class WarpedBlocks {
   public:
     WarpedBlocks(const format::HogelOrder::Hogel& hogel, const std::vector<format::Picture>& pictures)
         : hogel_(hogel), pictures_(pictures), kept_(new Kept[kept_blocks]) {}
 
-    // Moves on to the block at (x, y).
+    // Starts with the block at (x, y), which empties the cache.
     void go_to(std::size_t x, std::size_t y) {
         x_ = static_cast<int>(x);
         y_ = static_cast<int>(y);
         ++block_;
     }
-    // The block of a reference, shifted by a disparity, whose shift is given too. Valid until another disparity is
-    // asked for.
+    // The block of a reference warped by a disparity; `shift` is the shift of that disparity and reference. Valid until
+    // another disparity is requested.
     const format::BlockSamples& get(int disparity, std::uint32_t reference, format::Shift shift) {
-        // References of one disparity have neighbouring entries, so they do not replace each other.
+        // The references of one disparity have neighbouring entries, so that they do not evict each other.
         Kept& kept = kept_[(static_cast<std::uint32_t>(disparity) * 13 + reference) % kept_blocks];
         if (kept.block != block_ || kept.disparity != disparity || kept.reference != reference) {
             kept.block = block_;
@@ -31,7 +31,7 @@ class WarpedBlocks {
         }
         return kept.samples;
     }
-    // The prediction from a choice of references: an entry of the cache, or `scratch`.
+    // The prediction from a choice of references: either an entry of the cache or `scratch`.
     const format::BlockSamples& predict(int disparity, const format::ReferenceWeights::Choice& choice,
                                         format::BlockSamples& scratch) {
         const format::BlockSamples& first = get(disparity, choice.reference[0], choice.shift[0]);

@@ -9,8 +9,8 @@
 namespace hogel::codec::format {
 namespace {
 
-// A sum over a block: of the even and of the odd rows column by column, then of halves, so that vectors of up to eight
-// lanes give the same bits.
+// A sum over a block in a fixed order that vectors of up to eight lanes reproduce bit for bit: even and odd rows column
+// by column, then halves.
 template <class Term>
 float sum_in_columns(Term&& term) {
     float sum[2][block_side] = {};

@@ -7,18 +7,18 @@
 
 namespace hogel::codec::format {
 
-// The innermost loops of the coder "hogel": on vectors of samples where the machine has them (block_kernels_simd.cpp),
-// and plain. Both give the same bits, because the order of the additions is part of the format.
+// The innermost loops of the coder "hogel", as SIMD code (block_kernels_simd.cpp) and as plain twins. Both give the
+// same bits, because the order of the additions is part of the format.
 
 constexpr std::size_t block_side = 8, block_samples = block_side * block_side;
 using BlockSamples = std::array<float, block_samples>;
 
-// Interpolation between samples has six taps along each axis, two of them before the first sample.
+// Interpolation has six taps along each axis, two of them before the first sample of the block.
 constexpr std::size_t taps = 6, taps_before = taps / 2 - 1, window_side = block_side + taps - 1;
 using Taps = std::array<float, taps>;
 
-// Interpolates a block from a window whose rows are `stride` samples apart. An axis with weights takes window_side
-// samples of the window, an axis without (null) takes block_side samples as they are.
+// Interpolates a block from a window whose rows are `stride` samples apart. Along an axis with weights the window has
+// window_side samples; along an axis without (null) it has block_side, which are copied.
 void interpolate_block(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
                        BlockSamples& block);
 void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
@@ -28,7 +28,7 @@ void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* 
 void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
 void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
 
-// The same, but `out` is neither a nor b. Returns Σ (out − target)².
+// As mix_blocks(), but `out` must be neither a nor b. Returns Σ (out − target)².
 float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
                       const BlockSamples& target, BlockSamples& out);
 float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
@@ -41,11 +41,11 @@ inline float squared_difference(const BlockSamples& a, const BlockSamples& b) {
     return squared_difference(a.data(), block_side, b);
 }
 
-// Σ (a − b)² of rows of any length, as eight sums of every eighth sample each.
+// Σ (a − b)² of rows of any length, in eight partial sums of every eighth sample.
 double squared_difference_of_rows(const float* a, const float* b, std::size_t count);
 double squared_difference_of_rows_plain(const float* a, const float* b, std::size_t count);
 
-// Σ (a − b) slope, and Σ slope².
+// The sums Σ (a − b) slope and Σ slope² of a Gauss–Newton step.
 struct AlongSlope {
     float difference, square;
     friend bool operator==(const AlongSlope&, const AlongSlope&) = default;
@@ -57,12 +57,12 @@ AlongSlope along_slope_plain(const BlockSamples& a, const BlockSamples& b, const
 std::uint64_t large_samples(const BlockSamples& block, float least);
 std::uint64_t large_samples_plain(const BlockSamples& block, float least);
 
-// Σ a², in sums as above.
+// Σ a², in partial sums as above.
 double sum_of_squares(const float* a, std::size_t count);
 double sum_of_squares_plain(const float* a, std::size_t count);
 
-// Slopes of a block along u and v, by differences of third order from a window of slope_window_side rows: weights of
-// the samples next to it and of those two away.
+// Slopes of a block along u and v, by central differences in a window of slope_window_side rows. The weights are those
+// of the adjacent samples and of those two away.
 constexpr float slope_of_near = 2.0f / 3, slope_of_far = 1.0f / 12;
 constexpr std::size_t slope_reach = 2, slope_window_side = block_side + 2 * slope_reach;
 struct Slopes {
@@ -72,39 +72,39 @@ struct Slopes {
 void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes);
 void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes);
 
-// For each partition edge, the best prediction found so far for the samples on one side of it.
+// For each partition edge, the best prediction so far of the samples on one side of it.
 constexpr std::size_t block_edges = 128;
 using PerEdge = std::array<float, block_edges>;
 struct BestPerEdge {
     PerEdge cost;
-    PerEdge choice;  // number of the prediction, a small whole number
+    PerEdge choice;  // the caller's number of the prediction, a small whole number
     friend bool operator==(const BestPerEdge&, const BestPerEdge&) = default;
 };
-// An edge cuts each row of a block: cut n < block_side is the first n samples of the row, any other cut all samples
-// from n − block_side on.
+// An edge cuts each row of a block. Cut n < block_side contains the first n samples of the row; any other cut n
+// contains all samples from n − block_side on.
 constexpr std::size_t row_cuts = 2 * block_side;
 constexpr bool sample_in_cut(std::size_t column, std::size_t cut) {
     return cut < block_side ? column < cut : column >= cut - block_side;
 }
-// The samples of the second partition as a cut of each row, [row][edge].
+// [row][edge]: the samples of the second partition as a cut of the row.
 using EdgeRowCuts = std::array<std::array<std::int32_t, block_edges>, block_side>;
-// Enters a prediction, with the number `choice`, for each edge and partition where the squared differences summed over
-// that partition, plus `extra`, are less than the cost that is there. All 128 edges are evaluated from the sums of all
-// cuts of the rows.
+// Stores the number `choice` of a prediction for each edge and partition where the squared differences summed over that
+// partition, plus `extra`, are less than the stored cost. All 128 edges are evaluated from the sums of all cuts of the
+// rows.
 void keep_better(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
                  const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second);
 void keep_better_plain(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
                        const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second);
 
-// in · transposed: transforms along u. `out` is another block.
+// in · transposed: transforms along u. `out` must not be `in`.
 void transform_along_u(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out);
 void transform_along_u_plain(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out);
 
-// matrix · in: transforms along v. `out` is another block.
+// matrix · in: transforms along v. `out` must not be `in`.
 void transform_along_v(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out);
 void transform_along_v_plain(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out);
 
-// matrix · in · matrixᵀ, along u first; the transposed matrix is given too.
+// matrix · in · matrixᵀ, along u first. `transposed` is matrixᵀ.
 void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                          BlockSamples& out);
 void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,

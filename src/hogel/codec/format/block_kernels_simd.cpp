@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of block_kernels.cpp, compiled for every SIMD target and chosen when first called. Products are
-// rounded before they are added, as there.
+// rounded before they are added, as in the plain versions.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/codec/format/block_kernels_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/codec/format/block_kernels.h"
@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Row = hn::CappedTag<float, block_side>;       // a row of a block, or an even part of one
-using Rows = hn::CappedTag<float, 2 * block_side>;  // or two of them, one after the other
+using Rows = hn::CappedTag<float, 2 * block_side>;  // two consecutive rows or parts
 
 // Interpolates rows of a block, or of a window for it, along u.
 HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t count, const Taps& weights, float* out) {
@@ -40,7 +40,7 @@ HWY_INLINE void AlongRows(const float* rows, std::size_t stride, std::size_t cou
 HWY_INLINE void AlongColumns(const float* rows, std::size_t stride, const Taps& weights, float* out) {
     const Row d;
     for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
-        // A loaded row is used for up to six rows of the block.
+        // A loaded row is used by up to six rows of the block.
         const float* in = rows + c;
         auto r0 = hn::LoadU(d, in), r1 = hn::LoadU(d, in + stride), r2 = hn::LoadU(d, in + 2 * stride);
         auto r3 = hn::LoadU(d, in + 3 * stride), r4 = hn::LoadU(d, in + 4 * stride);
@@ -90,7 +90,7 @@ void MixBlocks(const BlockSamples& a, const BlockSamples& b, float weight_a, flo
         hn::StoreU(hn::Add(hn::Mul(of_a, hn::LoadU(d, &a[k])), hn::Mul(of_b, hn::LoadU(d, &b[k]))), d, &out[k]);
 }
 
-// sum_in_columns() of the plain twins; term(d, k) gives a vector of terms from k on.
+// The twin of the plain sum_in_columns(); term(d, k) gives a vector of terms from k on.
 template <class Term>
 HWY_INLINE float SumInColumns(Term&& term) {
     const Row d;
@@ -130,7 +130,7 @@ float SquaredDifference(const float* a, std::size_t stride, const BlockSamples& 
 using Doubles = hn::CappedTag<double, block_side / 2>;
 using FloatsOfDoubles = hn::Rebind<float, Doubles>;
 
-// Σ value² in eight sums: vector(k) gives a vector of values from k on, value(k) a single one.
+// Σ value² in eight partial sums; vector(k) gives a vector of values from k on, value(k) a single one.
 template <class Vector, class Value>
 HWY_INLINE double SumOfSquares(std::size_t count, Vector&& vector, Value&& value) {
     const Doubles d;
@@ -208,7 +208,7 @@ void SlopesOfBlock(const float* rows, std::size_t stride, Slopes& slopes) {
         }
 }
 
-// Whether a cut of a row has a sample, 1 or 0: [column][cut].
+// [column][cut]: 1 if the cut contains the sample of that column, otherwise 0.
 struct CutsOfRow {
     HWY_ALIGN float of[block_side][row_cuts];
     constexpr CutsOfRow() : of() {
@@ -228,7 +228,7 @@ void KeepBetter(const BlockSamples& prediction, const BlockSamples& target, floa
         const auto difference = hn::Sub(hn::LoadU(d, &prediction[k]), hn::LoadU(d, &target[k]));
         hn::Store(hn::Mul(difference, difference), d, errors + k);
     }
-    // The sums of all cuts of each row. Products with 0 and 1 are exact, so that a fused multiply-add gives the same.
+    // The sums over all cuts of each row. Products with 0 and 1 are exact, so a fused multiply-add gives the same bits.
     HWY_ALIGN float sums[block_side][row_cuts];
     for (std::size_t cut = 0; cut < row_cuts; cut += lanes)
         for (std::size_t r = 0; r < block_side; ++r) {

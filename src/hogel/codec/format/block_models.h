@@ -10,7 +10,7 @@
 
 namespace hogel::codec::format {
 
-// What the levels of a channel of a block stand for along u and along v: cosines, or samples as they are.
+// The basis of the levels of one channel of a block, along u and along v: cosines or single samples.
 struct Basis {
     bool cosines_u, cosines_v;
     constexpr bool cosines() const { return cosines_u && cosines_v; }
@@ -18,9 +18,9 @@ struct Basis {
 };
 constexpr std::array<Basis, 4> bases{{{true, true}, {false, false}, {true, false}, {false, true}}};
 
-// Modes of a block: intra; inter from any side (mode_any) or from one (mode_any + side); partitioned.
+// Modes of a block: intra; inter from any side (mode_any) or from one side (mode_any + side); partitioned.
 constexpr std::uint8_t mode_intra = 0, mode_any = 1;
-constexpr int inter_modes = 1 + static_cast<int>(ReferenceWeights::sides);  // and intra
+constexpr int inter_modes = 1 + static_cast<int>(ReferenceWeights::sides);  // without intra
 constexpr std::uint8_t mode_partitioned = inter_modes;
 // Intra predictors; those from first_directional on continue the block's borders along a direction.
 constexpr int intra_predictors = 10, first_directional = 4;
@@ -41,7 +41,7 @@ struct ModelsOf {
         std::array<Number, level_classes> rest;
         std::array<std::array<Model, 3>, 3> sign;  // of samples: [sign on the right][sign below]
     };
-    // Models by the warped block: 0 there is none, 1 and 2 by what it has.
+    // Models that depend on the warped block: 0 if there is none, 1 or 2 by its own syntax element.
     template <class Models>
     using ByWarped = std::array<Models, 3>;
     ByWarped<std::array<std::array<Model, inter_modes>, 3>> mode;
@@ -58,8 +58,10 @@ struct ModelsOf {
         std::array<Model, edge_angles> angle;
         std::array<Model, edge_offsets> offset;
         ForDisparity second;
-        ByWarped<std::array<std::array<std::array<Model, 3>, 2>, 2>> coded;  // as below, without the kind
-        // Where the warped block is partitioned: difference of the angles; offset by that of the warped block.
+        ByWarped<std::array<std::array<std::array<Model, 3>, 2>, 2>>
+            coded;  // indices as for `coded` below, without the kind of mode
+        // If the warped block is partitioned: the difference of the angles, and the offset in the context of its
+        // offset.
         std::array<Model, edge_angles> angle_by;
         std::array<std::array<Model, edge_offsets>, edge_offsets> offset_by;
     };
@@ -72,7 +74,7 @@ struct ModelsOf {
 
     ForPartitions partitions;
 
-    // Calls use(model) for all of them in the order of the format.
+    // Calls use(model) for all models in the order of the format.
     template <class Use>
     void for_each(Use&& use) {
         visit(use, mode[0], intra);

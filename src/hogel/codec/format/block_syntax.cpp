@@ -11,13 +11,13 @@
 namespace hogel::codec::format {
 namespace {
 
-constexpr int one_surface = 12;  // disparities no farther apart than this belong to one surface
+constexpr int one_surface = 12;  // disparities that differ by at most this belong to one surface
 
-// Context of modes and disparities: 0 there is no warped block, 1 its mode is the common one, 2 another.
+// Context of modes and disparities: 0 without a warped block, 1 if its mode is mode_any, 2 otherwise.
 std::size_t warped_context(const Block* warped) { return !warped ? 0 : warped->mode == mode_any ? 1 : 2; }
 
-// @param around   how many of the blocks to the left and above have a mode other than mode_any
-// @param first    in the first hogel all blocks are intra
+// @param around   number of blocks to the left and above with a mode other than mode_any
+// @param first    whether this is the first hogel, all of whose blocks are intra
 template <class Coder>
 void code_mode(Coder& coder, typename Coder::Models& models, std::size_t warped, std::size_t around, bool first,
                Block& block) {
@@ -42,7 +42,7 @@ void code_mode(Coder& coder, typename Coder::Models& models, std::size_t warped,
     block.intra_predictor = predictor;
 }
 
-// @param around   how many of the blocks to the left and above do not have their first candidate
+// @param around   number of blocks to the left and above that do not have their first candidate
 // @param unit     of differences from the first candidate
 template <class Coder>
 void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, std::size_t warped, std::size_t around,
@@ -71,7 +71,7 @@ void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, 
     }
 }
 
-// The elements that a partitioned block has beside its main disparity.
+// The syntax elements of a partitioned block in addition to its main disparity.
 // @param warped   the warped block, or null
 template <class Coder>
 void code_partitions(Coder& coder, typename Coder::Models::ForPartitions& models, const Block* warped, int unit,
@@ -84,7 +84,7 @@ void code_partitions(Coder& coder, typename Coder::Models::ForPartitions& models
         block.side[partition] = side;
     }
     std::size_t angle = block.edge / edge_offsets, offset = block.edge % edge_offsets;
-    if (warped && warped->mode == mode_partitioned) {  // an edge looks alike from neighbouring hogels
+    if (warped && warped->mode == mode_partitioned) {  // neighbouring hogels see nearly the same edge
         const std::size_t before = warped->edge / edge_offsets;
         angle = before + code_path(coder, models.angle_by, 5, (angle + edge_angles - before) % edge_angles);
         offset = code_path(coder, models.offset_by[warped->edge % edge_offsets], 2, offset);
@@ -96,18 +96,18 @@ void code_partitions(Coder& coder, typename Coder::Models::ForPartitions& models
     code_disparity(coder, models.second, warped_context(warped), 0, unit, candidates, block.second_disparity);
 }
 
-// Blocks whose syntax elements are contexts for those of a block; each may be null.
+// The blocks whose syntax elements are contexts for those of a block; each may be null.
 struct Neighbours {
     const Block *left, *above, *warped;
 
-    // How many of the blocks to the left and above a predicate holds for.
+    // The number of blocks to the left and above for which a predicate holds.
     template <class Predicate>
     std::size_t count(Predicate&& holds) const {
         return (left && holds(*left) ? 1u : 0u) + (above && holds(*above) ? 1u : 0u);
     }
 };
 
-// Codes which channels of a block have levels, and their levels, from number `used` of coded.levels on.
+// Codes which channels of a block have levels, and these levels, which are at coded.levels[used] and after.
 template <class Coder>
 void code_residual(Coder& coder, typename Coder::Models& models, std::size_t channels, const Neighbours& near,
                    Block& block, CodedHogel& coded, std::size_t& used) {
@@ -154,7 +154,7 @@ Candidates predictor_candidates(std::size_t block, const BlockGrid& grid, const 
     if (warped) candidates.add(warped->disparity);
     if (left) candidates.add(blocks[block - 1].disparity);
     if (above) candidates.add(blocks[block - grid.columns].disparity);
-    if (left && above)  // as on a plane
+    if (left && above)  // the continuation of a tilted plane
         candidates.add(blocks[block - 1].disparity + blocks[block - grid.columns].disparity -
                        blocks[block - grid.columns - 1].disparity);
     if (context_blocks && candidates.count < 4) candidates.add((*context_blocks)[block].disparity);
@@ -184,7 +184,8 @@ std::vector<const Block*> warped_blocks(const HogelOrder::Hogel& hogel, const st
             if (column >= grid.columns || row >= grid.rows) continue;
             const std::int64_t du = u % side - half, dv = v % side - half;
             const std::int64_t here = du * du + dv * dv + apart * shift_unit * shift_unit / 2;
-            // The nearer surface hides the farther one; of one surface, what comes nearest to the middle.
+            // Of several blocks warped to the same place, the nearer surface hides the farther one; on one surface the
+            // block nearest to the middle is taken.
             const Block*& kept = warped[row * grid.columns + column];
             std::int64_t& kept_distance = distance[row * grid.columns + column];
             if (!kept || disparity > kept->disparity + one_surface ||

@@ -16,22 +16,22 @@ using Levels = std::array<std::int32_t, block_samples>;
 // The syntax elements of one block.
 struct Block {
     std::uint8_t mode = mode_intra;
-    std::uint8_t intra_predictor = 0;     // of an intra block
-    std::uint8_t coded = 0;               // a bit for each channel that has levels
-    std::array<std::uint8_t, 3> basis{};  // of the levels of each channel, an index of `bases`
+    std::uint8_t intra_predictor = 0;     // if intra
+    std::uint8_t coded = 0;               // one bit per channel: whether it has levels
+    std::array<std::uint8_t, 3> basis{};  // per channel, an index of `bases`
     std::int16_t disparity = 0;           // main disparity
     bool not_first = false;               // the main disparity is not the first predictor candidate
     // Of a partitioned block:
     std::uint8_t edge = 0;
     std::int16_t second_disparity = 0;
-    std::array<std::uint8_t, 2> side{};  // of the main and the second partition
+    std::array<std::uint8_t, 2> side{};  // sides from which the main and the second partition are predicted
 };
 
 struct Candidates;
 struct CodedHogel {
     std::vector<Block> blocks;           // row by row
-    std::vector<Levels> levels;          // of the coded channels of all blocks, in order
-    std::vector<Candidates> candidates;  // of the blocks, if the encoder has them already
+    std::vector<Levels> levels;          // of all coded channels of all blocks, in coding order
+    std::vector<Candidates> candidates;  // one per block, if the encoder has already computed them
 };
 
 // The blocks of a hogel, row by row.
@@ -40,17 +40,17 @@ struct BlockGrid {
     std::size_t count() const { return columns * rows; }
 };
 
-// The blocks of the context references, warped along their disparities to where this hogel sees them: for each block of
-// this hogel one, or null.
+// Warps the blocks of the context references along their disparities to this hogel. Returns one block, or null, for
+// each block of this hogel.
 std::vector<const Block*> warped_blocks(const HogelOrder::Hogel& hogel, const std::vector<CodedHogel>& coded,
                                         const BlockGrid& grid, float aspect);
 
-// Disparities that a block is likely to have, the likeliest first, without repetition.
+// Disparities that a block is likely to have, most likely first, without repetition.
 struct Candidates {
     std::array<std::int16_t, 8> disparity{};
     std::size_t count = 0;
     bool contain(int value) const {
-        bool found = false;  // no early exit, so that all are compared at once
+        bool found = false;  // no early exit, so that the comparisons vectorise
         for (std::size_t k = 0; k < disparity.size(); ++k) found |= (k < count) & (disparity[k] == value);
         return found;
     }
@@ -58,21 +58,24 @@ struct Candidates {
         const auto clamped = static_cast<std::int16_t>(std::clamp(value, -max_disparity, max_disparity));
         if (!contain(clamped)) disparity[count++] = clamped;
     }
-    // Class of their largest difference from the first: 0 none, 1 up to 2, 2 up to 12 (one surface), 3 more.
+    // The class of the largest difference from the first candidate: 0 none, 1 up to 2, 2 up to 12 (one surface), 3
+    // more.
     std::size_t spread() const;
 };
 
 // The predictor candidates of a block.
-// @param blocks           of the same hogel, known up to this one
+// @param blocks           of the same hogel, known up to the current one
 // @param warped           the warped block, or null
-// @param context_blocks   blocks of the first context reference, or null
+// @param context_blocks   the blocks of the first context reference, or null
 Candidates predictor_candidates(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
                                 const Block* warped, const std::vector<Block>* context_blocks);
 
-// The finest difference of disparity that matters to a hogel: a sixteenth of a direction at its nearest reference.
+// The unit in which disparities of a hogel are coded: the one that shifts a block by a sixteenth of a direction in the
+// nearest reference.
 int disparity_unit(const HogelOrder::Hogel& hogel);
 
-// A number >= 0: how many bits n + 1 has below its leading one, in unary with a model each, and then these bits.
+// Codes a number n >= 0 (Exp-Golomb): the number of bits of n + 1 below its leading one, in unary with a model for each
+// digit, then these bits.
 template <class Coder, class Model>
 std::uint32_t code_number(Coder& coder, std::array<Model, max_number_bits + 1>& models, std::uint32_t value) {
     const std::uint32_t one_more = value + 1;
@@ -83,8 +86,8 @@ std::uint32_t code_number(Coder& coder, std::array<Model, max_number_bits + 1>& 
     return result - 1;
 }
 
-// Syntax elements are written, read, or recorded (to be written when all of a layer is known) by the same functions:
-// each takes a coder and the element's value, and returns the value; a reader ignores what it is given.
+// Records syntax elements, to be written when a whole layer is known. The same functions write, read and record syntax
+// elements: each takes a coder and the element's value and returns the value; a reader ignores the value it is given.
 class BlockRecorder {
   public:
     using Models = BlockModelNumbers;
@@ -98,7 +101,7 @@ class BlockRecorder {
         return value;
     }
 
-    // For each bit the number of its model and its value.
+    // For each bit, the number of its model and its value.
     using Record = std::vector<std::uint16_t>;
     Record finish() { return std::move(record_); }
     static constexpr std::uint16_t even_bit = 0xFFFE;
@@ -106,7 +109,7 @@ class BlockRecorder {
   private:
     Record record_;
 };
-// How often a bit of each model was 0, and 1.
+// The number of zeros and of ones coded with a model.
 using BitCount = std::array<std::uint32_t, 2>;
 void count_bits(const BlockRecorder::Record& record, std::span<BitCount> counts);
 std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<coding::BitModel> models);
@@ -148,8 +151,8 @@ template <class Coder>
 void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
                 const std::vector<const Block*>& warped, const std::vector<Block>* context_blocks, CodedHogel& coded);
 
-// The syntax elements of a hogel whose layer is not decoded: every block is predicted from any side with its first
-// candidate, and has no levels.
+// Sets the syntax elements of a hogel whose layer is not decoded: every block is predicted from any side with its first
+// candidate and has no levels.
 void predict_syntax(const BlockGrid& grid, const std::vector<const Block*>& warped,
                     const std::vector<Block>* context_blocks, CodedHogel& coded);
 

@@ -14,7 +14,7 @@
 
 namespace hogel::codec::format {
 
-// Writes numbers and texts of a stream, little-endian; a text is its length as 32 bits and its bytes.
+// Writes the numbers and texts of a stream. Numbers are little-endian; a text is its length as 32 bits, then its bytes.
 class ByteWriter {
   public:
     template <std::unsigned_integral T>
@@ -32,7 +32,8 @@ class ByteWriter {
     std::vector<std::uint8_t> bytes;
 };
 
-// Reads them. Throws Error(bad_input), beginning with `what`, where the bytes end too early.
+// Reads what ByteWriter writes. Throws Error(bad_input), with a message that begins with `what`, if the bytes end too
+// early.
 class ByteReader {
   public:
     ByteReader(std::span<const std::uint8_t> bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}

@@ -8,11 +8,11 @@
 
 namespace hogel::codec::format {
 
-// Transforms R, G, B into luminance and two channels of chrominance and back, in place: the orthonormal DCT of three
-// points, so that an error has the same energy in both. A single channel stays as it is.
+// Transforms R, G, B into luminance and two channels of chrominance, and back, in place. It is the orthonormal DCT of
+// three points, so that errors keep their energy. A single channel is unchanged.
 void separate_colours(View<float, 5> radiance);
 void join_colours(View<float, 5> radiance);
-// The same on one thread, for three arrays of one size.
+// As above on one thread, for three arrays of equal size.
 void separate_colours(std::span<float> a, std::span<float> b, std::span<float> c);
 void join_colours(std::span<float> a, std::span<float> b, std::span<float> c);
 

@@ -28,8 +28,8 @@ void for_each_part(View<float, 5> radiance, Change&& change) {
     });
 }
 
-// Scales the colours of each ray by a factor, and their differences from their mean by another one on top of it.
-// @param factor_of   factor for a luminance
+// Scales the colours of each ray by a factor, and the differences from their mean by a further factor.
+// @param factor_of   returns the factor for a luminance
 template <class Factor>
 void scale(View<float, 5> radiance, Factor&& factor_of, float chrominance) {
     struct Scale {

@@ -11,9 +11,10 @@
 
 namespace hogel::codec::format {
 
-/// A mapping of radiances that is applied before coding and undone after decoding; coders do not know of it. The three
-/// colours of a ray are scaled by y(L)/L of a tone curve, L = (R + G + B)/3; then their differences from their mean are
-/// divided. Coders separate that mean as luminance, so errors of chrominance do not change the scale.
+/// A mapping of radiances that is applied before coding and inverted after decoding; coders are independent of it. The
+/// three colours of a ray are scaled by y(L)/L of a tone curve with L = (R + G + B)/3, then the differences from their
+/// mean are divided by `chrominance`. Coders separate that mean as luminance, so errors of chrominance do not change
+/// the scale.
 struct Companding {
     std::optional<ToneCurve> tone;
     float chrominance = 1;  ///< divisor of chrominance, 1 to max_chrominance
@@ -26,10 +27,10 @@ struct Companding {
     friend bool operator==(const Companding&, const Companding&) = default;
 };
 
-/// The light field with its radiances mapped where they are read.
+/// The light field with its radiances mapped when they are read.
 LightField companded(const LightField& light_field, const Companding& companding);
 
-/// The luminances of all faces together. Reads them once, tile by tile on all threads.
+/// The histogram of the luminances of all faces. Reads the light field once, tile by tile on all threads.
 LuminanceHistogram luminance_histogram(const LightField& light_field, const Progress& progress = {});
 
 }  // namespace hogel::codec::format

@@ -16,7 +16,7 @@
 namespace hogel::codec::format {
 namespace {
 
-// Textured planes with radiances over four decades and a half.
+// Textured planes with radiances over four and a half decades.
 LightFieldBuffer high_range(std::size_t hogels_s, std::size_t hogels_t, std::size_t u, std::size_t v,
                             std::size_t channels) {
     LightFieldBuffer field = textured_planes(hogels_s, hogels_t, u, v, channels);
@@ -42,7 +42,7 @@ TEST(Companding, is_undone) {
     for (const std::size_t channels : {1, 3})
         for (const float chrominance : {1.0f, 4.0f}) {
             LightFieldBuffer field = high_range(3, 2, 16, 12, channels);
-            // Also zero, negative colours, and colours of opposite signs.
+            // The values include zero, negative colours, and colours of opposite signs.
             for (std::size_t c = 0; c < channels; ++c) {
                 field.radiance(c, 0, 0, 0, 0) = 0;
                 field.radiance(c, 0, 0, 0, 1) = -0.3f * static_cast<float>(c + 1);
@@ -83,7 +83,7 @@ TEST(Companding, keeps_the_ratios_of_colours_and_divides_chrominance) {
     }
 }
 
-// The SQNR that was asked for is that of the mapped light field.
+// The requested SQNR is that of the mapped light field.
 TEST(Companding, works_with_every_coder) {
     const TestFolder folder;
     const LightFieldBuffer field = high_range(5, 4, 16, 12, 3);
@@ -106,7 +106,7 @@ TEST(Companding, works_with_every_coder) {
     }
 }
 
-// By the histogram of all faces together; in the layout unfolded, before the corners are filled.
+// The histogram is that of all faces together, and in the layout unfolded the mapping precedes the filling of corners.
 TEST(Companding, maps_all_faces_of_a_hemicube) {
     const TestFolder folder;
     std::vector<LightFieldBuffer> fields;
@@ -148,7 +148,7 @@ TEST(Companding, does_not_change_a_light_field_of_low_range) {
     EXPECT_NE(bytes_of_file(folder / "a.hgl"), bytes_of_file(folder / "b.hgl"));
 }
 
-// Counts the samples that are read at once and in all.
+// Counts the largest number of samples of one read and the total.
 class WatchedSource final : public LightFieldSource {
   public:
     explicit WatchedSource(const LightFieldBuffer& field) : field_(field) {}
@@ -203,7 +203,7 @@ TEST(Companding, impossible_requests_are_refused) {
     }
 }
 
-// The message that reading the header of a file ends in; empty if it is read.
+// The message of the error that reading a header throws; empty if there is none.
 std::string complaint(const std::filesystem::path& path) {
     try {
         read_stream_info(path);
@@ -217,7 +217,7 @@ std::string complaint(const std::filesystem::path& path) {
     return "";
 }
 
-// With the right checksum.
+// The checksum is corrected, so that the field itself must be checked.
 TEST(Companding, damaged_field_of_a_header_is_refused) {
     const TestFolder folder;
     const LightFieldBuffer field = high_range(2, 2, 8, 8, 3);
@@ -228,7 +228,7 @@ TEST(Companding, damaged_field_of_a_header_is_refused) {
     const std::size_t begin = 16 + length_of(plain), end = 16 + length_of(good);
     ASSERT_GT(end, begin + 100);
     const std::vector<std::uint8_t> part(good.begin() + std::ptrdiff_t(begin), good.begin() + std::ptrdiff_t(end));
-    const std::size_t chrominance = part.size() - 4 - 11 - 4 - 4;  // where it begins: its name, length and factor
+    const std::size_t chrominance = part.size() - 4 - 11 - 4 - 4;  // offset of the field: its name, length and factor
     const auto with = [&](const std::vector<std::uint8_t>& forged) {
         ByteWriter file;
         file.put(std::span(good).first(12));
@@ -251,7 +251,7 @@ TEST(Companding, damaged_field_of_a_header_is_refused) {
             const bool number = (at >= 12 && at < chrominance) || at >= part.size() - 4;
             EXPECT_TRUE(with(bad) != "" || number) << at;
             if (!number) continue;
-            // A damaged number may still be a valid one, which gives other samples.
+            // A damaged number may still be valid and give other samples.
             if (complaint(folder / "b.hgl").empty()) decoded(folder / "b.hgl");
         }
     ByteWriter twice, swapped;

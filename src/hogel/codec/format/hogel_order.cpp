@@ -8,7 +8,8 @@
 namespace hogel::codec::format {
 namespace {
 
-// The layer of each of n places in a row: 0 in the middle, 1 at the ends, then that of the halving that reaches it.
+// The layer of each of n positions in a row: 0 in the middle, 1 at the ends, then the number of the halving that
+// reaches it.
 std::vector<int> halving_layers(std::size_t n) {
     std::vector<int> layers(n, 1);
     layers[(n - 1) / 2] = 0;
@@ -29,7 +30,7 @@ std::vector<int> halving_layers(std::size_t n) {
     }
 }
 
-// The nearest references on each side, in the order given.
+// The nearest references on each side, in the given order.
 std::vector<HogelOrder::Reference> nearest(std::vector<HogelOrder::Reference> references, std::size_t per_side) {
     const auto side = [](const HogelOrder::Reference& r) {
         return (r.dt != 0 ? 2u : 0u) + (r.ds + r.dt > 0 ? 1u : 0u);
@@ -55,7 +56,7 @@ int HogelOrder::layers(std::size_t columns, std::size_t rows) {
 HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_per_side,
                        std::size_t context_references_per_side) {
     const std::vector<int> of_column = halving_layers(columns), of_row = halving_layers(rows);
-    std::vector<std::vector<std::size_t>> in_row(rows), in_column(columns);  // indices of hogels coded so far
+    std::vector<std::vector<std::size_t>> in_row(rows), in_column(columns);  // indices of the hogels ordered so far
     const auto distance = [](std::size_t from, std::size_t to) {
         return static_cast<int>(to) - static_cast<int>(from);
     };
@@ -66,7 +67,7 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t refere
         hogels_.push_back({s, t, layer, wavefronts_.size() - 1, nearest(earlier, references_per_side),
                            nearest(earlier, context_references_per_side)});
     };
-    // Only complete wavefronts can be referred to.
+    // Hogels refer only to complete wavefronts.
     const auto end_wavefront = [&] {
         for (std::size_t k = wavefronts_.back(); k < hogels_.size(); ++k) {
             in_row[hogels_[k].t].push_back(k);
@@ -79,7 +80,7 @@ HogelOrder::HogelOrder(std::size_t columns, std::size_t rows, std::size_t refere
     end_wavefront();
     for (int layer = 1; layer < layers(columns, rows); ++layer) {
         wavefronts_of_layers_.push_back(wavefronts_.size());
-        // First hogels between coded ones of their row or column, then those between the former in both directions.
+        // First the hogels between coded ones of their row or column, then those between the former in both directions.
         for (const bool both : {false, true}) {
             wavefronts_.push_back(hogels_.size());
             for (std::size_t t = 0; t < rows; ++t)

@@ -21,20 +21,20 @@ class HogelOrder {
         int layer;
         std::size_t wavefront;  // hogels of one wavefront do not refer to each other
         std::vector<Reference> references;
-        std::vector<Reference> context_references;  // whose syntax elements are contexts for those of this hogel
+        std::vector<Reference> context_references;  // their syntax elements are contexts for those of this hogel
     };
 
-    // @param references_per_side           at most, to the left, to the right, above and below
+    // @param references_per_side           maximum to the left, to the right, above and below
     // @param context_references_per_side   likewise
     HogelOrder(std::size_t columns, std::size_t rows, std::size_t references_per_side,
                std::size_t context_references_per_side);
-    // The number of layers of a tile of that size, without making its order.
+    // The number of layers of a tile of that size, without computing its order.
     static int layers(std::size_t columns, std::size_t rows);
     const std::vector<Hogel>& hogels() const { return hogels_; }
     int layers() const { return hogels_.back().layer + 1; }
-    // The first hogel of each wavefront, and the end of the last.
+    // The index of the first hogel of each wavefront, and the end of the last.
     const std::vector<std::size_t>& wavefronts() const { return wavefronts_; }
-    // The first wavefront of each layer, and the end of the last.
+    // The index of the first wavefront of each layer, and the end of the last.
     const std::vector<std::size_t>& wavefronts_of_layers() const { return wavefronts_of_layers_; }
 
   private:

@@ -24,7 +24,7 @@ constexpr LevelOrder zigzag = [] {
     return order;
 }();
 
-// Row by row, and column by column.
+// The orders row by row and column by column.
 constexpr std::array<LevelOrder, 2> raster_orders = [] {
     std::array<LevelOrder, 2> order{};
     for (std::size_t n = 0; n < block_samples; ++n) {
@@ -39,7 +39,7 @@ constexpr const LevelOrder& order_of_levels(Basis basis) {
     return basis.cosines() ? zigzag : raster_orders[basis.cosines_u ? 1 : 0];
 }
 
-// The class of a sum of magnitudes; classes get coarser.
+// Lower limits of the classes of a sum of magnitudes, which get coarser.
 constexpr std::array<std::uint8_t, level_classes - 1> level_class_begins{1, 2, 3, 5, 8, 12, 18, 28, 44, 70, 120};
 constexpr int in_last_class = level_class_begins.back();
 constexpr std::array<std::uint8_t, in_last_class + 1> level_class_of = [] {
@@ -50,7 +50,7 @@ constexpr std::array<std::uint8_t, in_last_class + 1> level_class_of = [] {
     return classes;
 }();
 
-// A number of `bits` bits, from the highest on: a path through a binary tree with a model at each node.
+// Codes a number of `bits` bits, highest first, as a path through a binary tree with a model at each node.
 template <class Coder, class Model, std::size_t count>
 std::size_t code_path(Coder& coder, std::array<Model, count>& models, int bits, std::size_t value) {
     std::size_t node = 1;
@@ -58,7 +58,7 @@ std::size_t code_path(Coder& coder, std::array<Model, count>& models, int bits, 
     return node - (std::size_t{1} << bits);
 }
 
-// The place of the last level that is not zero.
+// Codes the position of the last level that is not zero.
 template <class Coder, class Model>
 std::size_t code_last(Coder& coder, std::array<Model, block_samples>& models, const LevelOrder& order,
                       const Levels& levels) {
@@ -69,7 +69,7 @@ std::size_t code_last(Coder& coder, std::array<Model, block_samples>& models, co
     return code_path(coder, models, 6, last);
 }
 
-// The number of the basis, in unary.
+// Codes the number of the basis, in unary.
 template <class Coder, class Model>
 std::uint8_t code_basis(Coder& coder, std::array<Model, bases.size() - 1>& models, std::uint8_t basis) {
     std::uint8_t number = 0;
@@ -83,7 +83,7 @@ void code_levels(Coder& coder, std::array<typename Coder::Models::ForLevels, 3>&
     auto& models = of_bases[basis.cosines() ? 0 : basis.samples() ? 1 : 2];
     const LevelOrder& order = order_of_levels(basis);
     const std::size_t last = code_last(coder, models.last, order, levels);
-    // Back to the first one, so that the levels to the right and below are known, which are good contexts.
+    // The last level comes first, so that the levels to the right and below are known, which are good contexts.
     std::array<std::array<std::uint8_t, block_side + 2>, block_side + 2> seen{};
     std::array<std::array<std::uint8_t, block_side + 1>, block_side + 1> signs{};  // 1: positive, 2: negative
     for (std::size_t n = last + 1; n-- > 0;) {
@@ -102,7 +102,7 @@ void code_levels(Coder& coder, std::array<typename Coder::Models::ForLevels, 3>&
                 magnitude = 2;
             else
                 magnitude = 3 + code_number(coder, models.rest[around], magnitude - 3);
-            // The residual along an edge has one sign.
+            // Samples along an edge tend to have residuals of one sign, so signs of samples have models.
             const bool negative = basis.cosines() ? coder.even(level < 0)
                                                   : coder.bit(models.sign[basis.cosines_u ? 0 : signs[row][column + 1]]
                                                                          [basis.cosines_v ? 0 : signs[row + 1][column]],

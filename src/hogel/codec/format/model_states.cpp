@@ -9,7 +9,7 @@ namespace hogel::codec::format {
 namespace {
 
 constexpr int max_state = 40;
-constexpr double bits_of_change = 7;  // about what a changed state costs
+constexpr double bits_of_change = 7;  // estimated cost of a changed state
 
 // Index of a state in a table.
 std::size_t place_of(int state) {
@@ -51,7 +51,7 @@ ModelStates::ModelStates(std::span<const BitCount> counts, const ModelStates& be
             states_.push_back(old);
             continue;
         }
-        // The nearest state to the ratio that was counted is as good as the best one.
+        // The state nearest to the counted ratio is as good as the best one.
         const double ratio = (count[0] + 0.5) / (count[1] + 0.5);
         const int found = std::clamp(static_cast<int>(std::lround(4 * std::log2(ratio))), -max_state, max_state);
         const bool pays = bits_for(count, found) + bits_of_change < bits_for(count, old);
@@ -74,7 +74,7 @@ BlockModels ModelStates::models() const {
 
 template <class Coder>
 void ModelStates::code(Coder& coder, const ModelStates& before) {
-    std::array<coding::BitModel, 2> changed;  // by whether the state before has changed
+    std::array<coding::BitModel, 2> changed;  // [whether the previous state has changed]
     coding::BitModel sign;
     std::array<coding::BitModel, max_number_bits + 1> size;
     bool last = false;

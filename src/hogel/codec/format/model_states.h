@@ -8,20 +8,20 @@
 
 namespace hogel::codec::format {
 
-// The states in which the models of all hogels of a layer start, so that each hogel can be decoded without the others:
-// for each model, in order, the logarithm of the ratio of zeros to ones in quarters of a bit.
+// The initial states of the models, shared by all hogels of a layer, so that each hogel can be decoded without the
+// others. A state is the logarithm of the ratio of zeros to ones, in quarters of a bit.
 class ModelStates {
   public:
-    // Even: zeros and ones are equally likely.
+    // Zeros and ones are equally likely.
     ModelStates();
-    // Those that suit counted bits; as before where a change would cost more than it gains.
+    // States fitted to counted bits; a state stays that of `before` if the change would cost more than it gains.
     ModelStates(std::span<const BitCount> counts, const ModelStates& before);
 
     std::size_t count() const { return states_.size(); }
     BlockModels models() const;
     std::vector<coding::BitModel> models_in_order() const;
 
-    // Writes them as changes from `before`, or reads them.
+    // Writes or reads the states as changes from `before`.
     template <class Coder>
     void code(Coder& coder, const ModelStates& before);
 

@@ -8,7 +8,7 @@
 namespace hogel::codec::format {
 namespace {
 
-// The cut of a row that has these samples, which are its first or its last ones.
+// The cut of a row that contains exactly these samples, the first or the last ones of the row.
 std::int32_t cut_of(std::uint64_t samples) {
     for (std::size_t cut = 0; cut < row_cuts; ++cut) {
         std::uint64_t in_cut = 0;

@@ -19,7 +19,7 @@ static_assert(edge_angles * edge_offsets == block_edges);
 // block, in units of one sample for edges along rows and columns and of √2 samples for diagonal ones.
 constexpr std::size_t edge_number(std::size_t angle, std::size_t offset) { return angle * edge_offsets + offset; }
 
-// A bit for each sample of a block, from the lowest on: whether it belongs to the second partition.
+// One bit per sample of a block, lowest first: whether it belongs to the second partition.
 std::uint64_t partition_mask(std::size_t edge);
 // The masks of all edges as cuts of their rows.
 const EdgeRowCuts& edge_row_cuts();

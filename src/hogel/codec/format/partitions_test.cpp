@@ -30,12 +30,12 @@ TEST(Partitions, main_partition_holds_the_middle) {
                     (mask >> n & 1) != 0);
         }
     }
-    // The last column; the last three rows.
+    // The second partition is the last column, and the last three rows.
     EXPECT_EQ(partition_mask(edge_number(0, 3)), 0x8080808080808080u);
     EXPECT_EQ(partition_mask(edge_number(8, 1)), 0xFFFFFF0000000000u);
 }
 
-// From a column on, a surface with a disparity of two directions covers one with none.
+// A surface with a disparity of two directions covers, from one column on, a surface with none.
 TEST(Partitions, are_found_where_a_surface_ends) {
     constexpr int disparity = 2, edge = 13;
     const HogelOrder order(5, 1, 1, 1);
@@ -67,7 +67,7 @@ TEST(Partitions, are_found_where_a_surface_ends) {
     EXPECT_EQ(partition_mask(block->edge), partition_mask(edge_number(0, 1)));
     EXPECT_EQ(block->disparity, 0);
     EXPECT_EQ(block->second_disparity, disparity * shift_unit);
-    // From the right the near surface covers more of the far one.
+    // Seen from the right, the near surface covers more of the far one.
     EXPECT_EQ(block->side[0], static_cast<int>(ReferenceWeights::Side::left));
     EXPECT_EQ(squared_difference(prediction, target), 0);
     ASSERT_TRUE(predict_partitions(pictures, middle, *block, choices_of(*block, weights), 0, 8, 0, prediction));

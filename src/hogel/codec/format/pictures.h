@@ -14,9 +14,9 @@ namespace hogel::codec::format {
 
 // The channels of a hogel of a tile, padded to whole blocks by their last samples, as luminance and chrominance.
 Picture picture_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
-// The same as red, green and blue.
+// As above, as red, green and blue.
 Picture copy_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
-// The hogel in place in the tile, whose hogels must be whole blocks. Must not outlive the tile.
+// A picture that refers to the hogel in the tile, whose hogels must be whole blocks. Must not outlive the tile.
 Picture as_in_tile(LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
 
 // Calls use(channel, v, samples) with the rows of a picture, as red, green and blue and without padding.

@@ -8,8 +8,8 @@
 namespace hogel::codec::format {
 namespace {
 
-// Interpolation at each 64th between two samples: a sinc windowed by a wider sinc (Lanczos), rounded to multiples of
-// 2^-14 so that every machine has the same.
+// The interpolation filter at each 64th between two samples: a sinc windowed by a wider sinc (Lanczos), rounded to
+// multiples of 2^-14 so that all machines agree.
 struct Filters {
     std::array<Taps, shift_unit> of;
     Filters() {
@@ -29,7 +29,7 @@ struct Filters {
 };
 const Filters filters;
 
-// The noise that interpolation at a fraction adds, because samples alias: sin² of it, rounded to multiples of 2^-14.
+// The aliasing noise that interpolation at a fraction of a sample adds, its sin², rounded to multiples of 2^-14.
 struct AliasTable {
     std::array<float, shift_unit> of;
     AliasTable() {
@@ -41,7 +41,7 @@ struct AliasTable {
 };
 const AliasTable alias;
 
-// Weights of the expected noise, relative to that of aliasing.
+// Weights of quantisation noise and distance in the expected noise, relative to aliasing.
 constexpr float noise_weight = 0.03f, distance_weight = 0.003f;
 
 std::size_t fraction_of(int shift) { return static_cast<std::size_t>(shift & (shift_unit - 1)); }
@@ -91,7 +91,7 @@ void fetch_warped(const Plane& plane, int x, int y, Shift shift, BlockSamples& b
     };
     const Axis u = along(x, shift.u), v = along(y, shift.v);
     const PlaneWindow window(plane, u.first, v.first, u.count, v.count);
-    // Blocks farther to the right are fetched soon.
+    // Prefetches the rows of blocks farther to the right, which are read soon.
     constexpr std::size_t ahead = 4 * block_side;
     for (std::size_t r = 0; r < v.count; ++r) __builtin_prefetch(window.rows() + r * window.stride() + ahead);
     interpolate_block(window.rows(), window.stride(), u.weights, v.weights, block);
@@ -134,7 +134,7 @@ const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
     for (std::uint32_t k = 0; k < fixed_.size(); ++k) {
         const Shift shift = shift_of(disparity, hogel_.references[k], aspect_);
         const float here = fixed_[k].cost + alias.of[fraction_of(shift.u)] + alias.of[fraction_of(shift.v)];
-        // Keeps the `most` references of a side with the least noise; of equal ones the earlier.
+        // Keeps the `most` references of a side with the least noise; among equal ones the earlier.
         const auto offer = [&](Side side, std::uint32_t most) {
             auto& costs = cost[static_cast<std::size_t>(side)];
             Choice& choice = kept.choices[static_cast<std::size_t>(side)];
@@ -161,7 +161,7 @@ const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
         Choice& choice = kept.choices[side];
         choice.weight[0] = 1;
         if (choice.count < 2) continue;
-        // Weights in inverse proportion to the expected noise.
+        // Weights are inversely proportional to the expected noise.
         choice.weight[0] = cost[side][1] / (cost[side][0] + cost[side][1]);
         choice.weight[1] = 1 - choice.weight[0];
     }

@@ -15,8 +15,8 @@
 
 namespace hogel::codec::format {
 
-// The samples of one channel of a hogel, [v][u], padded to whole blocks: in memory of its own, not initialised, or
-// elsewhere.
+// The samples of one channel of a hogel, [v][u], padded to whole blocks: either in memory of its own, which is not
+// initialised, or a reference to memory elsewhere.
 class Plane {
   public:
     std::size_t width, height;
@@ -44,8 +44,8 @@ class Plane {
     Own own_{nullptr, Return{}};
 };
 
-// A window of a plane, which repeats its outermost samples beyond its borders: in place, or a copy where it reaches
-// over a border.
+// A window of a plane, which repeats its outermost samples beyond its borders. It refers to the plane, or to a copy if
+// it crosses a border.
 class PlaneWindow {
   public:
     // @param columns, rows   at most window_side
@@ -72,14 +72,14 @@ class PlaneWindow {
     std::array<float, window_side * window_side> copy_;
 };
 
-// By how many directions along u and v the content of a block is shifted in another hogel, in 64ths.
+// The shift of a block's content in another hogel, in 64ths of a direction along u and v.
 constexpr int shift_unit = 64;
 struct Shift {
     int u = 0, v = 0;
 };
 
-// Disparity: by how many directions along u, in 64ths, the content of a block is shifted from one hogel to the next,
-// 64 d/(ζ ΔU). Along v it is shifted by `aspect` = ΔU/ΔV times as many.
+// A disparity is the shift of a block's content from one hogel to the next, in 64ths of a direction along u: 64 d/(ζ
+// ΔU). Along v the shift is `aspect` = ΔU/ΔV times as large.
 constexpr int max_disparity = 1 << 14;
 inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
     if (reference.dt == 0) return {-disparity * reference.ds, 0};
@@ -88,11 +88,11 @@ inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, flo
     return {-disparity * reference.ds, static_cast<int>(std::clamp(v, -1e9, 1e9))};
 }
 
-// The shifted block at (x, y) of a plane, interpolated by six taps; beyond its borders the plane repeats its outermost
-// samples. The order of the additions is part of the format.
+// Reads the block at (x, y) of a plane shifted by `shift`, interpolated by six taps; beyond its borders the plane
+// repeats its outermost samples. The order of the additions is part of the format.
 void fetch_warped(const Plane& plane, int x, int y, Shift shift, BlockSamples& block);
 
-// The blocks that fetch_warped() reads for the block in a column and row.
+// The range of blocks that fetch_warped() reads for the block in a column and row.
 struct BlockRange {
     std::size_t first_column, last_column, first_row, last_row;
 };
@@ -101,7 +101,7 @@ BlockRange fetched_blocks(std::size_t columns, std::size_t rows, std::size_t col
 // Chooses the references that a block is predicted from: those with the least expected noise at its disparity.
 class ReferenceWeights {
   public:
-    // @param noise   of quantisation, of each hogel of the order, relative to that of the first layer
+    // @param noise   quantisation noise of each hogel of the order, relative to that of the first layer
     ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect);
 
     enum class Side { any, left, right, above, below };
@@ -112,8 +112,8 @@ class ReferenceWeights {
         std::array<float, 2> weight;             // their sum is 1
         std::array<Shift, 2> shift;
     };
-    // The best two for any side, the best one for a single side; none if there is no reference. Valid until the next
-    // call.
+    // The best two references for any side, the best one for a single side, none if there is no reference. Valid until
+    // the next call.
     const Choice& choose(int disparity, Side side) { return choices_for(disparity)[static_cast<std::size_t>(side)]; }
 
   private:
@@ -130,9 +130,9 @@ class ReferenceWeights {
     const Choices& choices_for(int disparity);
 
     const HogelOrder::Hogel& hogel_;
-    std::vector<Fixed> fixed_;  // of each reference
+    std::vector<Fixed> fixed_;  // one per reference
     float aspect_;
-    // A cache, as neighbouring blocks have the same disparities.
+    // A cache, because neighbouring blocks often have the same disparity.
     static constexpr std::size_t kept_choices = 64;
     std::unique_ptr<Kept[]> kept_;
 };

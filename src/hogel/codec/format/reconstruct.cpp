@@ -12,7 +12,7 @@ namespace hogel::codec::format {
 namespace {
 
 struct Cosines {
-    // [frequency][sample] and transposed, rounded to multiples of 2^-20 so that every machine has the same.
+    // The matrix [frequency][sample] and its transpose, rounded to multiples of 2^-20 so that all machines agree.
     std::array<BlockSamples, 2> of;
     Cosines() {
         for (std::size_t k = 0; k < block_side; ++k)
@@ -81,9 +81,9 @@ namespace {
 
 // The decoded samples along one side of a block, from the corner on.
 using Border = std::array<float, 1 + 2 * block_side>;
-// A sample of a block, `along` samples along the first border and `away` from it, where the borders continue along a
-// direction. Where the direction leads past the corner, the sample comes from the other border.
-// @param halves   of a sample that the direction moves along the first border from one row to the next
+// Predicts the sample of a block `along` samples along the first border and `away` samples from it by continuing the
+// borders along a direction. If the direction leads past the corner, the sample comes from the other border.
+// @param halves   half samples by which the direction moves along the first border from one row to the next
 float along_direction(const Border& border, const Border& other, int halves, int along, int away) {
     const int at = 2 * along + halves * (away + 1), on_other = 1 + away + 2 * (along + 1) / halves;
     if (at < -2) return other[static_cast<std::size_t>(on_other)];
@@ -203,7 +203,8 @@ void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples&
         if (levels)
             for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + residual[r * block_side + c];
         else
-            for (std::size_t c = 0; c < block_side; ++c) row[c] = predicted[c] + 0.0f;  // no −0, as with levels
+            for (std::size_t c = 0; c < block_side; ++c)
+                row[c] = predicted[c] + 0.0f;  // turns −0 into +0, as adding levels does
     }
 }
 

@@ -6,13 +6,13 @@
 
 namespace hogel::codec::format {
 
-// The channels of one hogel as they are decoded, padded to whole blocks.
+// The decoded channels of one hogel, padded to whole blocks.
 using Picture = std::vector<Plane>;
 
-// Context references of a hogel on each side: more of them make the predicted syntax worse.
+// Context references of a hogel on each side. More of them make the contexts worse.
 constexpr std::size_t context_references_per_side = 1;
 
-// What all hogels of a tile share.
+// Parameters that all hogels of a tile share.
 struct TileSetup {
     // @param v_per_u   ΔU/ΔV
     TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
@@ -21,15 +21,15 @@ struct TileSetup {
 
     HogelOrder order;
     BlockGrid grid;
-    std::size_t width, height;  // directions, without padding
+    std::size_t width, height;  // in directions, without padding
     float aspect;               // ΔU/ΔV
     std::vector<float> step;    // of the quantiser, for each layer of the order
     std::vector<float> noise;   // (step / step of layer 0)², for each hogel of the order
-    // A level stands for its number plus this part of a step, away from zero: values that are rounded to it are larger
-    // more often than not.
+    // The reconstruction offset: a level is reconstructed as its number plus this fraction of a step, away from zero,
+    // because most values that are rounded to it are larger.
     float reconstruction_offset(bool intra) const { return intra ? 0.0625f : 0.1875f; }
     bool whole_blocks() const { return width == grid.columns * block_side && height == grid.rows * block_side; }
-    // A picture that is not initialised. Must not outlive the setup, which owns its memory.
+    // A new picture, not initialised. Must not outlive the setup, which owns its memory.
     Picture blank() const;
     std::unique_ptr<PictureMemory> memory;
 };
@@ -42,7 +42,7 @@ void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& 
 // Predicts a block from the samples of the plane to its left and above it.
 // @param predictor   below intra_predictors
 void predict_intra(const Plane& plane, std::size_t x, std::size_t y, int predictor, BlockSamples& block);
-// Predicts a block from other hogels. False where there is no reference.
+// Predicts a block from other hogels. Returns false if there is no reference.
 bool predict_inter(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel,
                    const ReferenceWeights::Choice& choice, std::size_t channel, std::size_t x, std::size_t y,
                    BlockSamples& block);
@@ -53,7 +53,7 @@ struct BlockChoices {
     std::array<ReferenceWeights::Choice, 2> of;
 };
 BlockChoices choices_of(const Block& block, ReferenceWeights& weights);
-// Predicts an inter block. False where a partition has no reference.
+// Predicts an inter block. Returns false if a partition has no reference.
 bool predict_partitions(const std::vector<Picture>& pictures, const HogelOrder::Hogel& hogel, const Block& block,
                         const BlockChoices& choices, std::size_t channel, std::size_t x, std::size_t y,
                         BlockSamples& prediction);
@@ -66,7 +66,7 @@ void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples&
 enum class BlockState : std::uint8_t { unknown, wanted, reconstructed };
 
 // Reconstructs the wanted blocks of a hogel, whose syntax elements are known, from the pictures of its references.
-// Throws Error(bad_input) where a block has no reference.
+// Throws Error(bad_input) if a block has no reference.
 void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,
                  std::vector<Picture>& pictures);
 

@@ -62,7 +62,7 @@ Residual code_residual(Coder& coder, ResidualModels& models, const ResidualConte
     const bool negative = coder.bit(models.sign[context.sign], residual.number < 0);
     auto magnitude = static_cast<std::uint32_t>(residual.number);
     if (residual.number < 0) magnitude = 0 - magnitude;
-    // The two bits below the highest have models; the lower ones are as good as even.
+    // The two bits below the highest have models; the lower ones are nearly equally likely to be 0 or 1.
     std::uint32_t result = 1;
     int left = static_cast<int>(size) - 1;
     for (int k = 0; k < 2 && left > 0; ++k) {

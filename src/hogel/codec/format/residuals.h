@@ -9,7 +9,7 @@
 
 namespace hogel::codec::format {
 
-// The residual of a sample: a whole number, or "special", whose meaning is the coder's.
+// The residual of a sample: a whole number, or "special", whose meaning the coder defines.
 struct Residual {
     std::int32_t number = 0;
     bool special = false;
@@ -19,19 +19,19 @@ struct Residual {
 struct ResidualModels {
     static constexpr std::size_t sizes = 34, special = 33;                    // sizes 0 to 32; special
     std::array<std::array<std::array<coding::BitModel, 64>, sizes>, 3> size;  // [specials][mean size around]
-    std::array<coding::BitModel, 5> sign;                                     // by the signs to the left and above
+    std::array<coding::BitModel, 5> sign;                                     // [signs to the left and above]
     std::array<std::array<coding::BitModel, 4>, sizes> below_highest;         // [size][bits so far]
 };
 
-// Contexts of the residuals of an array [v][u]: the sizes of those coded so far, negative for negative numbers.
+// Contexts for the residuals of an array [v][u], from the sizes of those coded so far (negative for negative numbers).
 class ResidualContexts {
   public:
     ResidualContexts(std::size_t width, std::size_t height) : width_(width), sizes_(width * height) {}
 
     struct Context {
-        std::size_t special;  // how many of those to the left and above are special
-        std::size_t mean;     // size of those around that are not special
-        std::size_t sign;     // of those to the left and above, 0 (both negative) to 4 (both positive)
+        std::size_t special;  // number of special residuals to the left and above
+        std::size_t mean;     // mean size of the neighbours that are not special
+        std::size_t sign;     // signs to the left and above: 0 (both negative) to 4 (both positive)
     };
     // @param before   the array of the previous channel, or null
     Context at(std::size_t v, std::size_t u, const ResidualContexts* before) const;
@@ -42,7 +42,8 @@ class ResidualContexts {
     std::vector<std::int8_t> sizes_;
 };
 
-// Writer and reader share code_residual(): a writer returns what it is given, a reader what it reads.
+// Writes residuals. Writer and reader share code_residual(): a writer returns its argument, a reader returns what it
+// reads.
 class ResidualWriter {
   public:
     bool bit(coding::BitModel& model, bool value) {

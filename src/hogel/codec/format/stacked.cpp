@@ -13,7 +13,7 @@ constexpr std::size_t max_stacked = 64;  // rows: eight rows of blocks
 bool single_row(const LightFieldGrid& grid) { return grid.directions_v == 1; }
 bool single_column(const LightFieldGrid& grid) { return grid.directions_u == 1 && grid.directions_v > 1; }
 
-// The stacking of a tile: its rows (or columns) of hogels become rows of directions of another light field.
+// Stacks a tile: its rows (or columns) of hogels become rows of directions of another light field.
 class Stacking {
   public:
     Stacking(const LightFieldGrid& grid, const HogelRange& tile)
@@ -46,7 +46,7 @@ class Stacking {
     }
 
   private:
-    // Calls use(channel, row and column of a hogel in the part, its place among the stacked hogels, its row of
+    // Calls use(channel, row and column of a hogel in the part, its index among the stacked hogels, its row of
     // directions there).
     template <class Use>
     void for_each_hogel(const HogelRange& part, Use&& use) const {

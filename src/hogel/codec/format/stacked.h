@@ -17,8 +17,8 @@ namespace hogel::codec::format {
 // Whether all faces have a single row of directions and several rows of hogels, or a single column and several columns.
 bool can_stack(std::span<const LightFieldGrid> faces);
 
-// The coder of a face's tiles in a layout: what `coder_of` makes, or for `stacked` a coder that stacks each tile and
-// codes it with what `coder_of` makes for the stacked light field.
+// The coder of a face's tiles in a layout: coder_of(face), or for `stacked` a coder that stacks each tile and codes it
+// with coder_of(stacked grid).
 using CoderOf = std::function<std::unique_ptr<TileCoder>(const LightFieldGrid&)>;
 std::unique_ptr<TileCoder> coder_in_layout(StreamLayout layout, const LightFieldGrid& grid, CoderOf coder_of);
 

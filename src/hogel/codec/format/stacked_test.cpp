@@ -20,7 +20,7 @@ struct Size {
     std::size_t s, t, u, v;
 };
 
-// By default in tiles of odd sizes.
+// Options for a layout, by default with tiles of odd sizes.
 CompressionOptions in_layout(StreamLayout layout, std::optional<HogelRange> tile = HogelRange{0, 0, 7, 11}) {
     CompressionOptions options;
     options.target = Step{0.05};
@@ -29,7 +29,7 @@ CompressionOptions in_layout(StreamLayout layout, std::optional<HogelRange> tile
     return options;
 }
 
-// The outcome of reading bytes as a stream.
+// The error code that reading bytes as a stream gives.
 ErrorCode outcome_of(const TestFolder& folder, const std::vector<std::uint8_t>& bytes) {
     write_bytes(folder / "b.hgl", bytes);
     return code_of([&] { decoded(folder / "b.hgl"); });
@@ -54,7 +54,7 @@ void expect_same(const LightFieldBuffer& a, const LightFieldBuffer& b) {
     for (std::size_t i = 0; i < a.radiance.size(); ++i) ASSERT_EQ(a.radiance.data()[i], b.radiance.data()[i]) << i;
 }
 
-// A light field whose rows of directions are the rows of hogels of the first one codes to the same tiles.
+// A light field whose rows of directions equal the rows of hogels of another one is coded as the same tiles.
 TEST(Stacked, tiles_are_those_of_rows_of_directions) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(13, 19, 24, 1, 3);
@@ -72,7 +72,7 @@ TEST(Stacked, tiles_are_those_of_rows_of_directions) {
         compress(field, folder / "a.hgl", options);
         compress(flat, folder / "b.hgl", plain);
         const StreamReader a(folder / "a.hgl"), b(folder / "b.hgl");
-        // Without loss the step is chosen for other samples.
+        // Only with loss, because the lossless coder chooses its step from other samples.
         if (!lossless) {
             EXPECT_EQ(a.read(0, a.info().layer_ends.size()), b.read(0, b.info().layer_ends.size()));
         }
@@ -126,7 +126,7 @@ TEST(Stacked, any_range_has_the_samples_of_the_whole) {
     }
 }
 
-// A plane has rows that are alike; the other light field has rows at depths of their own.
+// The rows of a plane are similar; those of the other light field have different depths.
 TEST(Stacked, is_chosen_where_rows_are_alike) {
     const TestFolder folder;
     LightFieldBuffer alike(LightFieldGrid{24, 24, 1e-3, 48, 1, Perspective{0.3, 0.3}, 1}), apart(alike.grid());
@@ -189,7 +189,7 @@ TEST(Stacked, header_with_several_rows_of_directions_is_refused) {
     EXPECT_EQ(outcome_of(folder, with_number(good, 16 + 8 * 2, 1)), ErrorCode::bad_input);  // T
 }
 
-// Also where checksums are right.
+// Damage is noticed even if checksums are corrected.
 TEST(Stacked, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
     compress(textured_planes(5, 9, 8, 1, 1), folder / "a.hgl", in_layout(StreamLayout::stacked));

@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t prefix = stream_magic.size() + 8;  // with version and length of the header
+constexpr std::size_t prefix = stream_magic.size() + 8;  // magic, version and length of the header
 constexpr std::size_t entry_bytes = 8, checksum_bytes = 4;
 constexpr std::uint32_t max_header = 1 << 24;
 
@@ -28,7 +28,7 @@ bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
     return room > 0;
 }
 
-// Whether two streams have the same rays; their channels may differ.
+// Whether two streams have the same rays. Their channels may differ.
 bool same_faces(const StreamInfo& a, const StreamInfo& b) {
     const auto rays = [](const StreamInfo& info) {
         std::vector<LightFieldGrid> faces = info.faces();
@@ -154,7 +154,7 @@ StreamReader::StreamReader(const std::filesystem::path& path, Content content)
         damaged("the stream behind it is not its depth");
 }
 
-// Returns where the header ends.
+// Reads the header and returns the offset of its end.
 std::uint64_t StreamReader::read_header(std::uint64_t at) {
     const std::uint64_t size = end_ - at;
     if (size < prefix + 4) damaged("it is too short for a compressed light field");
@@ -210,7 +210,7 @@ void StreamReader::read_index(std::uint64_t header) {
     if (entries.take<std::uint32_t>() != core::checksum(std::span(index).first(index.size() - checksum_bytes)))
         damaged("its index is damaged");
     if (info_.layers_there == 0) damaged("it is truncated");
-    // The last layer is followed by the depth stream, or by nothing.
+    // The last layer is followed by the depth stream, if there is one.
     info_.depth_there = info_.depth.bytes > 0 && offset <= end_ && end_ - offset >= info_.depth.bytes;
     if (offset < end_ && end_ - offset > info_.depth.bytes) damaged("it has bytes left over");
 }

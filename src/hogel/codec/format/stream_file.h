@@ -29,15 +29,15 @@ class Tiling {
     HogelRange size_;
 };
 
-// The largest tile that a stream may have, so that a damaged header cannot make a reader allocate more.
+// The largest tile of a stream, a limit so that a damaged header cannot make a reader allocate more.
 constexpr std::size_t max_tile_samples = std::size_t{1} << 28;
 
-// The arrays of directions whose tiles a stream holds, all tiles of the first before those of the second: its faces, or
-// the array that they unfold into. Throws Error(usage) for faces that do not unfold.
+// The parts of a stream, arrays of directions whose tiles follow each other: its faces, or the array into which they
+// unfold. Throws Error(usage) for faces that do not unfold.
 std::vector<LightFieldGrid> coded_parts(const StreamInfo& info);
-// The directions of such an array that belong to the light field.
+// The directions of a part that belong to the light field.
 DirectionCross counted(const StreamInfo& info);
-// The coder of such an array's tiles. Throws Error(usage) for a method that does not exist.
+// The coder for the tiles of a part. Throws Error(usage) for a method that does not exist.
 std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part);
 
 // A layer of a tile in a file.
@@ -46,19 +46,19 @@ struct StreamEntry {
     std::uint32_t checksum;
 };
 
-// Writes a stream from its tiles, given one after the other, and given anew after restart(). finish() puts them into
-// the file layer by layer.
+// Writes a stream from its tiles, which are appended one after the other (and again after restart()). finish() writes
+// them into the file layer by layer.
 class StreamWriter {
   public:
     // @param depth   file with the depth stream that info.depth describes
     StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth = {});
-    // Drops the tiles so far.
+    // Discards all tiles.
     void restart();
-    // @param layers   where the tile's layers end; small tiles may have fewer than the stream
+    // @param layers   the ends of the tile's layers; small tiles may have fewer layers than the stream
     void append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers);
     // Bytes of the whole file if it were finished now.
     std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
-    // Bytes of a file with that number of tiles (of all parts) beside the tiles themselves.
+    // Bytes of a file with that number of tiles (of all parts), without the tiles themselves.
     std::uint64_t overhead(std::size_t tiles) const;
     // @param filler   bytes by which the file is longer than size(): 0, or min_filler to max_filler
     void finish(std::uint64_t filler = 0);
@@ -74,7 +74,7 @@ class StreamWriter {
     std::vector<StreamEntry> entries_;  // tile by tile, the layers of each
 };
 
-// Reads a stream's header and index, and tiles on demand. Errors name the file.
+// Reads a stream's header and index, and tiles on demand. Error messages name the file.
 class StreamReader {
   public:
     enum class Content { light_field, its_depth };
@@ -95,7 +95,7 @@ class StreamReader {
     std::string what_;
     std::uint64_t end_;  // of the stream in the file
     StreamHeader info_;
-    std::optional<Tiling> tiling_;  // of each part
+    std::optional<Tiling> tiling_;  // one for all parts
     std::vector<LightFieldGrid> parts_;
     std::vector<StreamEntry> index_;  // layer by layer, the tiles of each
 };

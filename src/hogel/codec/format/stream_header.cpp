@@ -53,7 +53,7 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     }
 }
 
-// Optional fields at the end of a header, each with its name and length, so that a reader can refuse unknown ones.
+// Optional fields at the end of a header. Each has a name and a length, so that a reader can refuse unknown ones.
 constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance", depth_name = "depth";
 
 void put_optional_fields(ByteWriter& fields, const StreamHeader& info) {

@@ -11,7 +11,7 @@
 
 namespace hogel::codec::format {
 
-// As in PNG: not text, and damaged by whatever converts line ends.
+// As in PNG, the magic number is not text and is damaged by programs that convert line ends.
 constexpr std::array<std::uint8_t, 8> stream_magic{0x89, 'H', 'G', 'L', '\r', '\n', 0x1A, '\n'};
 
 // Filler is a metadata entry, whose name and lengths take min_filler bytes.
@@ -20,13 +20,13 @@ constexpr std::size_t min_filler = 14, max_filler = std::size_t{1} << 23;
 // The version of the format that is written and read (docs/format.md).
 constexpr std::uint32_t stream_version = 1;
 
-// A header as encoder and decoder use it: with the companding itself beside the facts about it.
+// A header as used by encoder and decoder: StreamInfo plus the companding itself.
 struct StreamHeader : StreamInfo {
     Companding companding;
 };
 
-// The bytes that a stream begins with: magic, version, the length of the fields, the fields and a checksum. Of the
-// companding and the facts about it only the former is written.
+// The first bytes of a stream: magic, version, the length of the fields, the fields, and a checksum. The companding is
+// written, the facts about it in StreamInfo are not.
 std::vector<std::uint8_t> header_bytes(const StreamHeader& header);
 
 // Reads the fields. Throws Error(bad_input).

@@ -68,10 +68,10 @@ class ToneCurve {
     float lowest_, highest_, below_, above_, inverse_below_, inverse_above_;
     std::vector<Piece> pieces_;
     std::uint32_t first_bucket_;
-    std::vector<std::uint16_t> begin_;  // for the highest bits of y, the first piece that may hold it
+    std::vector<std::uint16_t> begin_;  // [highest bits of y]: the first segment that may contain y
 };
 
-/// How many luminances |L| a light field has between each point of a ToneCurve and the next.
+/// Histogram of the luminances |L| of a light field, whose bins lie between consecutive points of a ToneCurve.
 class LuminanceHistogram {
   public:
     LuminanceHistogram() : counts_(std::size_t{1} << (31 - ToneCurve::low_bits)) {}

@@ -56,7 +56,7 @@ TEST(ToneCurve, spans_the_decades_asked_for_and_is_nowhere_steeper_than_luminanc
         }
 }
 
-// Its exponent is the ratio of the decades.
+// The exponent of the power is the ratio of the decades.
 TEST(ToneCurve, is_a_power_for_luminances_even_in_the_logarithm) {
     LuminanceHistogram histogram;
     for (int i = 0; i < 400000; ++i) histogram.add(static_cast<float>(std::exp2(12 * (i + 0.5) / 400000)));
@@ -89,7 +89,7 @@ TEST(ToneCurve, does_not_exist_for_luminances_that_span_no_more) {
     EXPECT_TRUE(encode::tone_curve_of(histogram, 1.2));
 }
 
-// To rounding, which a slope s multiplies by 1/s; mapped values keep their order.
+// Exact except for rounding, which a slope s multiplies by 1/s. Mapped values keep their order.
 TEST(ToneCurve, is_inverted) {
     for (const LuminanceHistogram& histogram : histograms())
         for (const double decades : {0.3, 2.0}) {

@@ -24,13 +24,13 @@ double fade(std::size_t k, std::size_t band) {
     return 1 - x * x * (3 - 2 * x);
 }
 
-// The place among n samples that corresponds to place k among m.
+// The index among n samples that corresponds to index k among m.
 std::size_t scaled(std::size_t k, std::size_t m, std::size_t n) { return (2 * k + 1) * n / (2 * m); }
 
-// One side of the front along one axis, with places counted from the front's edge outwards and inwards.
+// One side of the front along one axis, with samples counted outwards and inwards from the front's edge.
 struct Side {
     std::size_t begin, end;  // of the front
-    bool before;             // on the side of smaller indices
+    bool before;             // whether it is at smaller indices than the front
     std::size_t length;      // of the array outside the front
 
     std::size_t outwards(std::size_t k) const { return before ? begin - 1 - k : end + k; }
@@ -57,7 +57,7 @@ void fill_corner(View<float, 2> array, const Side& across, const Side& down) {
             float& sample = array(down.outwards(b), across.outwards(a));
             sample = static_cast<float>(mean);
             if (of_side + of_end == 0) continue;
-            // The left or right side continues around the cube's edge beside the top or bottom, and the reverse.
+            // Around the cube's edge the left and right sides continue into the top and bottom, and the reverse.
             double bands = 0;
             if (of_side > 0)
                 bands += of_side * array(down.inwards(std::min(scaled(a, across.inner(), down.inner()), half_v - 1)),

@@ -81,7 +81,7 @@ TEST(Unfolding, corners_continue_the_sides) {
                 EXPECT_LT(std::abs(view(v1, u) - view(v1 - 1, u)), 3 * largest) << u;
             }
         EXPECT_EQ(view(0, 0), view(v0 - 1 - Unfolding::band, u0 - 1 - Unfolding::band));
-        double sum = 0;  // of the quarter at the top left, its faces alone
+        double sum = 0;  // over the faces in the top left quarter
         for (std::size_t v = 0; v < n_v; ++v)
             for (std::size_t u = 0; u < n_u; ++u)
                 if (u >= u0 || v >= v0) sum += view(v, u);
@@ -98,7 +98,7 @@ TEST(Unfolding, refuses_faces_that_do_not_fit) {
     EXPECT_THROW(Unfolding{grids}, Error);
 }
 
-// The SQNR that was asked for is that of all faces together, without the corners.
+// The requested SQNR is that of all faces together, without the corners.
 TEST(Hemicube, has_the_sqnr_asked_for_in_both_layouts) {
     const TestFolder folder;
     const std::vector<LightFieldBuffer> faces = smooth_hemicube(5, 24, 16);
@@ -161,7 +161,7 @@ TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
             std::vector<std::uint8_t> bad = good;
             bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << at % 8);
             ASSERT_TRUE(fails(bad)) << at;
-            // A forged header with the right checksum may be read differently, but does no harm.
+            // A forged header with a valid checksum may be read differently but does no harm.
             const std::size_t length = good[12] | std::size_t{good[13]} << 8;
             if (at < 16 || at >= 16 + length) continue;
             const std::uint32_t sum = core::checksum(std::span(std::as_const(bad)).first(16 + length));

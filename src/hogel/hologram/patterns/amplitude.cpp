@@ -17,8 +17,8 @@ using Complex = std::complex<float>;
 
 constexpr double share_within_band = 0.95;
 
-// Orders lie at multiples of the carrier's frequency, which must be twice the field's band. Components in successive
-// columns have a carrier of one cycle a group, and no reference wave whose angle could be chosen.
+// The carrier frequency of components in successive columns: one cycle per group of columns, which cannot be chosen.
+// Orders are at multiples of it, so it must be twice the field's band.
 double column_carrier(double band, std::size_t columns, double pitch) {
     const double carrier = 1.0 / static_cast<double>(columns);
     if (2 * band > carrier)
@@ -32,9 +32,9 @@ double column_carrier(double band, std::size_t columns, double pitch) {
 
 double degrees(double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std::numbers::pi; }
 
-// A reference wave's frequency f, cycles a sample. The fringe FR* lies at −f and its conjugate at +f, each as wide as F
-// (half width `band`); |F|², which the intensity contains, lies about zero and is twice as wide. They must not overlap,
-// and all must be sampled: [K] 3.2.
+// The frequency f of the reference wave, cycles per sample. The fringe FR* is at −f and its conjugate at +f, each as
+// wide as F (half width `band`); |F|², which the intensity contains, is around zero and twice as wide. They must not
+// overlap, and all must be sampled: [K] 3.2.
 double reference_carrier(double band, const PatternOptions& options, double wavelength) {
     const double pitch = options.modulator.pitch, to_sine = wavelength / pitch;
     const double min_carrier = (options.encoding == Encoding::intensity ? 3 : 1) * band;
@@ -55,8 +55,8 @@ double reference_carrier(double band, const PatternOptions& options, double wave
     return carrier;
 }
 
-// The m-th of the `columns` real components of a number, none negative: only the two beside its direction are not zero.
-// Where components are more than a right angle apart they exceed the modulus, and all are scaled down.
+// The m-th of the `columns` non-negative real components of a complex number. Only the two adjacent to its phase are
+// not zero. If components are more than a right angle apart they can exceed the modulus, so all are scaled down.
 float component(Complex value, std::size_t m, std::size_t columns) {
     const double sector = 2 * std::numbers::pi / static_cast<double>(columns);
     const double away =

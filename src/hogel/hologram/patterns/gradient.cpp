@@ -13,21 +13,21 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Adam, Kingma and Ba 2015, with its usual decay rates; a step is at most about this many radians.
+// Adam, Kingma and Ba 2015, with its usual decay rates; one step is at most about this many radians.
 constexpr double first_rate = 0.9, second_rate = 0.999, radians_a_step = 0.25;
 
-// Sums over the squares of one row, for the scale between the pattern's local spectra and the field's.
+// Sums over one row of squares, for the scale between the local spectra of the pattern and the field.
 struct Sums {
     double product = 0, energy = 0;
 };
 
-// Squares of `side` pixels that cover the modulator, the first beginning at −shift; beyond the border there is nothing.
+// Squares of `side` pixels that cover the modulator, the first at −shift; beyond the border values are zero.
 struct Squares {
     std::size_t side, shift_x, shift_y;
 
     std::size_t columns(std::size_t width) const { return (width + shift_x + side - 1) / side; }
     std::size_t rows(std::size_t height) const { return (height + shift_y + side - 1) / side; }
-    // Calls visit(row and column of the pixel, row and column in the square) for the pixels of a square on the
+    // Calls visit(row and column of the pixel, row and column in the square) for the pixels of a square that are on the
     // modulator.
     template <class Visit>
     void visit(std::size_t i, std::size_t j, const Shape<2>& shape, Visit&& visit) const {
@@ -42,8 +42,8 @@ struct Squares {
     }
 };
 
-// 1 for the frequencies of a square in which the field has light: a mean of more than a twentieth of the largest. 0 for
-// the rest, in which the pattern is free.
+// 1 for the frequencies of a square at which the field has light (a mean of more than a twentieth of the largest), 0
+// for the others, at which the pattern is free.
 std::vector<float> lit_frequencies(View<const Complex, 2> field, const Squares& squares, const math::Fft2& fft) {
     const std::size_t n = squares.side;
     std::vector<double> mean(n * n);
@@ -61,7 +61,7 @@ std::vector<float> lit_frequencies(View<const Complex, 2> field, const Squares& 
     return lit;
 }
 
-// The descent's state.
+// The state of the gradient descent.
 struct Descent {
     Array<float, 2> phases, gradient;  // radians
     Array<float, 2> first, second;     // running means of the gradient and its square
@@ -73,7 +73,7 @@ struct Descent {
     }
 };
 
-// Computes the gradient from the local spectra in some squares, and the scale for the next step.
+// Computes the gradient from the local spectra in all squares, and the scale for the next step.
 void find_gradient(View<const Complex, 2> field, const Squares& squares, const std::vector<float>& lit,
                    const math::Fft2& fft, Descent& descent) {
     const std::size_t side = squares.side;
@@ -110,9 +110,9 @@ void find_gradient(View<const Complex, 2> field, const Squares& squares, const s
     descent.scale = all.energy > 0 ? all.product / all.energy : 1;
 }
 
-// Step number k of `iterations` along the gradient, by Adam.
+// Adam's step k of `iterations` along the gradient.
 void step_along_gradient(std::size_t k, std::size_t iterations, Descent& descent) {
-    // Steps grow smaller towards the end, so that the phases settle between the squares of different steps.
+    // Steps become smaller towards the end, so that the phases converge although the squares change at each step.
     const double along = static_cast<double>(k) / static_cast<double>(iterations);
     const double length = radians_a_step * 0.5 * (1 + std::cos(std::numbers::pi * along));
     const double first_left = 1 - std::pow(first_rate, static_cast<double>(k)),
@@ -133,9 +133,9 @@ void step_along_gradient(std::size_t k, std::size_t iterations, Descent& descent
 }  // namespace
 
 // Gradient descent on the phases φ for Σ m (s|A| − |B|)² over local spectra A of e^{iφ} and B of the field, in squares
-// that lie elsewhere at each step, so that the phases learn no seams: a stochastic form of Gerchberg and Saxton's
-// iteration, whose squares stay. s is the scale that fits best, m is 1 in the directions where the field has light.
-// Sources: Peng, Choi, Padmanaban and Wetzstein, ACM TOG 39(6), 2020; with the light field as its aim, Choi et al.,
+// at random positions that change at each step, which avoids seams: a stochastic form of Gerchberg and Saxton's
+// iteration, whose squares are fixed. s is the best-fitting scale; m is 1 in directions where the field has light.
+// Sources: Peng, Choi, Padmanaban and Wetzstein, ACM TOG 39(6), 2020; with the light field as target, Choi et al.,
 // SIGGRAPH 2022.
 Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     const std::size_t side = options.window;
@@ -149,7 +149,7 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOption
             core::philox({static_cast<std::uint32_t>(k), 0, 0, 0},
                          {static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)});
         find_gradient(field, {side, bits[0] % side, bits[1] % side}, lit, fft, descent);
-        // The first round only finds the scale.
+        // The first iteration only determines the scale.
         if (k > 0) step_along_gradient(k, options.iterations, descent);
     }
     for (float& phase : descent.phases.elements()) {

@@ -20,7 +20,8 @@ Complex unit(Complex value) {
     return modulus > 0 ? value / modulus : Complex(1);
 }
 
-// Where squares begin that cover a side of the modulator; the last overlaps the one before it where they do not fit.
+// The first pixels of squares that cover a side of the modulator. The last square overlaps the one before if the side
+// is not a multiple.
 std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
     std::vector<std::size_t> starts;
     for (std::size_t at = 0; at + side <= length; at += side) starts.push_back(at);
@@ -37,8 +38,8 @@ void require_squares_fit(View<const Complex, 2> field, std::size_t side) {
                                                   side, field.extent(1), field.extent(0), max_side));
 }
 
-// Each square independently, alternating between unit modulus and the moduli of the field's spectrum there, which are
-// its light field: Gerchberg and Saxton, Optik 35, 1972.
+// Each square independently alternates between unit modulus and the moduli of the field's spectrum there, which are its
+// light field: Gerchberg and Saxton, Optik 35, 1972.
 Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
     require_squares_fit(field, side);
@@ -62,7 +63,7 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
                 for (Complex& value : square.elements()) value = unit(value);
                 fft.forward(square);
             }
-            // Where squares overlap, the earlier one's pixels stay.
+            // Where squares overlap, the pixels of the earlier one are kept.
             const std::size_t skip_x = i > 0 ? columns[i - 1] + side - x0 : 0;
             const std::size_t skip_y = j > 0 ? rows[j - 1] + side - y0 : 0;
             for (std::size_t y = skip_y; y < side; ++y)

@@ -39,13 +39,13 @@ void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
         throw Error(ErrorCode::usage, "the share of samples that may be cut must lie in 0..1");
 }
 
-// The middle of the field, or all of it with a dark border.
+// The middle of the field, or the whole field with a dark border, in the size of the modulator.
 Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
     const Grid& plane = source.grid().plane;
     Array<Complex, 2> field({modulator.height, modulator.width});
     const std::size_t width = std::min(plane.width, modulator.width), height = std::min(plane.height, modulator.height);
     const std::size_t left = (modulator.width - width) / 2, top = (modulator.height - height) / 2;
-    // In bands of rows, on all threads; each starts where the source's work does.
+    // Reads bands of rows on all threads, aligned as the source prefers.
     const std::size_t y0 = (plane.height - height) / 2, rows = std::max<std::size_t>(64, source.alignment());
     const std::size_t first = y0 / rows, bands = (y0 + height + rows - 1) / rows - first;
     core::parallel_for(bands, [&](std::size_t band) {
@@ -60,7 +60,7 @@ Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
     return field;
 }
 
-// Scales the field so that all but a share of its samples have |F| <= 1, and cuts those to 1.
+// Scales the field so that |F| <= 1 except for the share `clip` of its samples, whose modulus is clipped to 1.
 void normalise(Array<Complex, 2>& field, double clip) {
     std::vector<float> moduli;
     moduli.reserve(field.size());
@@ -102,7 +102,7 @@ Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned lev
     Array<std::uint8_t, 2> rounded(values.shape());
     for (std::size_t i = 0; i < values.size(); ++i) {
         const float value = values.data()[i];
-        if (phases) {  // the last level is followed by the first
+        if (phases) {  // phases wrap around from the last level to the first
             const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
             rounded.data()[i] = static_cast<std::uint8_t>(level * 256 / levels);
         } else {
@@ -126,7 +126,8 @@ double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> 
     return std::norm(product) / (energy * static_cast<double>(field.size()));
 }
 
-// The share of it that makes the moduli of the field's local spectra: in each square (Σ|A||B|)²/Σ|B|² of A's energy.
+// The share of the modulator's light that reproduces the moduli of the field's local spectra: (Σ|A||B|)²/Σ|B|² of A's
+// energy in each square.
 double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
     side = std::min({side, field.extent(0), field.extent(1)});
     const math::Fft2 fft(side, side);

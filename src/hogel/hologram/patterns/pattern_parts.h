@@ -5,23 +5,23 @@
 
 namespace hogel::hologram::patterns {
 
-/// The wave that a pattern's useful order is F times of: e^{2πi f_x·column}, by column.
+/// The carrier wave e^{2πi f_x·column}, by column. The useful order of a pattern is F times the carrier.
 using Carrier = std::vector<std::complex<float>>;
 
-/// A field's reach in frequency along x, cycles a sample: 95 % of its light lies within; the edges
-/// of hogels scatter the rest widely.
+/// The half bandwidth of a field along x, cycles per sample, which contains 95 % of its light; the edges of hogels
+/// scatter the rest widely.
 double band_along_x(View<const std::complex<float>, 2> field);
 
-/// Amplitudes in [0, 1] of a field with |F| <= 1, for the encodings that are not phases. `carrier` and `angle` become
-/// those of the order that carries F. Throws Error(usage) where the orders would overlap.
+/// Encodes a field with |F| <= 1 as amplitudes in [0, 1], for the encodings for amplitude. Sets `carrier` and `angle`
+/// to those of the order that carries F. Throws Error(usage) if the orders would overlap.
 Array<float, 2> encode_amplitude(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                  double wavelength, Carrier& carrier, double& angle);
 
-/// Phases, in cycles [0, 1), by alternating projections in squares: Encoding::gerchberg_saxton.
+/// Encoding::gerchberg_saxton: phases in cycles [0, 1), by alternating projections in squares.
 Array<float, 2> iterate_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                const Progress& progress);
 
-/// Phases, in cycles [0, 1), by stochastic gradient descent: Encoding::gradient.
+/// Encoding::gradient: phases in cycles [0, 1), by stochastic gradient descent.
 Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                const Progress& progress);
 

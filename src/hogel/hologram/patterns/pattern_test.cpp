@@ -22,7 +22,7 @@ constexpr std::size_t side = 192;
 
 Field empty_field(double pitch = 8_um) { return Field(FieldGrid{{side, side, pitch, pitch, 0, 0}, 633_nm}); }
 
-// Plane waves of all frequencies up to `band` cycles a pixel with random phases: what a diffuse object sends.
+// Plane waves of all frequencies up to `band` cycles per pixel with random phases, as from a diffuse object.
 Field speckle(double band, std::uint32_t seed = 1) {
     Field field = empty_field();
     const auto reach = std::ptrdiff_t(band * side);
@@ -36,7 +36,7 @@ Field speckle(double band, std::uint32_t seed = 1) {
     return field;
 }
 
-// One plane wave, of a frequency that is not in step with the pixels.
+// One plane wave whose period is no whole number of pixels.
 Field plane_wave(double columns = 0.0137, double rows = 0.0271) {
     Field field = empty_field();
     for (std::size_t y = 0; y < side; ++y)
@@ -56,13 +56,13 @@ PatternOptions options_for(Encoding encoding) {
 
 struct Case {
     Encoding encoding;
-    double efficiency;  // of a plane wave, as theory has it
+    double efficiency;  // theoretical value for a plane wave
 };
 
 class PlaneWave : public testing::TestWithParam<Case> {};
 
 // The first order of a sinusoidal amplitude is 1/4, of a square one 1/π, of three or four components 1/3
-// and 1/4; three components reach 2/√3 of the modulus, so all is made smaller by that.
+// and 1/4; three components reach 2/√3 of the modulus, so all are scaled down by that.
 TEST_P(PlaneWave, is_encoded_with_the_efficiency_of_theory) {
     const Pattern pattern = encode_pattern(plane_wave(), options_for(GetParam().encoding));
     EXPECT_NEAR(pattern.efficiency / GetParam().efficiency, 1, 0.02);
@@ -75,8 +75,9 @@ INSTANTIATE_TEST_SUITE_P(Encodings, PlaneWave,
                                          Case{Encoding::burckhardt, 1 / 12.0}, Case{Encoding::lee, 1 / 16.0},
                                          Case{Encoding::binary, 1 / pi2}));
 
-// A random sum of waves has an exponential |F|²: its phase alone keeps E|F|²/E(|F|²) = π/4 of the light, and what is
-// linear in F keeps the mean of |F|² over its largest, times what it keeps of a plane wave.
+// The |F|² of a random sum of waves has an exponential distribution. Its phase alone keeps E²(|F|)/E(|F|²) = π/4 of the
+// light. Encodings that are linear in F keep the mean of |F|² divided by its maximum, times their efficiency for a
+// plane wave.
 TEST(Pattern, speckle_is_encoded_with_the_efficiency_of_theory) {
     const Field field = speckle(0.1);
     EXPECT_NEAR(encode_pattern(field, options_for(Encoding::phase)).efficiency, std::numbers::pi / 4, 0.01);
@@ -90,7 +91,7 @@ TEST(Pattern, speckle_is_encoded_with_the_efficiency_of_theory) {
         EXPECT_NEAR(encode_pattern(field, options_for(encoding)).efficiency / (factor * mean / peak), 1, 0.05);
 }
 
-// The carrier's order of the pattern is the field, and nothing else: low-passed to the field's own band.
+// The carrier's order of the pattern, low-passed to the field's band, is exactly the field.
 class Order : public testing::TestWithParam<Encoding> {};
 
 TEST_P(Order, holds_the_field_alone) {
@@ -126,8 +127,8 @@ INSTANTIATE_TEST_SUITE_P(Encodings, Order,
                          testing::Values(Encoding::double_phase, Encoding::intensity, Encoding::bipolar,
                                          Encoding::burckhardt, Encoding::lee));
 
-// How far the local spectra of a pattern are from the field's, in squares that begin at a place; of all frequencies, or
-// of those up to a number.
+// The error of a pattern's local spectra relative to the field's, in squares that begin at a given pixel, over all
+// frequencies or those up to a limit.
 double spectral_error(const Pattern& pattern, Encoding encoding, const Field& field, std::size_t first = 0,
                       std::size_t reach = side) {
     constexpr std::size_t window = 24;
@@ -168,7 +169,7 @@ TEST(Pattern, iteration_brings_the_light_field_nearer_than_the_phase_alone) {
     EXPECT_LT(error(Encoding::gerchberg_saxton), 0.25 * error(Encoding::phase));
 }
 
-// Gerchberg and Saxton's squares leave seams; the descent's never lie still, so it is as good between them.
+// Gerchberg and Saxton's fixed squares leave seams; the descent's squares move, so it is equally good everywhere.
 TEST(Pattern, gradient_descent_keeps_the_light_field_in_squares_at_any_place) {
     const Field field = speckle(0.2);
     const auto make = [&](Encoding encoding, std::uint64_t seed = 1) {
@@ -184,7 +185,7 @@ TEST(Pattern, gradient_descent_keeps_the_light_field_in_squares_at_any_place) {
         EXPECT_LT(spectral_error(descent, Encoding::gradient, field, first, 5), 0.02) << first;
     EXPECT_LT(spectral_error(projections, Encoding::gerchberg_saxton, field, 0, 5), 0.02);
     EXPECT_GT(spectral_error(projections, Encoding::gerchberg_saxton, field, 12, 5), 0.1);
-    // It pays with light that goes where the field has none.
+    // The cost is light in directions where the field has none.
     EXPECT_GT(descent.light_field_efficiency, 0.6);
     EXPECT_LT(descent.light_field_efficiency, 0.8);
     EXPECT_GT(projections.light_field_efficiency, 0.95);
@@ -205,7 +206,7 @@ TEST(Pattern, is_the_middle_of_the_field_or_has_a_border_and_rounds_to_levels) {
             ASSERT_LT(std::abs(std::remainder(pattern.levels(y, x) / 256.0 - cycles, 1.0)), 0.5 / 16 + 1e-5);
         }
     EXPECT_EQ(pattern.levels(0, 50), 0);
-    // sinc² of half a level's phase, and of the light on the border none.
+    // sinc² of half a level's phase, times the share of the light that is not on the border.
     EXPECT_NEAR(pattern.efficiency, std::pow(std::sin(std::numbers::pi / 16) / (std::numbers::pi / 16), 2) * 192 / 220,
                 0.01);
 }

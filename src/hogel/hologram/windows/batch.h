@@ -14,62 +14,64 @@ namespace hogel::hologram::windows {
 
 /// A direction of a window's Fourier transform, with the ray of the light field nearest to it.
 struct WindowDirection {
-    std::uint32_t coefficient;  // [row][column] of the transform
-    std::uint32_t ray;          // [l][k] of the light field
+    std::uint32_t coefficient;  // index [row][column] of the transform
+    std::uint32_t ray;          // index [l][k] of the light field
     float share;                // |a|² for unit radiance, (λ/W)²/cos θ
     float U, V;
     double cycles_per_depth;  // 1/(λ cos θ)
-    double first_cycles;      // the phase of the window's first sample, counted from its centre
+    double first_cycles;      // phase at the window's first sample, relative to its centre
 };
 
-/// The windows of sixteen hogels side by side, made together: a hogel to a lane of the vectors. Small transforms are
-/// sums over all directions, so that all work is sums of whole vectors.
+/// Computes the windows of sixteen hogels side by side, one hogel per vector lane. Small transforms are computed as
+/// plain sums over all directions, so that all work is on whole vectors.
 class WindowBatch {
   public:
     static constexpr std::size_t hogels = 16;
-    /// The largest side for which sums are quicker than transforms.
+    /// The largest side for which sums are faster than FFTs.
     static constexpr std::size_t max_side = 20;
 
     /// Constants that the windows of one hologram share. Sides and hops in samples.
     struct Shared {
         std::size_t side = 0, hop = 0;
         const std::vector<WindowDirection>* directions = nullptr;
-        const std::vector<float>* brightness = nullptr;  // by |ζ| in steps, the last for all beyond
-        const std::vector<float>* window = nullptr;      // along a line
+        const std::vector<float>* brightness = nullptr;  // by |ζ| in steps; the last value for all larger depths
+        const std::vector<float>* window = nullptr;      // along one axis
         double steps_a_metre = 0, hogels_a_metre = 0, waves_a_metre = 0, pitch = 0;
     };
     explicit WindowBatch(const Shared& shared);
 
-    /// Phases in cycles of the point (columns to the right, rows up) of each of the hogels; empty where points have
-    /// none.
+    /// Gives the phases, in cycles, of the point (columns to the right, rows up) of each of the hogels; empty if points
+    /// have no phases.
     using PointCycles = std::function<void(const std::int32_t* columns, const std::int32_t* rows, float* cycles)>;
-    /// Which hogels: columns s, s + 1, ... of row t; and the random phases of rays that meet nothing, which for a
-    /// direction are the first word of Philox's draw {s, t, coefficient + 1, series}.
+    /// The hogels, columns s, s + 1, … of row t, and the series of the random phases of rays that meet nothing; the
+    /// phase of a direction is the first word of Philox's draw {s, t, coefficient + 1, series}.
     struct At {
         std::size_t s = 0, t = 0;
         std::uint32_t series = 0;
         std::array<std::uint32_t, 2> key{};
     };
 
-    /// Rays of hogels that lie one after the other, `count` of them, [hogel][rays]. Where all are dark there is nothing
-    /// to add, and this returns false.
+    /// Computes the windows of `count` hogels from their rays, [hogel][rays]. Returns false if all rays are dark, so
+    /// that there is nothing to add.
     bool fill(const At& at, const float* radiance, const float* depth, std::size_t count, std::size_t rays,
               const PointCycles& points);
 
-    /// Samples to which windows are added: real and imaginary parts apart, and in a row those that are a hop apart side
-    /// by side.
+    /// Samples to which windows are added. Real and imaginary parts are separate; in a row, samples that are one hop
+    /// apart are adjacent.
     struct Sum {
-        std::size_t first_x = 0, first_y = 0;  // counted from a window's first sample of the hologram's first hogel
-        std::size_t height = 0, row = 0;       // rows; numbers in a row of one remainder, with room for all windows
-        Array<float, 1> re, im;                // [height][hop][row]
+        std::size_t first_x = 0,
+                    first_y = 0;  // relative to the first sample of the window of the hologram's first hogel
+        std::size_t height = 0,
+                    row = 0;     // rows; samples of a row for one remainder modulo the hop, with room for all windows
+        Array<float, 1> re, im;  // [height][hop][row]
     };
-    /// Adds the windows that were filled last.
+    /// Adds the windows of the last fill().
     void add(const At& at, Sum& sum);
 
-    // The data of the vector code; all arrays have a hogel a lane.
+    // Buffers of the vector code. In all arrays lanes are hogels.
     struct Work {
         std::size_t side, padded, hop;
-        std::vector<std::uint32_t> rows;        // of the transform, those with directions
+        std::vector<std::uint32_t> rows;        // rows of the transform that have directions
         Array<float, 1> radiance, depth;        // [ray]
         Array<float, 1> re, im;                 // [row][column]
         Array<float, 1> across_re, across_im;   // [row][x], padded rows

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-// Compiled for every instruction set and chosen when first called. The plain twin is OverlapAddHologram one by one.
+// Compiled for every SIMD target and chosen when first called. The plain twin is OverlapAddHologram::add_one_by_one().
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/hologram/windows/batch_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/core/random.h"
@@ -26,8 +26,8 @@ using Wide = hn::CappedTag<double, 1>;
 using Wide = hn::Repartition<double, D>;
 #endif
 
-// Phases, in cycles less than one, of the points that the rays meet at their depths; for points with phases of their
-// own which points these are, counted from the hogel.
+// Computes the phases (a fraction of a cycle) of the points that the rays meet and, for points with random phases, the
+// offsets of these points from the hogel.
 void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& direction, const float* depths,
                      bool points, float* cycles, std::int32_t* columns, std::int32_t* rows) {
     const Wide d;
@@ -52,7 +52,7 @@ void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& d
     }
 }
 
-// amplitude · e^{2πi cycles}, by the series of the sine and the cosine up to an eighth of a cycle.
+// Stores amplitude · e^{2πi cycles}, by power series of sine and cosine up to an eighth of a cycle.
 HWY_INLINE void StoreWave(D d, V amplitude, V cycles, float* re, float* im) {
     const hn::RebindToSigned<D> whole;
     const auto quarters = hn::Round(hn::Mul(cycles, hn::Set(d, 4.0f)));
@@ -85,7 +85,7 @@ void CyclesOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float
                     0x1p-32f;
 }
 #else
-// A draw of Philox a hogel, in lanes of 64 bits.
+// Random phases of rays that meet nothing: one draw of Philox per hogel, in lanes of 64 bits.
 void CyclesOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float* cycles) {
     const hn::CappedTag<std::uint64_t, width> d;
     const auto low = hn::Set(d, 0xffffffffu);
@@ -120,7 +120,7 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
             const auto finite = hn::IsFinite(ray);
             something = something || !hn::AllFalse(d, lit);
             all_finite = all_finite && hn::AllTrue(d, finite);
-            // Nothing is a surface far away.
+            // A ray that meets nothing is treated as one to a distant surface.
             const auto at = hn::IfThenElse(
                 finite,
                 hn::Min(hn::Mul(hn::Abs(ray), hn::Set(d, static_cast<float>(shared.steps_a_metre))), hn::Set(d, last)),
@@ -158,7 +158,7 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
     }
 }
 
-// Three sums at once of numbers times roots of unity: out[x] = Σ in[k] e^{2πi kx/n} for x, x + 1 and x + 2.
+// Three sums at once: out[x] = Σ in[k] e^{2πi kx/n} for x, x + 1 and x + 2.
 struct Three {
     V re0, im0, re1, im1, re2, im2;
 };
@@ -186,7 +186,7 @@ struct Place {
     std::size_t from, root;
 };
 
-// Rows of directions to rows of samples.
+// Transforms rows of directions to rows of samples.
 void TransformRows(WindowBatch::Work& work) {
     const D d;
     const std::size_t n = work.side, padded = work.padded;
@@ -208,7 +208,8 @@ void TransformRows(WindowBatch::Work& work) {
             }
 }
 
-// Columns, weighted with the window and added: sample (p, q) of all windows goes to `places[p]` in row q, side by side.
+// Transforms columns, weights them with the window and adds them: sample (p, q) of all windows is added at `places[p]`
+// in row q.
 void AddColumns(WindowBatch::Work& work, std::size_t q0, std::size_t q1, const std::size_t* places, std::size_t row,
                 float* sum_re, float* sum_im) {
     const D d;
@@ -295,7 +296,7 @@ bool WindowBatch::fill(const At& at, const float* radiance, const float* depth, 
 }
 
 void WindowBatch::add(const At& at, Sum& sum) {
-    // The window's sample (p, q) is sample (s hop + p, t hop + q).
+    // The window's sample (p, q) is sample (s hop + p, t hop + q) of the sum.
     const std::size_t y = at.t * shared_.hop, end = sum.first_y + sum.height;
     const std::size_t q0 = y < sum.first_y ? sum.first_y - y : 0, q1 = y < end ? std::min(shared_.side, end - y) : 0;
     if (q0 >= q1) return;

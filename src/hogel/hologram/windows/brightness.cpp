@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::size_t steps = 256;
 
-// Directions along one axis: the middle and half of their range of U or V, and the factor by which the path to the
-// surface is longer because the fan is oblique along the other axis.
+// The directions along one axis: the middle and half the width of their range of U or V, and the factor by which the
+// path to the surface is longer because the fan is oblique along the other axis.
 struct Fan {
     double center, half, slant;
     friend bool operator==(const Fan&, const Fan&) = default;
 };
 
-// Windows along a line.
+// Windows along one axis.
 struct Line {
     std::span<const float> window;
     std::size_t hop;
@@ -33,7 +33,7 @@ double one_dimension(const Line& line, double depth, const Fan& fan, const math:
     Array<std::complex<float>, 2> sum({1, fft.width()});
     const auto length = static_cast<std::ptrdiff_t>(fft.width());
     const auto reach = static_cast<std::ptrdiff_t>((side - 1) / 2);
-    // Counted from the fan's middle, so that a fan to one side does not reach farther than one straight ahead.
+    // Positions are relative to the fan's middle, so that an oblique fan needs no more windows than one straight ahead.
     const double middle_hops = std::round(-fan.center * depth / hop);
     double lit = 0, middle = 0;
     for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
@@ -55,7 +55,7 @@ double one_dimension(const Line& line, double depth, const Fan& fan, const math:
     }
     fft.forward(sum);
     if (lit == 0) return 0;
-    // The fan reaches up to lit/2 of the window's frequencies on either side of its middle, which counts most.
+    // The fan covers up to lit/2 of the window's frequencies on either side of its middle, where the weight is largest.
     middle *= static_cast<double>(length) / (lit * static_cast<double>(side));
     const double half = 0.5 * lit * static_cast<double>(length) / static_cast<double>(side);
     double energy = 0, expected = 0;

@@ -19,8 +19,8 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// The window's side in samples: at least twice a hogel's, as long as the directions' spacing allows, a multiple of the
-// hogel's so that windows add up to a constant, and centred on the hogel.
+// The window's side in samples: at least two hogels, as large as the spacing of directions allows, a multiple of the
+// hogel's side so that windows add up to a constant, and such that the window is centred on the hogel.
 std::size_t window_side(const LightFieldGrid& light_field, const FieldGrid& grid, std::size_t hop) {
     const double step = std::min(light_field.step_u(), light_field.step_v());
     const double hogels = std::round(grid.wavelength / (step * light_field.pitch));
@@ -39,16 +39,16 @@ std::vector<float> hann_window(std::size_t side) {
 
 std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
 
-// A stereogram of windows that overlap: a Hann window around each hogel's centre, filled by one Fourier transform with
-// the waves of its directions, each with the phase of a spherical wave from the point that the ray meets; all windows
-// are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
+// A stereogram of overlapping windows: a Hann window around each hogel's centre contains the waves of its directions,
+// computed by one Fourier transform, each with the phase of a spherical wave from the point that the ray meets. All
+// windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
 // stereograms", ACM TOG 38(6), 2019.
 class OverlapAddHologram final : public FieldSource {
   public:
-    OverlapAddHologram(LightField::Source light_field, const FieldGrid& grid, const HologramOptions& options,
+    OverlapAddHologram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options,
                        PointPhases phases, bool one_by_one)
-        : source_(std::move(light_field)),
-          light_field_(*source_),
+        : source_(light_field),
+          light_field_(source_.front()),
           phases_(phases),
           options_(options),
           grid_(grid),
@@ -68,6 +68,7 @@ class OverlapAddHologram final : public FieldSource {
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return options_.looks; }
     std::size_t alignment() const override { return hop_; }
+    const Provenance& provenance() const override { return source_.provenance(); }
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
         validate(region, grid_, out.shape());
@@ -90,7 +91,7 @@ class OverlapAddHologram final : public FieldSource {
         WindowBatch::Sum sum;
     };
 
-    // Calls use(tile) for few rows of hogels at once, to bound memory.
+    // Calls use(tile) for a few rows of hogels at a time, to bound memory.
     template <class Use>
     void for_each_band(const HogelRange& hogels, LightFieldTile& tile, const Use& use) const {
         const std::size_t rows = std::max<std::size_t>(1, band_rays / (hogels.ns * light_field_.grid().directions()));
@@ -104,7 +105,7 @@ class OverlapAddHologram final : public FieldSource {
         }
     }
 
-    // The plain version. Every sample adds its windows in the same order, whatever the region.
+    // The plain version. Windows are added to a sample in the same order for every region.
     void add_one_by_one(const HogelRange& hogels, const Region& region, std::size_t look, Room& room,
                         View<Complex, 2> out) const {
         std::fill(out.data(), out.data() + out.size(), Complex(0));
@@ -123,8 +124,7 @@ class OverlapAddHologram final : public FieldSource {
         });
     }
 
-    // Batches begin at the same hogels whatever the region, and so does the order in which a sample's windows are
-    // added.
+    // Batches begin at the same hogels for every region, so that windows are added to a sample in the same order.
     void add_batches(HogelRange hogels, const Region& region, std::size_t look, Room& room,
                      View<Complex, 2> out) const {
         constexpr std::size_t together = WindowBatch::hogels;
@@ -203,7 +203,7 @@ class OverlapAddHologram final : public FieldSource {
                 };
                 const std::size_t k = nearest(rays.column(U), rays.directions_u);
                 const std::size_t l = nearest(rays.row(V), rays.directions_v);
-                // Rows run down while y runs up, so a row of the transform is −j_y.
+                // Rows are counted downwards but y upwards, so a row of the transform is −j_y.
                 const auto row = static_cast<std::size_t>((n - jy) % n),
                            column = static_cast<std::size_t>((n + jx) % n);
                 const double first = -0.5 * static_cast<double>(n - 1) / static_cast<double>(n);
@@ -241,13 +241,15 @@ class OverlapAddHologram final : public FieldSource {
                 static_cast<std::uint32_t>(look * 4 + options_.channel.index)};
     }
 
-    // A ray that meets nothing sees a surface far away, of which neighbouring windows see different points.
+    // A ray that meets nothing is treated as one to a distant surface, of which neighbouring windows see different
+    // points.
     double cycles_of_nothing(const WindowDirection& direction, const HogelPlace& place) const {
         return cycle_series(place.look)(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
                                         direction.coefficient + 1);
     }
 
-    // A diffuse surface is a point for each hogel, at the hogels' own places in x and y; a ray shows the nearest.
+    // A diffuse surface consists of one point per hogel, at the hogels' positions in x and y; a ray shows the nearest
+    // point.
     double cycles_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
                            const PointCycles& points) const {
         const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
@@ -269,7 +271,7 @@ class OverlapAddHologram final : public FieldSource {
     void add(View<const Complex, 2> window, std::size_t s, std::size_t t, const Region& region,
              View<Complex, 2> out) const {
         const auto before = static_cast<std::ptrdiff_t>((side_ - hop_) / 2);
-        // Where the window's first sample lies in the region.
+        // The position of the window's first sample in the region.
         const auto left = static_cast<std::ptrdiff_t>(s * hop_) - before - static_cast<std::ptrdiff_t>(region.x0);
         const auto top = static_cast<std::ptrdiff_t>(t * hop_) - before - static_cast<std::ptrdiff_t>(region.y0);
         const auto cut = [this](std::ptrdiff_t start, std::size_t length) {
@@ -288,7 +290,7 @@ class OverlapAddHologram final : public FieldSource {
         }
     }
 
-    LightField::Source source_;
+    LightField source_;
     const LightFieldSource& light_field_;
     PointPhases phases_;
     HologramOptions options_;
@@ -296,19 +298,19 @@ class OverlapAddHologram final : public FieldSource {
     std::size_t hop_, side_;  // samples of a hogel's and a window's side
     math::Fft2 fft_;
     UnitRoots roots_;
-    std::vector<float> window_;  // along a line
+    std::vector<float> window_;  // along one axis
     WindowBrightness brightness_;
-    std::vector<float> square_;  // [q][p], a product of two
+    std::vector<float> square_;  // [q][p]: the product of two
     std::vector<WindowDirection> directions_;
     // Reciprocals, so that rays need no divisions.
     double hogels_a_metre_ = 0, waves_a_metre_ = 0;
-    bool batches_ = false;  // windows of many hogels at once
+    bool batches_ = false;  // whether windows are computed in batches of hogels
     mutable core::ObjectPool<Room> rooms_;
 };
 
 }  // namespace
 
-std::shared_ptr<const FieldSource> make_overlap_add(const LightField::Source& light_field, const FieldGrid& grid,
+std::shared_ptr<const FieldSource> make_overlap_add(const LightField& light_field, const FieldGrid& grid,
                                                     const HologramOptions& options, PointPhases phases,
                                                     bool one_by_one) {
     return std::make_shared<OverlapAddHologram>(light_field, grid, options, phases, one_by_one);

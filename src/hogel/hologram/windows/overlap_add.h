@@ -9,10 +9,10 @@
 
 namespace hogel::hologram::windows {
 
-/// A hologram whose hogels are windows that overlap.
-/// @param one_by_one  the plain version, which is taken for large windows anyway; the fast one makes windows of many
-///                    hogels at once
-std::shared_ptr<const FieldSource> make_overlap_add(const LightField::Source& light_field, const FieldGrid& grid,
+/// Makes a hologram of overlapping windows (OLAS).
+/// @param one_by_one  use the plain version, which is always used for large windows; the fast one computes the windows
+///                    of many hogels at once
+std::shared_ptr<const FieldSource> make_overlap_add(const LightField& light_field, const FieldGrid& grid,
                                                     const HologramOptions& options, PointPhases phases,
                                                     bool one_by_one = false);
 

@@ -17,7 +17,7 @@ HOGEL_TEST_ON_EVERY_TARGET(OverlapAddHologram);
 
 using Complex = std::complex<float>;
 
-// Rays that are dark, that meet something on either side of the plane, and that meet nothing.
+// A light field with rays that are dark, that meet something on either side of the plane, and that meet nothing.
 LightFieldBuffer noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u, std::size_t directions_v,
                        double pitch) {
     LightFieldBuffer field(

@@ -71,7 +71,7 @@ Bytes from_hex(std::string_view hex) {
     return bytes;
 }
 
-// Three rows of two columns, row by row 0 + 6i, 1 + 7i, 2 + 8i, …, as scipy 1.10 writes them.
+// Three rows of two columns, 0 + 6i, 1 + 7i, 2 + 8i, … row by row, as written by scipy 1.10.
 Bytes mat(std::string_view elements) {
     constexpr std::string_view text = "MATLAB 5.0 MAT-file", end{"\0\1IM", 4};
     Bytes bytes(128, ' ');
@@ -91,7 +91,7 @@ const Bytes& plain_mat() {
             "002640");
     return bytes;
 }
-const Bytes& compressed_mat() {  // and a wavelength beside the array
+const Bytes& compressed_mat() {  // with a wavelength beside the array
     static const Bytes bytes =
         mat("0f0000004d000000789ce36360605800c46c40cc01a2410410b042f9cc40cc04c48c50b1b4ccd49c1420cd09c4060c18c001420940"
             "e90ff6"
@@ -108,7 +108,7 @@ const Bytes& two_arrays_mat() {
     return bytes;
 }
 
-// The same array in HDF5 behind MATLAB's header, as h5py 3.7 writes it: in one piece; and compressed in chunks, with a
+// The same array in HDF5 behind MATLAB's header, as written by h5py 3.7: contiguous, and compressed in chunks with a
 // wavelength beside it.
 Bytes mat73(std::string_view elements) {
     constexpr std::string_view text = "MATLAB 7.3 MAT-file", end{"\0\2IM", 4};
@@ -272,7 +272,7 @@ TEST_F(ExternalFields, of_pictures_are_phases_amplitudes_or_real_and_imaginary_p
     EXPECT_THROW(open_external_field(directory_ / "r.exr", what), Error);
 }
 
-// HDF5 reserves room for later content: zeros far from anything else, which are never read.
+// HDF5 reserves space for later content, zeros far from other data, which are never read.
 bool is_padding(const Bytes& bytes, std::size_t at) {
     constexpr std::size_t far = 4;
     const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at - std::min(at, far));
@@ -280,7 +280,7 @@ bool is_padding(const Bytes& bytes, std::size_t at) {
     return std::all_of(begin, end, [](unsigned char byte) { return byte == 0; });
 }
 
-// A damaged file is refused or gives some field; nothing else happens.
+// A damaged file is either refused or read as some field, without a crash.
 TEST_F(ExternalFields, in_damaged_files_are_refused_or_read) {
     const fs::path path = directory_ / "x";
     ExternalField what = known();
@@ -304,7 +304,7 @@ TEST_F(ExternalFields, in_damaged_files_are_refused_or_read) {
     for (const Bytes& whole :
          {npy_rows(), plain_mat(), compressed_mat(), two_arrays_mat(), plain_mat73(), chunked_mat73()}) {
         const std::size_t before = refused;
-        const std::size_t head = whole[0] == 0x93 ? 6 : 128;  // shorter files are taken for pictures
+        const std::size_t head = whole[0] == 0x93 ? 6 : 128;  // shorter files are treated as pictures
         std::size_t cut = 0;
         for (std::size_t length = head; length < whole.size(); ++length) {
             if (is_padding(whole, length)) continue;
@@ -315,7 +315,7 @@ TEST_F(ExternalFields, in_damaged_files_are_refused_or_read) {
         for (std::size_t at = std::min<std::size_t>(head, 120); at < whole.size(); ++at) {
             if (is_padding(whole, at)) continue;
             constexpr int flips[] = {0x01, 0x90, 0xff};
-            const std::size_t one = at % 3;  // larger files are damaged in one way at each byte
+            const std::size_t one = at % 3;  // in larger files each byte is damaged in only one way
             for (int flip : whole.size() < 1000 ? std::span(flips) : std::span(flips).subspan(one, 1)) {
                 Bytes damaged = whole;
                 damaged[at] = static_cast<unsigned char>(damaged[at] ^ flip);

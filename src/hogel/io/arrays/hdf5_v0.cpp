@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// More than any valid file of arrays has; in a damaged one, trees may be circular.
+// Limits that no valid file of arrays reaches, because trees of a damaged file may be circular.
 constexpr std::size_t max_members = 65536, max_nodes = 65536;
 
 bool begins(std::span<const unsigned char> bytes, const char* signature) {
@@ -155,7 +155,7 @@ std::vector<Hdf5V0Dataset> Hdf5V0::datasets() const {
     std::vector<Hdf5V0Dataset> list;
     for (const Link& link : Group(*this, table->first, table->second).links) {
         Hdf5V0Dataset dataset = hdf5_v0_dataset(*this, link.name, link.header);
-        if (dataset.element_bytes > 0) list.push_back(std::move(dataset));  // the rest are groups
+        if (dataset.element_bytes > 0) list.push_back(std::move(dataset));  // others are groups
     }
     return list;
 }

@@ -15,9 +15,9 @@ namespace hogel::io::arrays {
 /// A dataset of an HDF5 file with superblock version 0 or 1.
 struct Hdf5V0Dataset {
     struct Member {
-        std::string name;  ///< empty where an element is a single number
+        std::string name;  ///< empty if an element is a single number
         Number number = Number::real;
-        std::size_t offset = 0;  ///< of the number in its element
+        std::size_t offset = 0;  ///< offset of the number in the element, bytes
     };
     struct Filter {
         std::uint64_t id = 0;
@@ -26,26 +26,27 @@ struct Hdf5V0Dataset {
     enum class Layout { none, compact, contiguous, chunked };
 
     std::string name;
-    std::vector<std::uint64_t> shape;  ///< the last axis fastest
-    std::vector<Member> members;       ///< of an element; none where it is of a type that is not read here
+    std::vector<std::uint64_t> shape;  ///< last axis fastest
+    std::vector<Member> members;       ///< of an element; empty for a type that is not supported
     std::size_t element_bytes = 0;
-    std::map<std::string, std::string> texts;  ///< its attributes that are texts
+    std::map<std::string, std::string> texts;  ///< the text attributes
 
     Layout layout = Layout::none;
-    std::vector<unsigned char> compact;    ///< all samples
-    std::optional<std::uint64_t> address;  ///< of the samples, or of the tree of chunks; none where nothing was written
-    std::uint64_t bytes = 0;               ///< of contiguous samples
-    std::vector<std::uint64_t> chunk;      ///< shape of the chunks
-    std::vector<Filter> filters;           ///< of the chunks, in the order of writing
+    std::vector<unsigned char> compact;  ///< all samples, if stored in the header
+    std::optional<std::uint64_t>
+        address;                       ///< address of the samples or of the tree of chunks; none if nothing was written
+    std::uint64_t bytes = 0;           ///< size of contiguous samples
+    std::vector<std::uint64_t> chunk;  ///< shape of the chunks
+    std::vector<Filter> filters;       ///< filters of the chunks, in the order in which they were applied
 
     std::uint64_t samples() const;
 };
 
-/// An HDF5 file with superblock version 0 or 1, which the HDF5 library writes unless asked for later structures, and
-/// MATLAB behind a block of its own. These structures have no checksums, and the HDF5 library crashes where they are
-/// damaged. So the part of them that files of arrays need is read here (HDF5 file format specification 3.0): the
-/// datasets of the root group, contiguous or in chunks, plain or with the filters deflate, shuffle and fletcher32. All
-/// members throw Error(bad_input).
+/// An HDF5 file with superblock version 0 or 1, which the HDF5 library writes by default, and MATLAB behind a block of
+/// its own. These structures have no checksums, and the HDF5 library crashes if they are damaged. Therefore the part
+/// that files of arrays need is read here (HDF5 file format specification 3.0): the datasets of the root group,
+/// contiguous or in chunks, plain or with the filters deflate, shuffle and fletcher32. All members throw
+/// Error(bad_input).
 class Hdf5V0 {
   public:
     explicit Hdf5V0(const std::filesystem::path& path);
@@ -69,10 +70,10 @@ void for_each_hdf5_v0_message(
     const Hdf5V0& file, std::uint64_t address,
     const std::function<void(std::uint64_t type, std::uint64_t flags, const std::vector<unsigned char>& message)>& use);
 
-/// The dataset whose header is at an address; element_bytes is 0 where that is a group.
+/// Reads the dataset whose header is at an address; element_bytes is 0 if it is a group.
 Hdf5V0Dataset hdf5_v0_dataset(const Hdf5V0& file, const std::string& name, std::uint64_t header);
 
-/// Takes bytes one after the other. Throws Error(bad_input) at their end.
+/// Reads numbers and texts one after the other. Throws Error(bad_input) at the end of the bytes.
 class ByteCursor {
   public:
     ByteCursor(const Hdf5V0& file, std::span<const unsigned char> bytes)

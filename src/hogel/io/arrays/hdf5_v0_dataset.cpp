@@ -14,7 +14,7 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr std::uint64_t undefined = ~std::uint64_t{0};
 constexpr std::size_t max_axes = 32;
-constexpr std::size_t max_blocks = 1024;  // more than any valid header has; in a damaged one, blocks may be circular
+constexpr std::size_t max_blocks = 1024;  // no valid header has as many; blocks of a damaged one may be circular
 
 std::vector<std::uint64_t> extents(const Hdf5V0& file, std::span<const unsigned char> message) {
     ByteCursor rest(file, message);
@@ -67,7 +67,7 @@ Type type_head(ByteCursor& rest) {
     return type;
 }
 
-// The type of the elements, a number or a compound of numbers (IV.A.2.d); no members for any other type.
+// Reads the type of the elements, a number or a compound of numbers (IV.A.2.d); any other type gives no members.
 void take_type(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     constexpr std::uint64_t compound = 6;
     ByteCursor rest(file, message);
@@ -104,7 +104,7 @@ void take_type(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset)
 
 void take_layout(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& dataset) {
     ByteCursor rest(file, message);
-    if (rest.number(1) != 3) return;  // not read here; Hdf5V0::read() refuses it
+    if (rest.number(1) != 3) return;  // not supported; Hdf5V0::read() refuses it
     const auto address = [&]() -> std::optional<std::uint64_t> {
         const std::uint64_t at = rest.number(8);
         return at == undefined ? std::nullopt : std::optional(at);
@@ -123,7 +123,7 @@ void take_layout(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& datase
             break;
         case 2: {
             dataset.layout = Hdf5V0Dataset::Layout::chunked;
-            const std::uint64_t axes = rest.number(1);  // the axes of the array, and one for the bytes of an element
+            const std::uint64_t axes = rest.number(1);  // the axes of the array, plus one for the bytes of an element
             if (axes < 2 || axes > max_axes + 1) file.fail("an array's layout is damaged");
             dataset.address = address();
             for (std::uint64_t axis = 0; axis + 1 < axes; ++axis) dataset.chunk.push_back(rest.number(4));
@@ -211,7 +211,7 @@ Hdf5V0Dataset hdf5_v0_dataset(const Hdf5V0& file, const std::string& name, std::
     dataset.name = name;
     for_each_hdf5_v0_message(file, header, [&](std::uint64_t type, std::uint64_t flags, const Bytes& message) {
         constexpr std::uint64_t shared = 2;
-        if ((flags & shared) != 0) return;  // stored elsewhere; such a type is not read here
+        if ((flags & shared) != 0) return;  // stored elsewhere, which is not supported
         if (type == 0x1) dataset.shape = extents(file, message);
         if (type == 0x3) take_type(file, message, dataset);
         if (type == 0x8) take_layout(file, message, dataset);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The samples of datasets of HDF5 files with superblock version 0 or 1: chunks in a tree (HDF5 file format
-// specification III.A.1), with their filters (IV.A.2.l) undone.
+// specification III.A.1), with their filters (IV.A.2.l) inverted.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -25,7 +25,7 @@ Bytes inflated(const Hdf5V0& file, const Bytes& packed, std::size_t bytes) {
     return plain;
 }
 
-// Undoes the filter shuffle, which stores the first bytes of all numbers, then all second bytes, and so on.
+// Inverts the filter shuffle, which stores the first bytes of all numbers, then all second bytes, and so on.
 Bytes unshuffled(const Bytes& shuffled, std::size_t element) {
     const std::size_t count = shuffled.size() / element;
     Bytes plain = shuffled;
@@ -34,8 +34,8 @@ Bytes unshuffled(const Bytes& shuffled, std::size_t element) {
     return plain;
 }
 
-// Whether this is Fletcher's checksum over big-endian words of 16 bits. A half of it that is zero modulo 65535 may be
-// stored as 0 or as 65535.
+// Whether `stored` is Fletcher's checksum of the bytes as big-endian 16-bit words. A half of the checksum that is zero
+// modulo 65535 may be stored as 0 or as 65535.
 bool is_fletcher(std::uint32_t stored, std::span<const unsigned char> bytes) {
     std::uint32_t low = 0, high = 0;
     for (std::size_t i = 0; i < bytes.size(); i += 2) {
@@ -92,7 +92,7 @@ class Chunks {
         }
     }
 
-    // Undoes the filters, the last first; a set bit of `left_out` marks a filter that was not applied.
+    // Inverts the filters, last one first; a set bit of `left_out` marks a filter that was not applied.
     Bytes plain(Bytes bytes, std::uint64_t left_out) const {
         constexpr std::uint64_t deflate = 1, shuffle = 2, checksum = 3;
         for (std::size_t i = dataset_.filters.size(); i-- > 0;) {
@@ -132,7 +132,7 @@ class Chunks {
         if (placed_[index]) fail("has a chunk twice");
         placed_[index] = true;
         --missing_;
-        // Line by line along the last axis, without what a chunk holds beyond the ends of the array.
+        // Copies line by line along the last axis, without the part of a chunk beyond the ends of the array.
         const std::uint64_t line = dataset_.chunk[axes - 1];
         const std::uint64_t held = std::min(line, dataset_.shape[axes - 1] - start[axes - 1]);
         const std::uint64_t lines = chunk_bytes_ / dataset_.element_bytes / line;

@@ -16,7 +16,7 @@ std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-// By the version in the header, which precedes the mark of the byte order.
+// Whether the version in the header, which precedes the byte-order mark, is 7.3.
 bool is_version_73(const std::filesystem::path& path) {
     const core::RawFile file(path, core::RawFile::Mode::read, path);
     unsigned char version[4];
@@ -24,7 +24,7 @@ bool is_version_73(const std::filesystem::path& path) {
     return version[1] == 2 && version[2] == 'I' && version[3] == 'M';
 }
 
-// The only array. Throws Error(bad_input) for none and for several.
+// The only array. Throws Error(bad_input) if there is none or more than one.
 const MatArray& chosen(const std::filesystem::path& path, const std::vector<MatArray>& arrays,
                        const std::string& name) {
     if (arrays.size() == 1) return arrays.front();

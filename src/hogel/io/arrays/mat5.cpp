@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MAT files of version 5 (MATLAB 5 to 7.2, and what most programs write): a header of 128 bytes and elements, each a
-// type, a length and so many bytes, padded to eight. An array is an element of elements: flags, extents, name, real
-// parts, imaginary parts. Version 7 compresses whole arrays with zlib.
+// MAT files of version 5 (MATLAB 5 to 7.2, and the version that most programs write): a header of 128 bytes, then
+// elements, each a type, a length and that number of bytes, padded to eight. An array is an element that contains
+// elements: flags, extents, name, real parts, imaginary parts. Version 7 compresses whole arrays with zlib.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -23,7 +23,7 @@ struct Element {
     std::span<const unsigned char> bytes;
 };
 
-// Takes elements one after the other.
+// Reads elements one after the other.
 class Elements {
   public:
     Elements(const std::filesystem::path& path, std::span<const unsigned char> bytes) : path_(path), rest_(bytes) {}
@@ -68,7 +68,7 @@ std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span
     } end{stream};
     stream.next_in = const_cast<unsigned char*>(compressed.data());
     stream.avail_in = static_cast<unsigned>(compressed.size());
-    // The head of the array inside tells how long it is.
+    // The header of the array inside gives its length.
     std::vector<unsigned char> bytes(8);
     const auto fill = [&](std::size_t from) {
         while (from < bytes.size()) {
@@ -130,7 +130,7 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
     };
     take(array.real_number, array.real);
     if ((flags.bytes[1] & complex) != 0) take(array.imaginary_number, array.imaginary);
-    // Doubles may be stored as small whole numbers; phases are then in radians all the same.
+    // Doubles may be stored as small whole numbers, but phases are then still in radians.
     array.floating = kind == first_number || kind == first_number + 1;
     arrays.push_back(std::move(array));
 }

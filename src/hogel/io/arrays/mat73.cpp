@@ -27,7 +27,7 @@ bool is_complex(const Hdf5V0Dataset& dataset) {
            dataset.members[1].name == "imag";
 }
 
-// Texts, logical arrays and cells are stored as whole numbers, too.
+// Texts, logical arrays and cells are also stored as whole numbers.
 bool is_numeric(const Hdf5V0Dataset& dataset) {
     static constexpr const char* classes[] = {"double", "single", "int8",   "uint8", "int16",
                                               "uint16", "int32",  "uint32", "int64", "uint64"};

@@ -23,7 +23,7 @@ struct Header {
     Number number = Number::real;
     bool complex = false, by_columns = false;
     std::size_t height = 0, width = 0;
-    std::uint64_t begin = 0;  // of the numbers
+    std::uint64_t begin = 0;  // offset of the numbers
 };
 
 // The text after "'key':", or nothing.
@@ -37,7 +37,7 @@ std::string_view value_of(std::string_view header, const char* key) {
     return at == std::string_view::npos ? std::string_view{} : header.substr(at);
 }
 
-// Takes a whole number from the start of a text; false where there is none below 2^40.
+// Reads a whole number from the start of a text. Returns false if there is none below 2^40.
 bool take_number(std::string_view& text, std::size_t& number) {
     number = 0;
     std::size_t digits = 0;

@@ -9,14 +9,14 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-constexpr std::size_t max_text = 60000;  // an object header message of HDF5 holds 64 kB
+constexpr std::size_t max_text = 60000;  // a message in an object header of HDF5 holds 64 kB
 constexpr hsize_t max_attributes = 1000;
 
 struct Attribute {
     Handle id, type;
 };
 
-// An attribute of a single value, stored as a scalar or as an array of one element.
+// Opens an attribute of a single value, stored as a scalar or as an array of one element.
 Attribute open_attribute(hid_t object, const char* name, const std::filesystem::path& path) {
     if (!has_attribute(object, name, path)) fail(path, fmt::format("its attribute '{}' is missing", name));
     Attribute attribute;

@@ -15,14 +15,14 @@ namespace {
 using hdf5::Element;
 using hdf5::Handle;
 
-constexpr std::size_t halves_at_once = 32768;  // converted together: they stay in the caches
+constexpr std::size_t halves_at_once = 32768;  // half floats that are converted together, few enough for the caches
 constexpr std::size_t max_chunk = std::size_t{256} << 20;
 
 // Calls run(index in the array, index in the box, samples) for each contiguous run of samples of a box of a row-major
 // array.
 template <class Run>
 void for_each_run(const std::vector<std::size_t>& shape, const Box& box, const Run& run) {
-    // Contiguous are the innermost axes that the box spans wholly, and the next one.
+    // A run extends over the innermost axes that the box spans completely and along the next one.
     std::size_t axis = shape.size() - 1, length = box.extent[axis];
     while (axis > 0 && box.extent[axis] == shape[axis]) length *= box.extent[--axis];
     std::size_t runs = 1;
@@ -114,7 +114,7 @@ DatasetReader::~DatasetReader() {
     dataset_.close();
 }
 
-// Samples that were never written would be read as zeros, and a file may not refer to the content of other files.
+// Refuses samples that were never written, which would be read as zeros, and references to other files.
 void DatasetReader::check_storage(hid_t dataset, hid_t properties) {
     const H5D_layout_t layout = H5Pget_layout(properties);
     if (H5Pget_external_count(properties) != 0 || layout == H5D_VIRTUAL) fail("keeps its samples in other files");
@@ -232,14 +232,14 @@ DatasetFile::DatasetFile(const std::filesystem::path& path, const hdf5::Attribut
     }
     offsets_ = hdf5::lay_out_file(part, path, attributes, datasets_);
     raw_.emplace(part, core::RawFile::Mode::write, path);
-    raw_->reserve(raw_->size());  // HDF5 leaves a hole for the samples
+    raw_->reserve(raw_->size());  // HDF5 leaves the samples as a hole
     if (!journal_) return;
     raw_->flush();
     journal_->begin();
 }
 
-// The system lets one thread at a time write to a file. Threads that wait at each of the thousands of calls for a box
-// spend more time waiting than writing; with a lock they wait once.
+// The system lets only one thread at a time write to a file. A lock per box makes threads wait once, instead of at each
+// of the thousands of system calls for a box.
 void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* from) {
     const hdf5::NewDataset& to = datasets_[dataset];
     const std::size_t bytes = hdf5::bytes_of(to.element);

@@ -15,7 +15,7 @@
 
 namespace hogel::io::hdf5 {
 
-/// A box of an array: first index and extent along each axis.
+/// A box of an array, by first index and extent along each axis.
 struct Box {
     std::vector<std::size_t> start, extent;
 };
@@ -25,8 +25,8 @@ struct Box {
 /// thread at a time.
 class DatasetReader {
   public:
-    /// Checks the dataset and allocates nothing for it. Throws Error(bad_input) where it is missing, of another type or
-    /// shape, or not wholly written. Needs a Session.
+    /// Checks the dataset without allocating memory for it. Throws Error(bad_input) if it is missing, has another type
+    /// or shape, or was not completely written. Needs a Session.
     DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
                   std::shared_ptr<const core::RawFile> raw);
     ~DatasetReader();
@@ -48,13 +48,13 @@ class DatasetReader {
     hdf5::Element element_ = hdf5::Element::single;
     std::shared_ptr<const core::RawFile> raw_;
     std::uint64_t offset_ = 0;
-    hdf5::Handle dataset_;  // open only where HDF5 has to read it
+    hdf5::Handle dataset_;  // open only if HDF5 must read it
 };
 
-/// The shape of a dataset. Throws Error(bad_input) when there is no such dataset. Needs a Session.
+/// The shape of a dataset. Throws Error(bad_input) if there is none of that name. Needs a Session.
 std::vector<std::size_t> dataset_shape(hid_t file, const char* name, const std::filesystem::path& path);
 
-/// A file of datasets that is being written: laid out by HDF5, filled by any number of threads, and given its name.
+/// Writes a file of datasets: HDF5 lays it out, any number of threads fill it, and finish() gives it its name.
 class DatasetFile {
   public:
     /// @param resume  as in LightFieldFileOptions
@@ -63,12 +63,13 @@ class DatasetFile {
 
     void write(std::size_t dataset, const Box& box, const float* from);
     void write(std::size_t dataset, const Box& box, const std::complex<float>* from);
-    /// For work that can be resumed: whether a part was done in an earlier run; records that one is done.
+    /// For work that can be resumed: was_done() tells whether a part was done in an earlier run, note() records one
+    /// that is done.
     bool was_done(const core::Journal::Part& part) const { return journal_ && journal_->was_done(part); }
     void note(const core::Journal::Part& part) {
         if (journal_) journal_->note(part);
     }
-    /// Closes the file and gives it its name.
+    /// Closes the file and renames it to its final name.
     void finish();
     const std::filesystem::path& path() const { return output_.target(); }
 

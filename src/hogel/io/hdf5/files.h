@@ -8,18 +8,18 @@
 
 namespace hogel::io::hdf5 {
 
-/// HDF5 files as the rest of the module sees them: nothing outside this folder includes HDF5's own header.
+/// The interface of HDF5 files to the rest of the module. Only files in this folder include HDF5's header.
 
-/// True for a plain file that begins as HDF5 does. Throws Error(bad_input) where there is no such file.
+/// Whether this is a regular file that begins like HDF5. Throws Error(bad_input) if it does not exist.
 bool is_hdf5(const std::filesystem::path& path);
 
-/// Light field, hologram, or unknown, by the attribute "format". Throws Error(bad_input).
+/// Light field, hologram or unknown, by the attribute "format". Throws Error(bad_input).
 FileKind kind_of(const std::filesystem::path& path);
 
-/// Adds what a light field or a hologram says about itself. Throws Error(bad_input).
+/// Adds the facts about a light field or a hologram to a summary. Throws Error(bad_input).
 void summarize(const std::filesystem::path& path, FileSummary& summary);
 
 /// The faces of a light field, the front first. Throws Error(bad_input).
-std::vector<LightField::Source> open_faces(const std::filesystem::path& path);
+LightField open_light_field(const std::filesystem::path& path);
 
 }  // namespace hogel::io::hdf5

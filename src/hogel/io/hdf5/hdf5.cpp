@@ -28,9 +28,9 @@ std::uint64_t little_endian(const unsigned char* bytes, int n) {
     return value;
 }
 
-// HDF5 trusts what it reads: without checksums, which came with version 2 of the superblock, a flipped bit can crash
-// it, and so can a superblock extension, which neither hogel nor h5py writes. HDF5 file format specification 3.0, II.A;
-// all numbers little-endian.
+// Refuses files that could crash HDF5, which does not validate what it reads: those without checksums, which were
+// introduced by version 2 of the superblock, and those with a superblock extension, which neither hogel nor h5py
+// writes. HDF5 file format specification 3.0, II.A; all numbers little-endian.
 void check_superblock(const std::filesystem::path& path) {
     std::array<unsigned char, 48> start{};
     std::ifstream file(path, std::ios::binary);
@@ -57,8 +57,8 @@ void check_superblock(const std::filesystem::path& path) {
 }  // namespace
 
 Session::Session() : lock_(process_mutex()) {
-    // After a wrong checksum HDF5 1.10 fails to shut down at the end of the program and prints errors on stderr. Every
-    // file is closed by its Handle, so nothing is lost when HDF5 does not try.
+    // Disables HDF5's shutdown at exit, because after a wrong checksum HDF5 1.10 fails there and prints errors. Every
+    // file is closed by its Handle, so nothing is lost.
     static const herr_t first_call = H5dont_atexit();
     static_cast<void>(first_call);
     H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
@@ -99,7 +99,7 @@ Handle open_file(const std::filesystem::path& path) {
     if (!is_hdf5(path)) fail(path, "it is not an HDF5 file");
     check_superblock(path);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access.id(), false, true);  // files with their final name are never written to
+    H5Pset_file_locking(access.id(), false, true);  // files under their final name are never modified
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
     if (!file.valid()) fail(path, fmt::format("it is damaged: {}", reason()));
     return file;

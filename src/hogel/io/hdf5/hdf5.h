@@ -16,8 +16,8 @@
 
 namespace hogel::io::hdf5 {
 
-/// The lock on HDF5, which is not thread-safe: one session at a time in the whole process. While it lives HDF5 prints
-/// nothing. Every Handle is made, used and closed during a session.
+/// The lock on HDF5, which is not thread-safe: one session at a time in the whole process. During a session HDF5 prints
+/// no errors. Every Handle is made, used and closed during a session.
 class Session {
   public:
     Session();
@@ -47,7 +47,7 @@ class Handle {
 
     hid_t id() const { return id_; }
     bool valid() const { return id_ >= 0; }
-    /// False where HDF5 reports a failure: closing a file writes the last of it.
+    /// Closes the identifier, which for a file may write data. Returns false if HDF5 reports a failure.
     bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
 
   private:
@@ -61,7 +61,7 @@ std::string reason();
 /// Throws Error(bad_input) with the file's name.
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why);
 
-/// Opens a file for reading, after checks of what would crash HDF5. Throws Error(bad_input).
+/// Opens a file for reading after check_superblock(). Throws Error(bad_input).
 Handle open_file(const std::filesystem::path& path);
 
 /// How samples are stored in a file, little-endian.
@@ -69,19 +69,20 @@ enum class Element { half, single, complex_single };
 std::size_t bytes_of(Element element);
 Handle type_of(Element element);
 
-/// Attributes. The readers throw Error(bad_input) with the names of file and attribute where it is missing or of
-/// another type.
+/// The value of an attribute. Functions that read attributes throw Error(bad_input), naming file and attribute, if it
+/// is missing or of another type.
 using Value = std::variant<double, std::uint64_t, std::string>;
 using Attributes = std::vector<std::pair<std::string, Value>>;
 double read_number(hid_t object, const char* name, const std::filesystem::path& path);
 std::uint64_t read_count(hid_t object, const char* name, const std::filesystem::path& path);
 std::string read_text(hid_t object, const char* name, const std::filesystem::path& path);
-/// True when the object has the attribute.
+/// Whether the object has the attribute.
 bool has_attribute(hid_t object, const char* name, const std::filesystem::path& path);
-/// True when the group has a link of that name to something in the same file.
+/// Whether the group has a link of that name to an object in the same file.
 bool has_member(hid_t group, const char* name, const std::filesystem::path& path);
 
-/// Light fields and holograms have attributes "format" and "format_version" at the root, with the metadata beside them.
+/// The layout version. Light fields and holograms have the attributes "format" and "format_version" at the root, beside
+/// the metadata.
 inline constexpr std::uint64_t format_version = 1;
 inline constexpr const char* light_field_format = "hogel light field";
 inline constexpr const char* hologram_format = "hogel hologram";
@@ -98,9 +99,9 @@ struct NewDataset {
     Attributes attributes;
 };
 
-/// Creates a file with room for all samples, each dataset one contiguous piece, and returns the offset of each. The
-/// samples are then written without HDF5. Throws Error(cannot_write), which names `target`, also for a disk without
-/// room for all of it where the file system can tell.
+/// Creates a file with space for all samples, each dataset contiguous, and returns their offsets. The samples are then
+/// written without HDF5. Throws Error(cannot_write), naming `target`; a disk without enough space is detected if the
+/// file system reports it.
 std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const Attributes& attributes, const std::vector<NewDataset>& datasets);
 

@@ -17,7 +17,7 @@ constexpr float max_half = 65504;
 
 std::string samples_name(std::size_t field) { return fmt::format("field{}/samples", field); }
 
-// How real and imaginary parts are stored: as members of compounds, or along an axis of their own.
+// How real and imaginary parts are stored: as members of compounds, or along an additional axis.
 enum class Parts { members, axis };
 
 Box box_of(const Region& region, Parts parts) {
@@ -35,9 +35,13 @@ std::vector<std::size_t> shape_of(const FieldGrid& grid, Parts parts) {
 
 class FieldReader final : public FieldSource {
   public:
-    FieldReader(const FieldGrid& grid, DatasetReader samples)
-        : grid_(grid), parts_(samples.axes() == 3 ? Parts::axis : Parts::members), samples_(std::move(samples)) {}
+    FieldReader(const FieldGrid& grid, const Provenance& provenance, DatasetReader samples)
+        : grid_(grid),
+          provenance_(provenance),
+          parts_(samples.axes() == 3 ? Parts::axis : Parts::members),
+          samples_(std::move(samples)) {}
     const FieldGrid& grid() const override { return grid_; }
+    const Provenance& provenance() const override { return provenance_; }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
         if (look >= looks())
@@ -50,11 +54,12 @@ class FieldReader final : public FieldSource {
 
   private:
     FieldGrid grid_;
+    Provenance provenance_;
     Parts parts_;
     DatasetReader samples_;
 };
 
-// The file that several sinks write to; the last to finish gives it its name.
+// The file that several sinks share; the last one to finish gives it its name.
 struct SharedFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
@@ -95,7 +100,7 @@ class FieldWriter final : public FieldSink {
   private:
     core::Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
 
-    // A single infinite sample would outshine everything else in a photograph.
+    // Throws for samples beyond half floats, because one infinite sample would spoil a whole photograph.
     void require_halves(std::span<const float> numbers) const {
         float largest = 0;
         for (const float number : numbers) largest = std::max(largest, std::abs(number));
@@ -164,16 +169,16 @@ namespace hogel {
 using namespace io;
 using namespace io::hdf5;
 
-HologramFile open_hologram(const std::filesystem::path& path) {
+Fields open_hologram(const std::filesystem::path& path) {
     const hdf5::Session session;
     const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
-    HologramFile hologram;
+    const Provenance provenance = to_provenance(hdf5::read_metadata(file.id(), path));
+    Fields fields;
     for (const FieldGrid& grid : read_hologram_grids(file.id(), path))
-        hologram.fields.push_back(
-            std::make_unique<FieldReader>(grid, samples_of_field(file.id(), hologram.fields.size(), grid, raw)));
-    hologram.metadata = hdf5::read_metadata(file.id(), path);
-    return hologram;
+        fields.push_back(
+            std::make_shared<FieldReader>(grid, provenance, samples_of_field(file.id(), fields.size(), grid, raw)));
+    return fields;
 }
 
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,

@@ -53,7 +53,7 @@ class LightFieldReader final : public LightFieldSource {
     std::optional<DatasetReader> radiance_, depth_;
 };
 
-// The file that several sinks write to; the last to finish gives it its name.
+// The file that several sinks share; the last one to finish gives it its name.
 struct SharedFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
@@ -98,13 +98,14 @@ class LightFieldWriter final : public LightFieldSink {
     core::Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
 
     LightFieldGrid grid_;
-    std::size_t first_dataset_;  // radiance; depth is the next one
+    std::size_t first_dataset_;  // index of the radiance; depth is the next one
     bool with_depth_;
     std::shared_ptr<SharedFile> shared_;
     std::atomic<std::size_t> hogels_{0};
 };
 
-// The name of the attribute of half a face's width tells whether directions are uniform in tangents or in sines.
+// The name of the attribute with half the width of a face, which tells whether directions are uniform in tangents or in
+// sines.
 std::string half_name(bool sines, char axis) { return fmt::format("{}_half_{}", sines ? "sine" : "tan", axis); }
 
 hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
@@ -124,7 +125,7 @@ hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
 
 LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path& path) {
     const std::string dataset = dataset_name(face, "radiance");
-    dataset_shape(file, dataset.c_str(), path);  // throws where there is no such dataset
+    dataset_shape(file, dataset.c_str(), path);  // throws if there is no such dataset
     const hdf5::Handle radiance(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     const auto count = [&](const char* attribute) { return hdf5::read_count(radiance.id(), attribute, path); };
     const auto number = [&](const char* attribute) { return hdf5::read_number(radiance.id(), attribute, path); };
@@ -178,14 +179,14 @@ DatasetReader radiance_of_front(hid_t file, const LightFieldGrid& grid,
     return {file, "radiance", radiance_box(grid, {0, 0, grid.hogels_s, grid.hogels_t}).extent, false, raw};
 }
 
-std::vector<LightField::Source> open_faces(const std::filesystem::path& path) {
+LightField open_light_field(const std::filesystem::path& path) {
     std::vector<LightField::Source> faces;
     const hdf5::Session session;
     const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
     const hdf5::Handle file = hdf5::open_file(path);
     for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
         faces.push_back(std::make_shared<LightFieldReader>(file.id(), grid, path, raw));
-    return faces;
+    return LightField(std::move(faces), to_provenance(read_metadata(file.id(), path)));
 }
 
 }  // namespace hogel::io::hdf5

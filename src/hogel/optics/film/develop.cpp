@@ -13,7 +13,7 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
                    Image& image) const {
     const Grid& picture = camera.picture;
     const Vec3 eye = band_.geometry.eye();
-    // About a point a pixel for every sample of the film.
+    // About one point per film sample in each pixel.
     const double film_pitch = size_.sines.step * eye.z;
     const auto points = [&](double pitch) {
         return static_cast<std::size_t>(std::max(2.0, std::ceil(pitch / film_pitch)));
@@ -22,7 +22,7 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
     const auto place = [](std::size_t pixel, std::size_t point, std::size_t count) {
         return static_cast<double>(pixel) + (static_cast<double>(point) + 0.5) / static_cast<double>(count) - 0.5;
     };
-    // The pixels whose points are shown, for each of the points.
+    // The range of pixels that are shown, for each point within a pixel.
     struct Columns {
         std::size_t begin = 0, end = 0;
     };
@@ -41,8 +41,8 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
     // (area of the pupil) cos θ/r², and cos θ is c_z/r.
     const double area = FilmLens(size_.sines, hologram_.wavelength, camera).area();
     const auto scale = static_cast<float>(weight / (area * eye.z * static_cast<double>(sub_x * sub_y)));
-    // A pixel's mean is taken down the film's columns first, on each of which n_x is constant and
-    // n_y = √(1 − n_x²) · (y − c_y)/√((y − c_y)² + c_z²), and then along the row.
+    // A pixel's mean is taken first down the film's columns, on each of which n_x is constant and n_y = √(1 − n_x²) ·
+    // (y − c_y)/√((y − c_y)² + c_z²), and then along the row.
     std::vector<double> slopes(size_.sines.size_x);
     for (std::size_t i = 0; i < slopes.size(); ++i) {
         const double nx = size_.sines.first_x + static_cast<double>(i) * size_.sines.step;

@@ -50,8 +50,8 @@ Film::Film(const narrow_band::NarrowBand& band, const FieldGrid& hologram, doubl
 Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
     const Grid& plane = band_.plane;
     const InterpolationTable& table = interpolation();
-    // Two passes, each along one axis: first to uniform n_x on the band's own rows; then down the columns, on which n_x
-    // is constant, to uniform n_y. Stored transposed in between, so that both passes run along memory.
+    // Two passes, each along one axis: first to uniform n_x on the band's rows, then down the columns, on which n_x is
+    // constant, to uniform n_y. The intermediate result is transposed, so that both passes run along memory.
     Array<Complex, 2> columns({size_.sines.size_x, plane.height});
     const Vec3 eye = band_.geometry.eye();
     // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
@@ -69,7 +69,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
                 columns(i, row) = table.at(&band(row, 0), plane.width, middle_x + slopes[i] * reach);
         }
     });
-    // Each column is transformed at once; only the frequencies that the pupil takes are kept.
+    // Transforms each column and keeps only the frequencies within the pupil.
     Array<Complex, 2> half({across(size_.reach_y), size_.sines.size_x});
     const double reach = eye.z / plane.pitch_y;
     core::parallel_for(blocks_of(size_.sines.size_x), [&](std::size_t block) {
@@ -102,7 +102,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
 
 void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<float, 2> intensity) const {
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
-    // Between nodes the intensities cross over linearly.
+    // Between nodes the intensities are blended linearly.
     const auto weight = [](std::size_t k, std::size_t size, std::size_t at, std::size_t nodes) {
         const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(size) * static_cast<double>(nodes);
         const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);
@@ -125,7 +125,7 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
                                                     wave.real() * factor.imag() + wave.imag() * factor.real()};
                 });
             });
-            // The few columns of the opening first; then each row, whose light is added at once.
+            // First the few columns of the opening, then each row, whose intensity is added at once.
             core::parallel_for(blocks_of(width), [&](std::size_t block) {
                 const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
                 Array<Complex, 2> lines({count, stride_of(size_.sines.size_y)});

@@ -12,9 +12,9 @@
 
 namespace hogel::optics::film {
 
-/// LowPass as an interpolation kernel, tabulated by the fraction of a sample: ten taps around the place between two
-/// samples, each twice, for the real and the imaginary part. A band-limited signal changes by less than 1e-3 of its
-/// value over half a table step.
+/// LowPass as an interpolation kernel, tabulated by the fraction of a sample: ten taps around a position between two
+/// samples, each stored twice, for the real and the imaginary part. A band-limited signal changes by less than 1e-3 of
+/// its value over half a table step.
 class InterpolationTable {
   public:
     static constexpr std::ptrdiff_t taps = 10;
@@ -29,7 +29,7 @@ class InterpolationTable {
             }
     }
 
-    /// The value of line[...] (count values, zero outside) at a place between samples.
+    /// The value of line[…] (count values, zero outside) at a position between samples.
     std::complex<float> at(const std::complex<float>* line, std::size_t count, double place) const {
         const double whole = std::floor(place);
         const auto first = static_cast<std::ptrdiff_t>(whole) - 4;
@@ -55,8 +55,8 @@ class InterpolationTable {
     std::vector<float> weights_;
 };
 
-/// Catmull and Rom's cubic through four neighbours of value(0 … count − 1) at a place between: intensities come with
-/// two samples to their finest wave, for which straight lines would be too coarse. Zero outside. Values may be complex.
+/// Catmull–Rom interpolation between four neighbours of value(0 … count − 1), zero outside. Linear interpolation would
+/// be too coarse for intensities, which have two samples per period of their finest wave. Values may be complex.
 template <class Value>
 auto cubic_at(std::size_t count, double place, const Value& value) {
     using Result = std::decay_t<decltype(value(0))>;
@@ -68,7 +68,7 @@ auto cubic_at(std::size_t count, double place, const Value& value) {
     return b + 0.5f * x * ((c - a) + x * ((2.0f * a - 5.0f * b + 4.0f * c - d) + x * (3.0f * (b - c) + d - a)));
 }
 
-/// The cubic in two dimensions, of value(row, column).
+/// The same in two dimensions, for value(row, column).
 template <class Value>
 auto cubic_at(std::size_t height, std::size_t width, double row, double column, const Value& value) {
     return cubic_at(height, row,

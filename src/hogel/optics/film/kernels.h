@@ -6,14 +6,14 @@
 
 namespace hogel::optics::film {
 
-/// The inner loops that bring a film to a picture, each as a plain version and a fast one; the twins agree to
-/// rounding. Both interpolate by Catmull and Rom's cubic through four neighbours: intensities come with two samples to
-/// their finest wave, for which straight lines would be too coarse. Outside there is nothing.
+/// The inner loops that resample a film to a picture. Plain and fast twins agree to rounding. Both use Catmull–Rom
+/// interpolation between four neighbours, because linear interpolation would be too coarse for intensities, which have
+/// two samples per period of their finest wave. Values outside are zero.
 
 /// out[i] += weight · the value of column i of `values` (`height` rows of `stride` floats) at row
 /// offset + scale · slopes[i].
 struct ColumnPlaces {
-    std::span<const double> slopes;  ///< as many as `out`
+    std::span<const double> slopes;  ///< one per element of `out`
     double scale = 0, offset = 0;
 };
 void add_down_columns_plain(const float* values, std::size_t stride, std::size_t height, const ColumnPlaces& places,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of kernels.cpp, compiled for every instruction set and chosen when first called.
+// The vector twins of kernels.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/optics/film/kernels_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <cstdint>
@@ -29,8 +29,8 @@ using Doubles = hn::ScalableTag<double>;
 using Floats = hn::Rebind<float, Doubles>;
 using Indices = hn::Rebind<std::int32_t, Doubles>;
 
-// The cubic at places among `size` samples: gather(i) gives the samples number i of the lanes. Places are doubles,
-// because a film is wide and a place is wanted to a thousandth of a sample.
+// Cubic interpolation at positions among `size` samples; gather(i) loads sample i of each lane. Positions are doubles,
+// because a film is wide and positions must be accurate to a thousandth of a sample.
 template <class Gather>
 HWY_INLINE hn::Vec<Floats> cubic(hn::Vec<Doubles> place, std::size_t size, const Gather& gather) {
     const Doubles dd;
@@ -59,7 +59,7 @@ void AddDownColumns(const float* values, std::size_t stride, std::size_t height,
     const Floats df;
     const Indices di;
     const std::size_t lanes = hn::Lanes(dd);
-    // Indices of a gather are 32 bits wide.
+    // Indices of a gather have 32 bits.
     const std::size_t vectors = height < 3 || stride > INT32_MAX / height ? 0 : out.size() / lanes;
     const auto row = hn::Set(di, static_cast<std::int32_t>(vectors == 0 ? 0 : stride));
     for (std::size_t v = 0; v < vectors; ++v) {

@@ -22,7 +22,7 @@ std::vector<float> noise(std::size_t count) {
     return values;
 }
 
-// Widths around every multiple of a vector; places inside, at both ends and outside.
+// Widths around every multiple of a vector; positions inside, at both ends and outside.
 TEST_P(FilmKernels, vector_and_plain_columns_agree) {
     const std::size_t height = 20, stride = 50;
     const std::vector<float> values = noise(height * stride);
@@ -48,7 +48,7 @@ TEST_P(FilmKernels, vector_and_plain_lines_agree) {
     }
 }
 
-// A cubic through four neighbours keeps parabolas, at every place but outside, where nothing is.
+// Cubic interpolation reproduces parabolas exactly, except outside, where values are zero.
 TEST_P(FilmKernels, keep_parabolas) {
     std::vector<float> line(40);
     for (std::size_t i = 0; i < line.size(); ++i) line[i] = 3 + 0.01f * static_cast<float>(i * i);

@@ -12,18 +12,18 @@
 
 namespace hogel::optics::film {
 
-/// The path of light from a point in direction sine (n_x, n_y), `distance_z` before the lens, to the point δ of the
-/// pupil, less the path to its centre and the term linear in δ of its direction: exactly |x − q| − |x − c| + n·δ.
+/// The path of light to the point q = c + δ of the pupil from the point x in direction sine (n_x, n_y), `distance_z` in
+/// front of the lens, minus the path to the pupil's centre c and the term linear in δ: exactly |x − q| − |x − c| + n·δ.
 inline double path(double sine_x, double sine_y, double distance_z, double delta_x, double delta_y) {
     const double cosine = std::sqrt(1 - sine_x * sine_x - sine_y * sine_y), r = distance_z / cosine;
     const double along = sine_x * delta_x + sine_y * delta_y, square = delta_x * delta_x + delta_y * delta_y;
-    // |rn − δ| − r without the loss of digits.
+    // |rn − δ| − r without cancellation.
     const double change = square - 2 * r * along;
     return change / (std::sqrt(r * r + change) + r) + along;
 }
 
-/// How far from the middle of a pupil's plane of frequencies its disc may reach: light in direction n enters a pupil at
-/// δ with a frequency that differs from δ/λ by 3δ²/4Rλ at the most, for eyes up to 55° aside.
+/// The largest distance of the pupil's disc from the middle of its plane of frequencies: light in direction n that
+/// enters the pupil at δ has a frequency that differs from δ/λ by at most 3δ²/4Rλ, for eyes up to 55° off the axis.
 inline double frequency_radius(double pupil, double distance) { return 0.5 * pupil * (1 + 0.75 * pupil / distance); }
 
 /// frequency_radius() in steps of that plane.
@@ -32,15 +32,16 @@ inline std::ptrdiff_t pupil_reach(double pupil, double distance, double step, st
                     static_cast<std::ptrdiff_t>(size - 1) / 2);
 }
 
-/// Metres in the pupil's plane between the frequencies of a transform of so many samples.
+/// The distance in the pupil's plane, metres, between the frequencies of a transform of `size` samples.
 inline double pupil_step(double wavelength, std::size_t size, double sine_step) {
     return wavelength / (static_cast<double>(size) * sine_step);
 }
 
-/// A camera's lens at the frequencies of the transform. Around the direction n light that enters the pupil at δ has the
-/// frequency (δ − ∇_n Q)/λ in the sines, Q being the path beside the term linear in δ; so the disc is a little bent
-/// among the frequencies, and more so for oblique light. The defocus phase depends on the direction, slowly; the film
-/// gets as many nodes as keep it within half a radian, each with a phase of its own.
+/// A camera's lens at the frequencies of the transform. Around the direction n, light that enters the pupil at δ has
+/// the frequency (δ − ∇_n Q)/λ in the sines, with Q the path without the term linear in δ; so the disc is slightly
+/// distorted in the plane of frequencies, more so for oblique light. The defocus phase depends slowly on the direction;
+/// the film is divided among nodes, each with its own phase, enough of them for the phase to vary by at most half a
+/// radian within one.
 class FilmLens {
   public:
     FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)
@@ -64,11 +65,11 @@ class FilmLens {
         return sines_.first_y + span_y() * (static_cast<double>(j) + 0.5) / static_cast<double>(nodes_y);
     }
 
-    // Offsets from the middle of the pupil, in steps, that the disc may reach.
+    // The largest offset of the disc from the middle of the pupil, in steps.
     std::ptrdiff_t reach_x() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_x_, sines_.size_x); }
     std::ptrdiff_t reach_y() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_y_, sines_.size_y); }
 
-    // Area of the opening, as sampled, m².
+    // Area of the sampled opening, m².
     double area() const {
         const Direction middle(sines_.first_x + 0.5 * span_x(), sines_.first_y + 0.5 * span_y());
         double sum = 0;
@@ -115,11 +116,11 @@ class FilmLens {
 
     struct Place {
         double x, y;    // in the pupil
-        double cosine;  // of the light's direction there
+        double cosine;  // cosine of the light's direction there
     };
 
-    // Where the light around a direction n enters that has a frequency fx/λ, fy/λ in the sines: from there the point in
-    // direction n of the hologram lies in direction m = n − (f − n (n·f)) cos θ/R, exactly.
+    // The point of the pupil at which light around direction n with the frequency (fx/λ, fy/λ) in the sines enters.
+    // Seen from there, the point of the hologram in direction n is exactly in direction m = n − (f − n (n·f)) cos θ/R.
     Place place(const Direction& n, double fx, double fy) const {
         const double R = camera_.eye.z, along = n.x * fx + n.y * fy, step = n.cosine / R;
         const double mx = n.x - step * (fx - n.x * along), my = n.y - step * (fy - n.y * along);
@@ -127,9 +128,9 @@ class FilmLens {
         return {R * (n.x / n.cosine - mx / cosine), R * (n.y / n.cosine - my / cosine), cosine};
     }
 
-    // How much of the light passes in amplitude at a frequency, in steps: within the disc (cos θ_n/cos θ_m)², which is
-    // what frequencies lie denser there, to the fourth power, times what the light is stronger nearer by. The edge
-    // falls over one sample, so that the disc has its area on a coarse grid too.
+    // The amplitude transmission at a frequency (in steps). Within the disc it is (cos θ_n/cos θ_m)², which combines
+    // the density of frequencies there and the intensity of light from a nearer point. The edge falls over one sample,
+    // so that the disc has its area on a coarse grid too.
     double passes(const Direction& n, double column, double row) const {
         const double edge = std::max(step_x_, step_y_);
         const Place at = place(n, step_x_ * column, step_y_ * row);
@@ -149,7 +150,7 @@ class FilmLens {
         return (path(nx, ny, R, dx, dy) - path(nx, ny, ratio * R, dx, dy)) / wavelength_;
     }
 
-    // The ratio in a direction of the picture; beside it that of its edge.
+    // focus_ratio() in a direction of the picture; outside the picture that of its edge.
     double ratio(double nx, double ny) const {
         const double reach = camera_.eye.z / std::sqrt(1 - nx * nx - ny * ny);
         const Grid& picture = camera_.picture;

@@ -22,7 +22,7 @@ void decimated_line_plain(const std::complex<float>* line, std::size_t step, std
 }
 
 void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out) {
-    // Written out, because std::complex's own product looks for infinities.
+    // Written out, because the product of std::complex checks for infinities.
     for (std::size_t x = 0; x < out.size(); ++x)
         out[x] = {a[x].real() * b[x].real() - a[x].imag() * b[x].imag(),
                   a[x].real() * b[x].imag() + a[x].imag() * b[x].real()};

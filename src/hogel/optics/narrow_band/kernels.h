@@ -9,8 +9,7 @@
 
 namespace hogel::optics::narrow_band {
 
-/// The inner loops of the narrow-band camera, each as a plain version and a fast one; the twins agree to
-/// rounding.
+/// The inner loops of the narrow-band camera. Plain and fast twins agree to rounding.
 
 /// out[x] = Σ_r weights[r] · rows[r·stride + x], for every x of `out`: the low-pass down the columns of a tile.
 void weighted_rows_plain(const std::complex<float>* rows, std::size_t stride,
@@ -18,8 +17,8 @@ void weighted_rows_plain(const std::complex<float>* rows, std::size_t stride,
 void weighted_rows(const std::complex<float>* rows, std::size_t stride, std::span<const std::complex<float>> weights,
                    std::span<std::complex<float>> out);
 
-/// out[n] = Σ_k taps[2k] · line[n·step + k]: the low-pass along a line that keeps every step-th value. Each tap stands
-/// twice, once for the real and once for the imaginary part.
+/// out[n] = Σ_k taps[2k] · line[n·step + k]: the low-pass along a line that keeps every step-th value. Each tap is
+/// stored twice, for the real and the imaginary part.
 void decimated_line_plain(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
                           std::span<std::complex<float>> out);
 void decimated_line(const std::complex<float>* line, std::size_t step, std::span<const float> taps,

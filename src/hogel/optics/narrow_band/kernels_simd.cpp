@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of kernels.cpp, compiled for every instruction set and chosen when first called.
+// The vector twins of kernels.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/optics/narrow_band/kernels_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include "hogel/optics/narrow_band/kernels.h"
@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
-// A single lane holds no complex number.
+// A vector of one lane cannot hold a complex number.
 void WeightedRows(const std::complex<float>* rows, std::size_t stride, std::span<const std::complex<float>> weights,
                   std::span<std::complex<float>> out) {
     weighted_rows_plain(rows, stride, weights, out);
@@ -29,8 +29,8 @@ void Multiply(const std::complex<float>* a, const std::complex<float>* b, std::s
     multiply_plain(a, b, out);
 }
 #else
-// Complex numbers lie in pairs of lanes. A complex weight w times a complex vector z is summed as two real products,
-// a = Σ re(w)·z and b = Σ im(w)·z; swapping b's lanes and giving one of them the minus sign comes once, at the end.
+// Complex numbers are pairs of lanes. The sum of complex weights w times complex vectors z is accumulated as two real
+// sums, a = Σ re(w)·z and b = Σ im(w)·z; swapping b's lanes and negating one of them is done once, at the end.
 template <class D, class V>
 HWY_INLINE V join(D d, V a, V b) {
     const V sign = hn::OddEven(hn::Set(d, 1.0f), hn::Set(d, -1.0f));

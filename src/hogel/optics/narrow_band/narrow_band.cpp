@@ -17,8 +17,8 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// A pupil's band is made this much wider than it is, so that eyes may share a pass down the columns (see share_columns)
-// and the band's width may vary a little over the hologram.
+// The fraction by which a pupil's band is widened, so that eyes can share a pass down the columns (see share_columns())
+// and the band's width may vary slightly over the hologram.
 constexpr double guard = 0.1;
 
 // Half the width of the band, cycles per metre, at the point of the hologram that is nearest to the eye.
@@ -29,7 +29,7 @@ double half_band(const FieldGrid& hologram, Vec3 eye, double pupil) {
     return 0.5 * pupil / (hologram.wavelength * ViewGeometry(eye, hologram.wavelength).distance(x, y));
 }
 
-// The samples of the band that samples [begin, end) of the hologram add to.
+// The samples of the band to which samples [begin, end) of the hologram contribute.
 struct Reach {
     std::size_t first, end;
 };
@@ -42,9 +42,9 @@ Reach reach(const NarrowBand& band, std::size_t samples, std::size_t begin, std:
     return r;
 }
 
-// Eyes that are at one height and one distance need, down the columns of a narrow tile, nearly the same demodulation:
-// they share the work there, and the difference of their phases is applied after the decimation, when samples are few.
-// How fast that difference may vary is what the guard band allows.
+// Whether two eyes share the pass down the columns. Eyes at the same height and distance need nearly the same
+// demodulation down the columns of a narrow tile, so they share this work, and the difference of their phases is
+// applied after the decimation, to fewer samples. The guard band limits how fast that difference may vary.
 bool share_columns(const NarrowBand& a, const NarrowBand& b, const Grid& plane) {
     if (a.factor != b.factor) return false;
     double worst = 0;
@@ -55,13 +55,13 @@ bool share_columns(const NarrowBand& a, const NarrowBand& b, const Grid& plane) 
     return worst / a.geometry.wavelength() < 0.5 * guard * passed;
 }
 
-// The samples that one tile adds to one eye's band, for all looks.
+// The contribution of one tile to one eye's band, for all looks.
 struct Contribution {
     Reach rows, columns;
     std::vector<Array<Complex, 2>> looks;
 };
 
-// One tile's passage through the two low-passes, for a group of eyes that share the pass down the columns.
+// Applies both low-passes to one tile, for a group of eyes that share the pass down the columns.
 class TilePass {
   public:
     TilePass(const Grid& plane, std::span<const NarrowBand> eyes, std::span<const std::size_t> group,
@@ -69,7 +69,7 @@ class TilePass {
         : eyes_(eyes), group_(group), region_(region), lead_(eyes[group.front()]) {
         rows_ = reach(lead_, lead_.plane.height, region.y0, region.y0 + region.height);
         columns_ = reach(lead_, lead_.plane.width, region.x0, region.x0 + region.width);
-        // The phase that is taken off down the columns is that of the tile's middle column, as the first eye sees it.
+        // The phase removed down the columns is that of the tile's middle column for the first eye.
         const double middle = plane.x(static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5);
         const auto column_phase = [&](double y) { return lead_.geometry.cycles(middle, y); };
         weigh_rows(plane, column_phase);
@@ -77,12 +77,12 @@ class TilePass {
         prepare_line_taps();
     }
 
-    // Adds look after look; contributions are in the order of the group.
+    // Appends one look; contributions are in the order of the group.
     void add(View<const Complex, 2> tile, std::vector<Contribution>& contributions) const {
         const std::size_t rows = rows_.end - rows_.first, columns = columns_.end - columns_.first;
         for (Contribution& contribution : contributions) contribution.looks.emplace_back(Shape<2>{rows, columns});
         std::vector<Complex> down(region_.width);
-        // Room before and after the line, so that every kernel fits whole.
+        // Padding before and after the line, so that every kernel fits completely.
         std::vector<Complex> line(before_ + region_.width + after_);
         for (std::size_t m = 0; m < rows; ++m) {
             const RowWeights& weights = row_weights_[m];
@@ -108,7 +108,7 @@ class TilePass {
         for (std::size_t r = 0; r < region_.height; ++r)
             demodulation[r] = Complex(unit_phasor(phase(plane.y(static_cast<double>(region_.y0 + r)))));
         for (std::size_t m = rows_.first; m < rows_.end; ++m) {
-            // The taps that fall into the tile.
+            // The taps that are inside the tile.
             const std::ptrdiff_t offset = lead_.first_tap(m) - static_cast<std::ptrdiff_t>(region_.y0);
             const auto begin = std::max<std::ptrdiff_t>(offset, 0);
             const auto end = std::min(offset + static_cast<std::ptrdiff_t>(lead_.taps.size()),
@@ -121,7 +121,7 @@ class TilePass {
         }
     }
 
-    // e^{ik|x−c|} less the phase already taken off, at every hologram column and band row of the tile.
+    // e^{ik|x−c|} without the phase already removed, at every hologram column and band row of the tile.
     template <class Phase>
     Array<Complex, 2> remaining_phases(const Grid& plane, const NarrowBand& eye, const Phase& taken) const {
         Array<Complex, 2> phases({rows_.end - rows_.first, region_.width});
@@ -137,7 +137,8 @@ class TilePass {
         return phases;
     }
 
-    // Every band sample has the same taps around it; the first of them lies `before_` samples left of the tile's start.
+    // Prepares the taps, which are the same for every band sample; the first of them is `before_` samples left of the
+    // tile.
     void prepare_line_taps() {
         for (float tap : lead_.taps) line_taps_.insert(line_taps_.end(), 2, tap);
         before_ = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(region_.x0) - lead_.first_tap(columns_.first));
@@ -150,8 +151,8 @@ class TilePass {
     Region region_;
     const NarrowBand& lead_;
     Reach rows_, columns_;
-    std::vector<RowWeights> row_weights_;    // a band row each
-    std::vector<Array<Complex, 2>> phases_;  // [band row][hologram column], an eye each
+    std::vector<RowWeights> row_weights_;    // one per band row
+    std::vector<Array<Complex, 2>> phases_;  // one per eye, [band row][hologram column]
     std::vector<float> line_taps_;
     std::size_t before_ = 0, after_ = 0;
 };
@@ -198,10 +199,10 @@ NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geom
             taps[k] = static_cast<float>(LowPass::at((first + static_cast<double>(k)) / step));
             sum += taps[k];
         }
-        // Sampling changes the kernel's integral a little; with it divided out a constant stays itself.
+        // Normalises the sampled kernel, so that constants are unchanged.
         for (float& tap : taps) tap /= static_cast<float>(sum);
     }
-    // The first sample must lie at hologram_index(0).
+    // The first sample must be at hologram_index(0).
     plane.center_x += full.x(hologram_index(0)) - plane.x(0);
     plane.center_y += full.y(hologram_index(0)) - plane.y(0);
 }

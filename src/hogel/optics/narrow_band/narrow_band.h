@@ -9,36 +9,36 @@
 
 namespace hogel::optics::narrow_band {
 
-/// One eye's narrow band of a hologram, before and after it is drawn from the field.
+/// The sampling of one eye's narrow band of a hologram.
 ///
 /// Light from the hologram point x that enters a pupil of diameter A around c has, after multiplication by
 /// e^{+ik|x−c|}, a frequency of at most A/(2λr) (docs/notation.md section 4; r the distance). So the demodulated field
-/// may be low-passed and sampled every `factor` samples instead of every one.
+/// can be low-passed and decimated by `factor`.
 struct NarrowBand {
     ViewGeometry geometry;
-    std::size_t factor = 1;   ///< samples of the hologram to one sample of the band, in x and in y
-    Grid plane;               ///< samples of the band; reaches beyond the hologram by the kernel's half width
+    std::size_t factor = 1;   ///< samples of the hologram per sample of the band, in x and in y
+    Grid plane;               ///< samples of the band; extends beyond the hologram by the kernel's half width
     std::vector<float> taps;  ///< the low-pass: band sample b is Σ_k taps[k] · hologram sample (first_tap(b) + k)
 
-    /// Throws Error(usage) when the field is sampled too coarsely to separate the pupil's light from the rest.
+    /// Throws Error(usage) if the field is sampled too coarsely to separate the pupil's light from the rest.
     NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil);
 
-    /// Where sample `index` of the band lies, in samples of the hologram; the same for columns and rows.
+    /// The position of sample `index` of the band, in samples of the hologram; the same for columns and rows.
     double hologram_index(std::size_t index) const;
-    /// The hologram sample under the first tap of band sample `index`; may lie before the hologram's first.
+    /// The hologram sample at the first tap of band sample `index`; may be before the first sample.
     std::ptrdiff_t first_tap(std::size_t index) const;
 
     /// Samples of the band beyond either end of the hologram.
     static constexpr std::size_t margin = 5;
-    /// The hologram is read in tiles of this size: wide enough to share column weights among many columns, small enough
-    /// for the processor's caches. Fixed, whatever the source would like, so that a hologram photographs to the same
-    /// bytes from a file as from its synthesis.
+    /// The size of tiles in which the hologram is read: wide enough to share column weights among many columns, small
+    /// enough for the processor's caches. It does not depend on the source, so that photographs of a hologram from a
+    /// file and from its synthesis are the same to the byte.
     static constexpr std::size_t tile_width = 512, tile_height = 384;
 };
 
-/// Draws the narrow bands of several eyes from looks [first_look, first_look + looks) of a hologram in one pass over
-/// it. Returns bands[eye][look][row][column]: the demodulated, low-passed field. The same for any number of threads.
-/// Memory: the result, and a tile of the hologram a thread.
+/// Computes the narrow bands of several eyes from looks [first_look, first_look + looks) of a hologram in one pass over
+/// it. Returns bands[eye][look][row][column], the demodulated and low-passed field, which does not depend on the number
+/// of threads. Memory: the result, and one tile of the hologram per thread.
 std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
                                                                           std::span<const NarrowBand> eyes,
                                                                           std::size_t first_look, std::size_t looks,

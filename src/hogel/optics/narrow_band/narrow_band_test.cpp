@@ -28,7 +28,7 @@ Field converging(const FieldGrid& grid, Vec3 to) {
 
 const FieldGrid grid{{1100, 900, 2_um, 2_um, 0.3_mm, -0.2_mm}, 633_nm};
 
-// The largest |G − 1| where the kernel lies within the hologram.
+// The largest |G − 1| where the kernel is within the hologram.
 double deviation(const NarrowBand& band, const Array<std::complex<float>, 2>& samples) {
     double worst = 0;
     for (std::size_t m = 2 * NarrowBand::margin; m + 2 * NarrowBand::margin < band.plane.height; ++m)
@@ -37,8 +37,8 @@ double deviation(const NarrowBand& band, const Array<std::complex<float>, 2>& sa
     return worst;
 }
 
-// Demodulation makes a wave that converges on the eye a constant, and the low-pass leaves a constant alone: for eyes
-// that share the pass down the columns and for one that does not.
+// Demodulation turns a wave that converges on the eye into a constant, which the low-pass keeps, both for eyes that
+// share the pass down the columns and for one that does not.
 TEST(NarrowBand, a_wave_converging_on_the_eye_becomes_one) {
     const std::array eyes{Vec3{0, 0, 0.1}, Vec3{8e-3, 0, 0.1}, Vec3{-8e-3, 0, 0.1}, Vec3{5e-3, 30e-3, 0.08}};
     std::vector<NarrowBand> bands;

@@ -23,9 +23,9 @@ struct Interval {
     }
 };
 
-// The part of a triangle that the rays of one t and one V can see: the segment in the plane (x, ζ) of these rays
-// between two corners as a rule, or more corners if the triangle nearly lies in the plane. On a side of a hemicube ζ is
-// the distance forward, and on the left and right x, t and V change places with y, s and U.
+// The part of a triangle that the rays of one t and one V can see. Usually it is a segment between two corners in the
+// plane (x, ζ) of these rays; if the triangle nearly lies in the plane it has more corners. On a side of a hemicube ζ
+// is the distance forward, and on the left and right x, t and V are exchanged with y, s and U.
 struct Slice {
     std::uint32_t triangle = 0, corners = 0;
     std::array<double, 5> x{}, depth{};  // at most two crossings of edges and three vertices
@@ -81,14 +81,14 @@ class MvrRenderer final : public Renderer {
                 axes_.seen(scene_->positions[c], slow_hogel)};
     }
 
-    // Whether some points are so close to the hologram plane that they have no direction, or only rounding gives them
-    // one.
+    // Whether some points are so close to the hologram plane that their direction is undefined or dominated by
+    // rounding.
     bool touches_hologram(const Interval& depth) const {
         const double margin = 1e-3 * grid_.pitch;
         return depth.low < margin && depth.high > -margin;
     }
 
-    // The rows of directions in which a triangle is seen from a row of hogels.
+    // The rows of directions in which a row of hogels sees a triangle.
     Span rows(const std::array<RowAxes::Seen, 3>& triangle) const {
         Interval row, depth;
         for (const RowAxes::Seen& p : triangle) {
@@ -121,8 +121,7 @@ class MvrRenderer final : public Renderer {
         }
     }
 
-    // Draws a slice's track: for each U the slice covers the s between the smallest and the largest x − Uζ of its
-    // corners.
+    // Draws a slice's track: for each U the slice covers s from the smallest to the largest x − Uζ of its corners.
     void scan_convert(const Slice& slice, std::size_t slow, std::size_t row, const HogelRange& range,
                       Array<NearestTriangle, 2>& picture) const {
         const std::size_t count = axes_.fast_hogels(range);
@@ -146,7 +145,7 @@ class MvrRenderer final : public Renderer {
         }
     }
 
-    // The columns of directions in which a slice is seen from hogels between two positions.
+    // The columns of directions in which hogels between two positions see a slice.
     Span columns_of_directions(const Slice& slice, double first, double last) const {
         Interval column, depth;
         for (std::size_t i = 0; i < slice.corners; ++i) {

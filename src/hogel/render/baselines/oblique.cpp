@@ -12,7 +12,7 @@
 namespace hogel::render::baselines {
 namespace {
 
-// The corners of a projected triangle as columns and rows of hogels, counted from the tile's first.
+// The corners of a projected triangle in columns and rows of hogels, relative to the tile's first hogel.
 struct TriangleInHogels {
     std::array<double, 3> s, t;
 
@@ -29,7 +29,7 @@ struct TriangleInHogels {
         return samples_between(*low, *high, nt);
     }
 
-    // The columns between the outermost points where edges cross the row or end within the margin of it.
+    // The columns between the outermost points at which edges cross the row or end within a margin of it.
     Span columns(std::size_t row, std::size_t ns) const {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         const auto include = [&](double column) {

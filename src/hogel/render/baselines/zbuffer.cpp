@@ -18,10 +18,10 @@ struct LinearInDirection {
     double operator()(double U, double V) const { return c + (u * U + v * V); }
 };
 
-// A vertex as a hogel sees it: the position relative to the hogel's centre, and its place in the hogel's picture.
+// A vertex seen from a hogel: its position relative to the hogel's centre, and its position in the hogel's picture.
 struct SeenVertex {
     double x, y, depth;  // x − s, y − t, ζ; on a side of a hemicube right, up and forward in its picture
-    double k, l;         // column and row of the picture, unless ζ is too near to zero
+    double k, l;         // column and row of the picture, unless ζ is too close to zero
 };
 
 // The edge function of docs/notation.md section 2 for a ray through the origin of the hogel's frame:
@@ -33,11 +33,11 @@ LinearInDirection edge_from_to(const SeenVertex& a, const SeenVertex& b) {
 
 struct Edge {
     LinearInDirection function;
-    bool forward;  // whether the edge runs from its smaller end to its larger one
+    bool forward;  // whether the edge runs from its smaller to its larger end
 };
 
-// Two triangles that share an edge run along it in opposite directions. Computing it from the same end in both makes
-// their values exact negatives of each other, so that no sample falls between them or into both.
+// Two triangles that share an edge traverse it in opposite directions. Both compute it from the same end, so that their
+// values are exact negatives of each other and no sample falls between them or into both.
 Edge edge(const SeenVertex& a, const SeenVertex& b) {
     const bool forward = std::tie(a.x, a.y, a.depth) < std::tie(b.x, b.y, b.depth);
     if (forward) return {edge_from_to(a, b), true};
@@ -86,7 +86,7 @@ class ZbufferRenderer final : public Renderer {
         }
     }
 
-    // The picture holds depth as distance forward, the tile as ζ.
+    // Converts the picture's depth, a distance forward, to ζ in the tile.
     void store_as_depth(LightFieldTile& tile, VisiblePoint point, std::size_t t, std::size_t s, std::size_t v,
                         std::size_t u) const {
         point.depth *= grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))).z;
@@ -100,8 +100,8 @@ class ZbufferRenderer final : public Renderer {
         const SeenVertex& b = vertices[triangle.vertices[1]];
         const SeenVertex& c = vertices[triangle.vertices[2]];
 
-        // The rectangle of samples that the triangle can cover: all of them if it comes close to the hologram plane,
-        // whose points have no direction.
+        // The rectangle of samples that the triangle can cover: all samples if it comes close to the hologram plane,
+        // where directions are undefined.
         double k0 = 0, k1 = static_cast<double>(grid_.directions_u) - 1;
         double l0 = 0, l1 = static_cast<double>(grid_.directions_v) - 1;
         const auto [shallow, deep] = std::minmax({a.depth, b.depth, c.depth});
@@ -143,7 +143,7 @@ class ZbufferRenderer final : public Renderer {
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
-    double min_depth_ = 0;  // nearer to the plane, projected vertices are not trusted to bound a triangle
+    double min_depth_ = 0;  // below this distance, projected vertices are not used to bound a triangle
 };
 
 }  // namespace

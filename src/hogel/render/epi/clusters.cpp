@@ -19,8 +19,8 @@ std::uint64_t every_third_bit(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249;
 }
 
-// Whether the back of a triangle is seen straight through the hologram or, on a side of a hemicube, in the middle of
-// its picture.
+// Whether the back of a triangle is visible from straight ahead or, on a side of a hemicube, from the middle of its
+// picture.
 bool faces_away(const ShadedScene& scene, const EpipolarFrame& frame, std::uint32_t triangle) {
     const auto& [a, b, c] = scene.triangles[triangle].vertices;
     const Vec3 first = frame.in_samples(scene.positions[a]);
@@ -28,8 +28,8 @@ bool faces_away(const ShadedScene& scene, const EpipolarFrame& frame, std::uint3
     return to_b.x * to_c.y - to_b.y * to_c.x < 0;
 }
 
-// Orders triangles along a Morton curve through their middles, on which neighbours are neighbours in space. Fronts come
-// before backs, so that the two sides of a wall share no cluster.
+// Orders triangles along a Morton curve through their middles, which keeps neighbours in space together. Fronts come
+// before backs, so that the two sides of a wall are in different clusters.
 std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const EpipolarFrame& frame) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
@@ -59,9 +59,8 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const Epipolar
     return order;
 }
 
-// Sorts the full clusters of `order`: fronts before backs, and in each group the nearest first. What does not fill a
-// cluster stays at the end.
-// @return the number of clusters that show fronts
+// Sorts the full clusters of `order`: fronts before backs, and in each group the nearest first. Triangles that do not
+// fill a cluster stay at the end. @return the number of clusters that show fronts
 std::size_t sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, const EpipolarFrame& frame) {
     struct Key {
         bool away;

@@ -12,21 +12,21 @@
 
 namespace hogel::render::epi {
 
-/// Triangles of a cluster: as many as one word has bits.
+/// The number of triangles in a cluster, equal to the bits of a word.
 constexpr std::size_t cluster_size = 64;
 
-/// The y and z of the corners of a cluster's triangles, as whole steps from the lower end of the cluster's box
-/// (ClusterBox) to its upper end. Precise enough to find the few planes that may cross a triangle.
+/// The y and z of the corners of a cluster's triangles, quantised between the lower and the upper end of the cluster's
+/// box (ClusterBox). Precise enough to find the few planes that may cross a triangle.
 struct ClusterHeights {
     static constexpr double steps = 65535;
     alignas(64) std::uint16_t y[3][cluster_size], z[3][cluster_size];
 };
 
-/// What set-up reads of a triangle that a plane crosses, in two cache lines.
+/// The data of a triangle that set-up reads, in two cache lines.
 struct alignas(64) TriangleCorners {
     double y[3], z[3], x[3];
     Rgb radiance[3];
-    float unused[5] = {};  ///< lets four floats be loaded from each radiance
+    float unused[5] = {};  ///< padding, so that four floats can be loaded from each radiance
 };
 
 /// Bounding box of a cluster's triangles.
@@ -38,14 +38,14 @@ struct ClusterBox {
     void include(const Vec3& p);
 };
 
-/// The triangles of a scene in the units of an EpipolarFrame, in clusters of neighbours, of which all but the last are
-/// full. Clusters whose triangles show their fronts along the middle direction of the light field come first, because
-/// they are likely to occlude the others; those that show backs follow. In each group the nearest to the viewer comes
-/// first. A slot is a triangle's index in this order.
+/// The triangles of a scene in the units of an EpipolarFrame, grouped into clusters of neighbours, all full except the
+/// last. Clusters whose triangles show their fronts in the middle direction of the light field come first, because they
+/// are likely to occlude the others; those that show backs follow. In each group the nearest to the viewer is first. A
+/// slot is a triangle's index in this order.
 struct TriangleClusters {
     std::vector<ClusterHeights, CacheLineAllocator<ClusterHeights>> heights;
     std::vector<TriangleCorners, CacheLineAllocator<TriangleCorners>> corners;  ///< by slot
-    std::vector<std::uint32_t> triangles;  ///< the triangle of the scene in each slot
+    std::vector<std::uint32_t> triangles;  ///< [slot]: index of the triangle in the scene
     std::size_t fronts;                    ///< number of clusters that show fronts
     std::vector<ClusterBox> boxes;
 

@@ -50,7 +50,7 @@ TEST(TriangleClusters, are_sorted_by_depth_and_lie_in_their_boxes) {
     EXPECT_EQ(clusters.occupied(1000 / cluster_size), (std::uint64_t{1} << 1000 % cluster_size) - 1);
 }
 
-// Straight through the hologram a triangle's front is seen where the span's end 0 lies left of end 1.
+// In the middle direction a triangle's front is visible if the span's end 0 is to the left of end 1.
 TEST(TriangleClusters, come_with_fronts_before_backs) {
     for (const LightFieldGrid& g : hemicube({9, 8, 0.5e-3, 20, 30, Perspective{1, 1}, 3})) {
         const EpipolarFrame frame(g);
@@ -58,7 +58,8 @@ TEST(TriangleClusters, come_with_fronts_before_backs) {
         ASSERT_GT(clusters.fronts, 4u);
         ASSERT_LT(clusters.fronts, clusters.boxes.size() - 4);
         std::size_t spans = 0, mixed = 0;
-        // Fronts and backs share the last cluster of fronts, and the last of all, which is left out.
+        // The last cluster of fronts, and the last cluster of all, which is left out, may contain both fronts and
+        // backs.
         for (std::uint32_t i = 0; i < cluster_size * (clusters.boxes.size() - 1); ++i) {
             const TriangleCorners& own = clusters.corners[i];
             const double middle = (own.y[0] + own.y[1] + own.y[2]) / 3;
@@ -104,7 +105,7 @@ TEST(TriangleClusters, hold_luminance_for_one_channel) {
         EXPECT_FLOAT_EQ(clusters.corners[i].radiance[1].r, 0.2126f * float(clusters.triangles[i]) + 0.7152f);
 }
 
-// A ray of any face lies in its epipolar plane, at its column and direction.
+// A ray of any face is in its epipolar plane, at its column and direction.
 TEST(EpipolarFrame, holds_each_ray_in_its_plane_column_and_direction) {
     LightFieldGrid aside = grid;
     aside.range().center_u = 0.3;

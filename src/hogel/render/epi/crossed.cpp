@@ -17,7 +17,7 @@ bool may_show(const ClusterBox& box, const RowPlanes& planes) {
     const auto [min_rise, max_rise] = products(planes.slope, last_slope);
     const double low = box.y_low - planes.row, high = box.y_high - planes.row;
     const double size = std::max(std::abs(low), std::abs(high)) + std::max(std::abs(min_rise), std::abs(max_rise));
-    // Beyond any rounding.
+    // With a margin larger than any rounding error.
     if (!(low - max_rise <= 1e-9 * size && high - min_rise >= -1e-9 * size)) return false;
     // The columns n = x − K z that see a point of the box.
     const auto [min_Kz, max_Kz] = products(planes.K_first, planes.K_last);
@@ -36,7 +36,7 @@ HeightScale::HeightScale(const ClusterBox& box, const RowPlanes& planes)
       z_step(static_cast<float>((box.z_high - box.z_low) / ClusterHeights::steps)),
       per_slope(static_cast<float>(1 / planes.step)),
       first(static_cast<float>(-planes.slope / planes.step)) {
-    // Half a step and some roundings.
+    // Half a quantisation step and some rounding errors.
     const auto error_of = [](float from, float step) {
         return 0.51f * step + 4e-7f * (std::abs(from) + static_cast<float>(ClusterHeights::steps) * step);
     };

@@ -25,25 +25,25 @@ struct CrossedTriangles {
     std::uint32_t cluster;
 };
 
-/// For each plane what it may cross, in the order of the clusters.
+/// For each plane the triangles that it may cross, in the order of the clusters.
 using CrossedByPlane = std::vector<std::vector<CrossedTriangles>>;
 
-/// Finds all triangles that may show in each of these planes. Conservative about rounding: no triangle is missing that
-/// a plane separates (set_up_spans) and draw_spans draws. About one in a thousand is found in vain, and more where
-/// z ≈ z0. The twins give the same bits.
+/// Finds all triangles that may be visible in each of these planes. The result is conservative: no triangle is missing
+/// that a plane crosses (set_up_spans) and draw_spans draws. About one in a thousand is a false positive, more where z
+/// ≈ z0. The twins give the same bits.
 void find_crossed_plain(const TriangleClusters& clusters, const RowPlanes& planes, CrossedByPlane& crossed);
 void find_crossed(const TriangleClusters& clusters, const RowPlanes& planes, CrossedByPlane& crossed);
 
 /// Whether a ray of these planes may meet a cluster's box.
 bool may_show(const ClusterBox& box, const RowPlanes& planes);
 
-/// Converts steps of ClusterHeights to numbers of planes: a point (y, z), relative to (row, z0), lies in plane
-/// y · R + `first` with R = `per_slope` / z.
+/// Converts quantised ClusterHeights to numbers of planes: a point (y, z), relative to (row, z0), is in plane number y
+/// · R + `first` with R = `per_slope` / z.
 struct HeightScale {
     float y, y_step, z, z_step, per_slope, first;
-    /// A plane's number is uncertain by error |R| + rounding.
+    /// The uncertainty of a plane's number is error |R| + rounding.
     float error, rounding;
-    /// From this |R| on z may be 0 within its error, and all planes have |y| ≤ max_slope |z| + error.
+    /// From this |R| on, z may be 0 within its error; all planes have |y| ≤ max_slope |z| + error.
     float max_R, max_slope;
 
     HeightScale(const ClusterBox& box, const RowPlanes& planes);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of find_crossed_plain in crossed.cpp, compiled for every instruction set and chosen when first
-// called.
+// The vector twin of find_crossed_plain in crossed.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/crossed_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -33,8 +32,8 @@ HWY_INLINE Floats load_steps(const std::uint16_t* steps) {
     return hn::ConvertTo(d, hn::PromoteTo(di, hn::Load(hn::Rebind<std::uint16_t, FloatTag>(), steps)));
 }
 
-// For each triangle of a cluster the planes `begin` to `end` that may cross it, with end < begin if there are none; and
-// the range of all of them.
+// For each triangle of a cluster the range of planes `begin` to `end` that may cross it, with end < begin if there are
+// none, and the range of all triangles together.
 struct PlaneRanges {
     HWY_ALIGN std::uint8_t begin[cluster_size], end[cluster_size];
     std::size_t min_plane, max_plane;

@@ -16,8 +16,8 @@ namespace {
 
 HOGEL_TEST_ON_EVERY_TARGET(CrossedKernels);
 
-// Light fields of the front, with directions to one side, with more directions than RowPlanes has planes, and of sides
-// of a hemicube.
+// Grids of the front, with off-centre directions, with more directions than RowPlanes has planes, and of sides of a
+// hemicube.
 std::vector<LightFieldGrid> grids() {
     const LightFieldGrid front{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
     LightFieldGrid aside = front, tall = front;
@@ -49,7 +49,7 @@ bool separates(const EpipolarFrame::Plane& plane, const TriangleCorners& corners
     return below % 3 != 0;
 }
 
-// Triangles around the hologram plane, from tiny ones to such as are as large as a cluster.
+// Triangles around the hologram plane, from tiny ones to those as large as a cluster.
 TEST(CrossedTriangles, hold_all_that_show_and_few_others) {
     std::size_t shown = 0;
     for (const LightFieldGrid& grid : grids())
@@ -115,7 +115,7 @@ TEST(CrossedTriangles, may_show_only_where_their_box_is_seen) {
     }
 }
 
-// Triangles whose corners lie very close to a plane, very different ones in each cluster.
+// Triangles whose corners are very close to a plane, of very different sizes in each cluster.
 TEST(CrossedTriangles, include_narrow_ones) {
     const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, Perspective{0.5, 0.4}, 3};
     const EpipolarFrame frame(grid);
@@ -147,7 +147,7 @@ TEST(CrossedTriangles, include_narrow_ones) {
     EXPECT_GT(narrow, 1000u);
 }
 
-// Where no triangle touches the hologram plane, hardly any is found in vain.
+// If no triangle touches the hologram plane, there are hardly any false positives.
 TEST(CrossedTriangles, are_nearly_exact_behind_the_hologram) {
     const LightFieldGrid grid{9, 8, 0.5e-3, 20, 200, Perspective{0.5, 0.4}, 3};
     const EpipolarFrame frame(grid);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of draw_spans_plain in kernels.cpp, compiled for every instruction set and chosen when first called.
+// The vector twin of draw_spans_plain in kernels.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/draw_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// `directions`: an order of directions in the lanes of a vector that makes interleaving write the words of neighbours
+// `directions`: an order of directions in the lanes of a vector, such that interleaving writes the words of neighbours
 // side by side. `steps`: 0, 1, 2, …
 struct LaneOrder {
     HWY_ALIGN float directions[max_lanes], steps[max_lanes];
@@ -32,7 +32,7 @@ struct LaneOrder {
     }
 };
 
-// A span to draw, and what the loops below need for it.
+// A span to draw, with the data that the loops below need.
 struct DrawJob {
     const EpiSpan& span;
     std::uint32_t index, number;
@@ -41,10 +41,10 @@ struct DrawJob {
     Candidates& candidates;
     const PlaneExtent& extent;
     const LaneOrder& lanes;
-    std::uint32_t min_depth;  // of SpanBounds
+    std::uint32_t min_depth;  // see SpanBounds
 };
 
-// The columns that see a span in each of a vector of rows of cells.
+// For each of a vector of rows of cells, the columns that see a span.
 HWY_INLINE void columns_of_rows(const SpanLanes& span, const PlaneExtent& extent, std::size_t first_row, float K_end,
                                 Floats& first, Floats& last) {
     const FloatTag d;
@@ -52,7 +52,7 @@ HWY_INLINE void columns_of_rows(const SpanLanes& span, const PlaneExtent& extent
     const Floats K_low = hn::Add(hn::Set(d, extent.k_first + static_cast<float>(first_row * directions_per_cell)),
                                  hn::Mul(hn::Iota(d, 0), size));
     const Floats K_high = hn::Min(hn::Add(K_low, hn::Sub(size, one)), hn::Set(d, K_end));
-    // c is monotonic in K, also as it is rounded.
+    // c is monotonic in K, even after rounding.
     const Floats a = span.c0(K_low), b = span.c0(K_high), c = span.c1(K_low), e = span.c1(K_high);
     const Floats low = hn::Floor(hn::Min(hn::Min(a, b), hn::Min(c, e)));
     const Floats high = hn::Floor(hn::Max(hn::Max(a, b), hn::Max(c, e)));
@@ -61,9 +61,9 @@ HWY_INLINE void columns_of_rows(const SpanLanes& span, const PlaneExtent& extent
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Draws one column at a time, with one direction a lane, so that the words of the lanes lie side by side. Lanes without
-// a hit keep what their words hold, even behind the plane's directions. Vectors begin where cells do, or at a part of
-// one, and occluded cells are skipped.
+// Draws one column at a time, one direction per lane, so that the words of the lanes are contiguous. Lanes without a
+// hit keep their words, even beyond the plane's directions. Vectors are aligned to cells or parts of them, and occluded
+// cells are skipped.
 void draw_along_rows(const DrawJob& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
@@ -125,7 +125,7 @@ void draw_along_rows(const DrawJob& on, float K_begin, float K_end) {
 }
 #endif
 
-// Draws one direction a lane: all columns between c_0 and c_1 are hits.
+// Draws one direction per lane: all columns between c_0 and c_1 are hits.
 void draw_along_directions(const DrawJob& on, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
@@ -148,14 +148,14 @@ void draw_along_directions(const DrawJob& on, float K_begin, float K_end) {
     }
 }
 
-// Where draw_along_columns goes on: the first column of a vector, and how many directions of each of its columns are
-// done.
+// The state from which draw_along_columns() continues: the first column of a vector, and the number of directions done
+// in each of its columns.
 struct ColumnsDone {
     float begin, directions;
 };
 
-// Draws one column a lane: candidates are the directions between those of the ends, K_0 and K_1, with a margin on
-// either side. Returns false if the queue is full: to be called again when it has been drawn.
+// Draws one column per lane: candidates are the directions between those of the ends, K_0 and K_1, with a margin on
+// either side. Returns false if the queue is full; to be called again after the queue has been drawn.
 bool draw_along_columns(const DrawJob& on, float n_end, float per_z0, float per_z1, float margin, ColumnsDone& at) {
     const FloatTag d;
     Candidates& candidates = on.candidates;
@@ -173,7 +173,7 @@ bool draw_along_columns(const DrawJob& on, float n_end, float per_z0, float per_
         const Floats low = hn::Sub(hn::Min(K0, K1), low_offset), high = hn::Sub(hn::Max(K0, K1), high_offset);
         const Floats end = hn::IfThenElse(hn::Le(n, columns_end), hn::Min(k_last, high), none);
         Floats k = hn::Add(hn::Max(zero, hn::Ceil(low)), hn::Set(d, done));
-        // Most columns have one or two.
+        // Most columns have one or two candidates.
         count += candidates.add(n, k, end, count);
         for (std::size_t more = 1; more != 0;) {
             k = hn::Add(k, one);

@@ -8,14 +8,14 @@
 
 namespace hogel::render::epi {
 
-/// Units of an epipolar plane, in which lengths count samples, so that the loops over samples work on small whole
-/// numbers. Column i of S hogels has the whole number n = i − ⌊S/2⌋, and a point (x, ζ) is seen by column n in the
-/// direction K = U/ΔU if n = x − K z, where x counts hogels of pitch d from n = 0 and z = ζ ΔU/d. Directions that are
-/// not centred on U = 0 are counted from their middle, and space is sheared to match. So K is a whole number, or a
-/// whole number and a half, and exact as a float.
+/// The coordinates of epipolar planes. Lengths are in samples, so that loops over samples work on small whole numbers.
+/// Column i of S hogels has the whole number n = i − ⌊S/2⌋, and a point (x, ζ) is seen by column n in the direction K =
+/// U/ΔU if n = x − K z, where x counts hogels of pitch d from n = 0 and z = ζ ΔU/d. Directions that are not centred on
+/// U = 0 are counted from their middle, and space is sheared accordingly. So K is a multiple of one half and exact as a
+/// float.
 ///
 /// On a side of a hemicube the distance forward replaces ζ. It depends on the row of hogels: z of a point minus z of
-/// the row. On the left and the right side rows of hogels are columns (RowAxes), counted from the top as t is.
+/// the row. On the left and right sides rows of hogels are columns (RowAxes), counted from the top like t.
 class EpipolarFrame {
   public:
     explicit EpipolarFrame(const LightFieldGrid& grid)
@@ -37,7 +37,7 @@ class EpipolarFrame {
         const double z = forward * step_ / grid_.pitch;
         return {axes_.fast_sign() * fast / grid_.pitch - offset_ - middle_fast_ * z, slow / grid_.pitch, z};
     }
-    /// A distance forward, in metres.
+    /// Converts a distance forward to metres.
     double metres(double z) const { return z * grid_.pitch / step_; }
 
     /// The epipolar plane of one row of hogels and one of directions: y = row + slope z for points in samples, which

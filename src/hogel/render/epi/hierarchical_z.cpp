@@ -14,7 +14,7 @@ void HierarchicalZ::clear(const EpipolarPlane& plane) {
 
 void HierarchicalZ::update(const EpipolarPlane& plane) {
     find_max_depths(plane);
-    // Objects that stand alone occlude too little to pay for the tests.
+    // Isolated objects occlude too little to justify the tests.
     constexpr std::uint32_t open = ordered_bits(std::numeric_limits<float>::infinity());
     const std::span cells(plane.cells->max_depth.data(), plane.columns * DepthCells::rows(plane.directions));
     const auto covered = std::ranges::count_if(cells, [](std::uint32_t cell) { return cell < open; });
@@ -27,8 +27,8 @@ BoxBounds::BoxBounds(const ClusterBox& box, const EpipolarPlane& plane, double s
       z_low(static_cast<float>(box.z_low - z0)),
       z_high(static_cast<float>(box.z_high - z0)) {
     const double depth = box.z_low - z0;
-    // Depths of spans are rounded to single precision, and may be differences of larger numbers; this lies beyond any
-    // rounding.
+    // Depths of spans are rounded to single precision and may be differences of larger numbers; the margin is larger
+    // than any rounding error.
     min_depth = ordered_bits(static_cast<float>(depth - 1e-6 * std::abs(depth) - 1e-12 * std::abs(z0)));
     const double max_K =
         1 + std::abs(static_cast<double>(plane.first_direction)) + static_cast<double>(plane.directions);
@@ -58,7 +58,7 @@ FootprintBounds find_footprint_plain(const ClusterBox& cluster, const EpipolarPl
     const BoxBounds box(cluster, plane, shift, z0);
     std::uint16_t max_columns = 0;
     for (std::size_t row = 0; row < DepthCells::rows(plane.directions); ++row) {
-        // The columns that see the box in one of the row's directions.
+        // The columns that see the box in some direction of the row.
         const float Ka = plane.first_direction + static_cast<float>(row * directions_per_cell);
         const float Kb = std::min(K_last, Ka + static_cast<float>(directions_per_cell - 1));
         const auto [min_Kz, max_Kz] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});

@@ -11,30 +11,30 @@
 
 namespace hogel::render::epi {
 
-/// A cluster's box in single precision, as the rays of an epipolar plane see it.
+/// A cluster's box, in single precision, relative to the rays of an epipolar plane.
 struct BoxBounds {
     float x_low, x_high, z_low, z_high;
-    float margin;             ///< in columns, beyond any rounding of those that see the box
+    float margin;             ///< in columns, larger than any rounding error of the columns that see the box
     std::uint32_t min_depth;  ///< ordered bits of a depth in front of everything in the box
 
-    /// The bounds are those of the box moved by (shift, −z0).
+    /// The bounds of the box moved by (shift, −z0).
     BoxBounds(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0);
 };
 
-/// For `rows` rows of a plane's cells (DepthCells) the columns whose samples may see a box.
+/// For `rows` rows of a plane's cells (DepthCells), the columns whose samples may see a box.
 struct alignas(64) CellColumns {
     static constexpr std::size_t rows = 16;
     static constexpr std::size_t max_plane_columns = 0xffff;
     std::uint16_t first[rows], count[rows];
 
-    /// How many of these cover all rows of cells of a plane.
+    /// The number of CellColumns that cover all rows of cells of a plane.
     static std::size_t needed(std::size_t directions) { return (DepthCells::rows(directions) + rows - 1) / rows; }
 };
 
 /// Bounds of a box's footprint.
 struct FootprintBounds {
     std::uint32_t min_depth;    ///< of BoxBounds
-    std::uint32_t max_columns;  ///< that see the box in one row of cells
+    std::uint32_t max_columns;  ///< maximum of columns that see the box in one row of cells
 };
 
 /// The cells whose samples may see a box.
@@ -44,18 +44,18 @@ struct BoxFootprint {
 };
 
 /// Finds the cells whose samples may see a box moved by (shift, −z0). The twins give the same.
-/// @param columns  out: CellColumns::needed(plane.directions)
+/// @param columns  output, CellColumns::needed(plane.directions) elements
 FootprintBounds find_footprint_plain(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
                                      CellColumns* columns);
 FootprintBounds find_footprint(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
                                CellColumns* columns);
 
-/// The footprints of all clusters' boxes. They are the same in all planes of a row of hogels, and each is found when it
-/// is first asked for.
+/// The footprints of all clusters' boxes. They are the same in all planes of a row of hogels, and each is computed when
+/// first needed.
 class BoxFootprints {
   public:
     /// Begins a row of hogels.
-    /// @param plane  any plane of the row; has to outlive it
+    /// @param plane  any plane of the row; must outlive the row
     void begin_row(std::span<const ClusterBox> boxes, const EpipolarPlane& plane, double shift, double z0);
     BoxFootprint operator[](std::size_t box) {
         CellColumns* columns = &columns_[box * columns_per_box_];
@@ -71,7 +71,7 @@ class BoxFootprints {
   private:
     struct Found {
         FootprintBounds bounds;
-        std::uint32_t row;  // for which they were found
+        std::uint32_t row;  // the row for which the footprint was computed
     };
 
     std::span<const ClusterBox> boxes_;
@@ -83,7 +83,7 @@ class BoxFootprints {
     std::vector<Found> found_;
 };
 
-/// Whether every cell of a footprint is nearer than the box, at all of its samples. The twins give the same.
+/// Whether all samples in every cell of a footprint are nearer than the box. The twins give the same.
 bool cells_occlude_plain(const EpipolarPlane& plane, const BoxFootprint& box);
 bool cells_occlude(const EpipolarPlane& plane, const BoxFootprint& box);
 
@@ -91,18 +91,18 @@ bool cells_occlude(const EpipolarPlane& plane, const BoxFootprint& box);
 /// nothing has to be drawn.
 class HierarchicalZ {
   public:
-    /// Begins a plane in which nothing is drawn, and clears its cells.
+    /// Begins an empty plane and clears its cells.
     void clear(const EpipolarPlane& plane);
-    /// Updates the plane's cells to all that has been drawn.
+    /// Updates the plane's cells to everything that has been drawn.
     void update(const EpipolarPlane& plane);
-    /// Whether every sample of the plane that may see the box sees something in front of it. Never true of a box that
-    /// holds something visible, or as near as what is seen.
+    /// Whether every sample of the plane that may see the box sees something in front of it. Conservative: never true
+    /// if the box contains something visible or as near as what is visible.
     bool occludes(BoxFootprints& footprints, std::size_t box, const EpipolarPlane& plane) const {
         return pays_ && cells_occlude(plane, footprints[box]);
     }
 
   private:
-    bool pays_ = false;  // whether enough is covered for tests of boxes to pay
+    bool pays_ = false;  // whether enough is covered for tests of boxes to be worthwhile
 };
 
 }  // namespace hogel::render::epi

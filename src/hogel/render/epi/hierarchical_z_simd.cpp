@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of find_max_depths_plain in kernels.cpp and of find_footprint_plain and cells_occlude_plain in
-// hierarchical_z.cpp, compiled for every instruction set and chosen when first called.
+// hierarchical_z.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/hierarchical_z_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ HWY_INLINE Depths max_depth_lanes(const std::uint64_t* words) {
     return max_depth;
 }
 
-// The farthest depths of cells in four columns, which begin at these words.
+// The farthest depths of the cells in four columns that begin at these words.
 HWY_INLINE void find_four(const std::uint64_t* const (&words)[4], std::uint32_t (&max_depths)[4]) {
     const Tag d;
     const hn::RepartitionToWide<Tag> d64;
@@ -85,7 +85,7 @@ void FindMaxDepths(const EpipolarPlane& plane) {
     }
 }
 
-// One row of cells a lane.
+// One row of cells per lane.
 FootprintBounds FindFootprint(const ClusterBox& cluster, const EpipolarPlane& plane, double shift, double z0,
                               CellColumns* columns) {
     const hn::RebindToFloat<Tag> df;
@@ -107,7 +107,7 @@ FootprintBounds FindFootprint(const ClusterBox& cluster, const EpipolarPlane& pl
         const auto min_Kz = hn::Min(hn::Min(a, b), hn::Min(c, e)), max_Kz = hn::Max(hn::Max(a, b), hn::Max(c, e));
         const auto begin = hn::Max(first, hn::Ceil(hn::Sub(hn::Sub(x_low, max_Kz), margin)));
         const auto end = hn::Min(last, hn::Floor(hn::Add(hn::Sub(x_high, min_Kz), margin)));
-        // None where the box is not seen, even if its bounds are infinite, and none in rows beyond the last.
+        // No columns where the box is not visible, even if its bounds are infinite, nor in rows beyond the last.
         const auto seen = hn::And(hn::Le(begin, end), hn::Le(Ka, K_last));
         const auto number = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Add(hn::Sub(end, begin), one)));
         max_columns = hn::Max(max_columns, number);
@@ -126,14 +126,14 @@ constexpr auto lowest_bits = [] {
     return bits;
 }();
 
-// Which of the first `count` cells, no more than a vector of them, do not occlude what begins at `min_depth`.
+// Which of the first `count` cells (at most a vector of them) do not occlude objects from `min_depth` on.
 HWY_INLINE hn::Mask<Tag> open_cells(const std::uint32_t* cells, std::size_t count, Depths min_depth) {
     const Tag d;
     const auto first = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&lowest_bits[count]));
     return hn::AndNot(hn::Lt(hn::LoadU(d, cells), min_depth), first);
 }
 
-// A vector of columns and four rows at a time, because a branch on a single row cannot be predicted.
+// Tests a vector of columns and four rows at a time, because a branch on a single row is unpredictable.
 bool CellsOcclude(const EpipolarPlane& plane, const BoxFootprint& box) {
     const Tag d;
     const std::size_t lanes = hn::Lanes(d), rows = DepthCells::rows(plane.directions);

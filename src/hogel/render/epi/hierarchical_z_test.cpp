@@ -12,8 +12,8 @@
 namespace hogel::render::epi {
 namespace {
 
-// Whatever lies in an occluded box changes nothing when it is drawn after all, with any number. Boxes stand on both
-// sides of the hologram, and some of them as near as what is drawn.
+// Drawing anything inside an occluded box, with any number, changes nothing. Boxes are on both sides of the hologram,
+// some of them as near as the drawn spans.
 TEST(HierarchicalZ, occludes_only_what_cannot_be_seen) {
     std::mt19937 random(1);
     const auto uniform = [&](float low, float high) {
@@ -41,7 +41,7 @@ TEST(HierarchicalZ, occludes_only_what_cannot_be_seen) {
             const std::vector<std::uint64_t> before = drawn.words;
             std::vector<EpiSpan> inside;
             for (int i = 0; i < 10; ++i) {
-                // At the corners of the box and anywhere in it.
+                // Points at the corners of the box and anywhere inside it.
                 const auto point = [&](double low, double high) {
                     return random() % 3 == 0   ? float(low)
                            : random() % 2 == 0 ? float(high)
@@ -60,8 +60,8 @@ TEST(HierarchicalZ, occludes_only_what_cannot_be_seen) {
 
 HOGEL_TEST_ON_EVERY_TARGET(HierarchicalZKernels);
 
-// Boxes stand before, in and behind the hologram, near it and far to the side; planes have whole CellColumns and
-// others.
+// Boxes are in front of, on and behind the hologram, near it and far to the side; numbers of directions are multiples
+// of CellColumns and others.
 TEST_P(HierarchicalZKernels, vector_and_plain_twins_agree) {
     std::mt19937 random(3);
     const auto uniform = [&](double low, double high) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples that spans cover, or may cover, for draw_simd.cpp; included after hwy/highway.h, once for every instruction
-// set.
+// Queues of samples that spans cover, or may cover, for draw_simd.cpp. To be included after hwy/highway.h, once for
+// every SIMD target.
 #if defined(HOGEL_RENDER_EPI_HITS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_EPI_HITS
 #undef HOGEL_RENDER_EPI_HITS
@@ -22,7 +22,7 @@ namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A vector of directions is in one cell.
+// Vectors of at most one cell of directions.
 using FloatTag = hn::CappedTag<float, directions_per_cell>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using NumberTag = hn::RebindToUnsigned<FloatTag>;
@@ -30,14 +30,14 @@ using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using FloatMask = hn::Mask<FloatTag>;
 
-// EpiSpan in all lanes, or a span a lane. Gives the columns c0 and c1 that see its ends in direction K, and from them
-// whether column n sees the span, and at which depth.
+// One EpiSpan in all lanes, or one span per lane. Computes the columns c0 and c1 that see its ends in direction K, and
+// from them whether column n sees the span, and at which depth.
 struct SpanLanes {
     Floats x0, z0, x1, z1;
 
     HWY_INLINE Floats c0(Floats K) const { return hn::Sub(x0, hn::Mul(K, z0)); }
     HWY_INLINE Floats c1(Floats K) const { return hn::Sub(x1, hn::Mul(K, z1)); }
-    // With `fronts_only`, nothing lies between the two where the back is seen.
+    // With `fronts_only`, makes the range between the two empty where the back is visible.
     HWY_INLINE Floats c1(Floats K, Floats c0, bool fronts_only) const {
         return fronts_only ? hn::Max(c0, c1(K)) : c1(K);
     }
@@ -66,11 +66,11 @@ HWY_INLINE Ints ordered_bits_of(Floats z) {
     return hn::Xor(bits, hn::Or(hn::BroadcastSignBit(bits), hn::Set(di, std::numeric_limits<std::int32_t>::min())));
 }
 
-// How many hits or candidates are collected before they are drawn, and how many more a vector may write.
+// The number of hits or candidates that are collected before they are drawn, and how many more a vector may write.
 constexpr std::size_t max_queued = 1024, max_vector = HWY_MAX_BYTES / 4;
 
-// A queue of hits whose words lie anywhere. A loop over the few hits of each vector would end where no processor
-// predicts it.
+// A queue of hits at arbitrary words. It avoids a loop over the few hits of each vector, whose end would be
+// unpredictable.
 class Hits {
   public:
     explicit Hits(const EpipolarPlane& plane) : words_(plane.words) {}
@@ -104,19 +104,18 @@ class Hits {
     HWY_ALIGN std::int32_t hits_[max_queued + max_vector][2];  // halves of words
 };
 
-// A queue of samples that thin spans may cover. They are found for many spans before the first is tested: tests do not
-// wait for what is found, and where a span has more or fewer of them than the processor predicted, it has other work.
-// Those of one span fill whole vectors, whichever columns they are from.
+// A queue of samples that thin spans may cover. Candidates of many spans are collected before the first is tested, so
+// that tests do not wait for the search and mispredicted loop ends overlap with other work. The candidates of one span
+// fill whole vectors, whichever columns they are from.
 class Candidates {
   public:
     Candidates(const EpipolarPlane& plane, std::span<const EpiSpan> spans, std::size_t first, Hits& hits)
         : plane_(plane), spans_(spans), first_(first), hits_(hits) {}
 
-    // Where candidates of the next span begin.
+    // The index of the first candidate of the next span.
     HWY_INLINE std::size_t begin() const { return vectors_ * hn::Lanes(FloatTag()); }
 
-    // Writes the lanes with k <= end, in columns n and directions k, from index `count` on, and returns how many those
-    // are.
+    // Writes the lanes with k <= end, in columns n and directions k, from index `count` on, and returns their number.
     HWY_INLINE std::size_t add(Floats n, Floats k, Floats end, std::size_t count) {
         const FloatTag d;
         const FloatMask candidate = hn::Le(k, end);
@@ -125,18 +124,18 @@ class Candidates {
         return hn::CountTrue(d, candidate);
     }
 
-    // Ends the candidates of a span, all from begin() to `count`.
+    // Ends the candidates of a span, which are those from begin() to `count`.
     HWY_INLINE void end(std::uint32_t span, std::size_t count) {
         const FloatTag d;
         const NumberTag du;
         const std::size_t lanes = hn::Lanes(d), vectors = (count + lanes - 1) / lanes;
-        // Pads the last vector with what is no sample.
+        // Pads the last vector with invalid samples.
         hn::StoreU(hn::Set(d, std::numeric_limits<float>::quiet_NaN()), d, k_ + count);
         for (std::size_t i = vectors_; i < vectors; i += lanes) hn::StoreU(hn::Set(du, span), du, owners_ + i);
         vectors_ = vectors;
     }
 
-    // Whether they have to be drawn before more are added.
+    // Whether the candidates must be drawn before more are added.
     static HWY_INLINE bool is_full(std::size_t count) { return count >= max_queued; }
 
     HWY_NOINLINE void draw() {
@@ -144,7 +143,7 @@ class Candidates {
         const IntTag di;
         const std::size_t lanes = hn::Lanes(d);
         const Floats k_first = hn::Set(d, plane_.first_direction);
-        // Whole numbers below 2²³ are the last bits of their sums with this.
+        // Added to a whole number below 2²³, this makes the number the last bits of the sum.
         constexpr float to_whole = 1 << 23;
         const Floats to_column = hn::Set(d, to_whole - static_cast<float>(plane_.first_column));
         const Floats to_direction = hn::Set(d, to_whole);

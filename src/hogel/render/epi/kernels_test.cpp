@@ -20,7 +20,7 @@ namespace {
 
 using Draw = void (*)(std::span<const EpiSpan>, std::size_t, const EpipolarPlane&);
 
-// Random coordinates of all kinds: on samples, between them, on both sides of the hologram and in it, near and far.
+// Random coordinates of all kinds: on samples, between them, on both sides of the hologram and on it, near and far.
 class Coordinates {
   public:
     explicit Coordinates(unsigned seed) : random_(seed) {}
@@ -64,7 +64,7 @@ TEST_P(PlaneKernels, vector_and_plain_twins_draw_the_same) {
         std::vector<EpiSpan> spans(random.between(0, 12));
         for (EpiSpan& span : spans) {
             span = {random.x(), random.z(), random.x(), random.z()};
-            // Half of them small, as in a fine mesh.
+            // Half of them are small, as in a fine mesh.
             if (random.coin()) {
                 span.x1 = span.x0 + random.uniform(0.5f);
                 span.z1 = span.z0 + random.uniform(0.05f);
@@ -76,14 +76,14 @@ TEST_P(PlaneKernels, vector_and_plain_twins_draw_the_same) {
         fast.plane.fronts_only = plain.plane.fronts_only = round % 3 == 0;
         draw_spans(spans, 3, fast.plane);
         draw_spans_plain(spans, 3, plain.plane);
-        ASSERT_EQ(fast.words, plain.words) << round;  // padding, too
+        ASSERT_EQ(fast.words, plain.words) << round;  // including the padding
         for (std::uint64_t word : plain.words) covered += word != EpipolarPlane::empty ? 1 : 0;
     }
     EXPECT_GT(covered, 50000u);
 }
 
-// Rounds alternate between spans close to the hologram, which the columns of one vector see in more directions than the
-// queue of candidates holds, and many thin spans, some of which no sample sees.
+// Rounds alternate between spans close to the hologram, for which the columns of one vector have more candidates than
+// the queue holds, and many thin spans, some of which no sample sees.
 TEST_P(PlaneKernels, full_queues_change_nothing) {
     Coordinates random(9);
     std::size_t covered = 0, in_a_column = 0;
@@ -114,7 +114,7 @@ TEST_P(PlaneKernels, full_queues_change_nothing) {
     EXPECT_GT(in_a_column, 100u);
 }
 
-// Spans in layers, behind and across each other, as wide as cells and wider.
+// Spans in layers, behind each other and intersecting, as wide as cells and wider.
 TEST_P(PlaneKernels, hierarchical_z_changes_nothing) {
     Coordinates random(7);
     std::size_t occluded = 0;
@@ -127,7 +127,7 @@ TEST_P(PlaneKernels, hierarchical_z_changes_nothing) {
         for (int layer = 0; layer < 8; ++layer) {
             std::vector<EpiSpan> spans(random.between(0, 6));
             for (EpiSpan& span : spans) {
-                // Several at the same depth, also that of the hologram.
+                // Several have the same depth, some that of the hologram.
                 const float z = random.coin() ? 0.25f * float(layer - 3) : random.uniform(2);
                 const float x = random.uniform(90);
                 span = {x, z, x + random.uniform(60), random.coin() ? z : z + random.uniform(0.3f)};
@@ -144,7 +144,7 @@ TEST_P(PlaneKernels, hierarchical_z_changes_nothing) {
     EXPECT_GT(occluded, 10000u);
 }
 
-// A span with its ends exchanged shows its back where it showed its front.
+// A span with exchanged ends shows its back where it showed its front.
 TEST(EpipolarKernels, front_and_back_share_the_samples_of_a_span) {
     Coordinates random(8);
     std::size_t fronts = 0, backs = 0;
@@ -175,7 +175,7 @@ TEST(EpipolarKernels, triangles_that_share_an_edge_share_its_crossing) {
     for (int round = 0; round < 10000; ++round) {
         const auto height = [&] { return std::abs(random.uniform(1)) * (random.coin() ? 1.0 : 1e-12); };
         const auto random3 = [&] { return Three{random.uniform(30) / 3.0, random.uniform(3) / 7.0, 0}; };
-        // An edge across the plane, and two corners that make it two triangles, each listed from a random corner on.
+        // An edge across the plane and two other corners form two triangles, each listed from a random corner on.
         Three low = random3(), high = random3(), left = random3(), right = random3();
         low[2] = -1e-15 - height();
         high[2] = height();
@@ -213,14 +213,14 @@ class EveryTwin : public ::testing::TestWithParam<Draw> {};
 INSTANTIATE_TEST_SUITE_P(EpipolarKernels, EveryTwin, ::testing::Values(&draw_spans, &draw_spans_plain),
                          [](const auto& parameter) { return parameter.param == &draw_spans ? "vector" : "plain"; });
 
-// A chain of points from beyond the left of the plane to beyond its right, whose order is the same in all directions,
-// so that no sample sees two of the spans between them.
+// A chain of points from the left of the plane to its right, in the same order in all directions, so that no sample
+// sees two of the spans between them.
 TEST_P(EveryTwin, gives_every_sample_to_one_span_of_a_chain) {
     Coordinates random(3);
     for (int round = 0; round < 60; ++round) {
         TestPlane counted(30, 41, -11);
         const float max_K = 20, slack = 1.01f;
-        // A third of the chains lie on the samples themselves.
+        // A third of the chains are exactly on samples.
         const bool on_samples = round % 3 == 0;
         const float depth = on_samples ? random.whole_or_half(3) : random.uniform(3);
         std::vector<EpiSpan> chain{{-500, depth, -200, depth}};
@@ -254,7 +254,7 @@ TEST_P(EveryTwin, depth_is_where_the_ray_meets_the_segment) {
         GetParam()({&span, 1}, 7, seen.plane);
         for (std::size_t i = 0; i < 20 * 31; ++i) {
             const double n = -9 + double(i / 31), K = double(i % 31) - 15;
-            // x = n + K z along the ray, so the segment is met where x − n − K z changes its sign.
+            // x = n + K z along the ray, so the ray meets the segment where x − n − K z changes its sign.
             const double a = span.x0 - n - K * span.z0, b = span.x1 - n - K * span.z1;
             if (std::abs(a) < 1e-3 || std::abs(b) < 1e-3) continue;
             ASSERT_EQ(seen.words[i] != EpipolarPlane::empty, (a < 0) != (b < 0)) << round;
@@ -289,7 +289,7 @@ void see_spans(Coordinates& random, std::size_t count, TestPlane& test) {
     const std::size_t directions = test.plane.directions, size = test.plane.columns * directions;
     for (std::uint64_t& word : test.words)
         if (random.coin()) word = std::uint64_t{12345} << 32 | random.between(0, static_cast<int>(count) - 1);
-    // Runs as of large triangles: one to three in a vector, or a few more.
+    // Runs of samples as from large triangles: one to three per vector, or a few more.
     const std::size_t run = directions % 2 == 0 ? 37 : directions % 3 == 0 ? 7 : 4;
     for (std::size_t k = 0; k < size; ++k)
         if (k / run % 2 == 0 || (directions % 4 == 1 && k % 50 < 40))
@@ -302,12 +302,12 @@ TEST_P(PlaneKernels, vector_and_plain_twins_shade_the_same) {
     const std::vector<SpanValues> spans = random_values(random);
     for (std::size_t directions = 1; directions < 150; directions = directions < 40 ? directions + 1 : directions + 8) {
         const std::size_t columns = 3, size = columns * directions;
-        // With few spans the kernel expects large ones.
+        // If there are few spans, the kernel expects large ones.
         const std::size_t count = directions % 7 < 2 ? 3 : spans.size();
         const std::span some(spans.data(), count);
         TestPlane plane(columns, directions, -3);
         see_spans(random, count, plane);
-        // On cache lines, and off them.
+        // Aligned to cache lines, and not aligned.
         for (const std::size_t offset : {0, 1}) {
             using Row = std::vector<float, CacheLineAllocator<float>>;
             std::vector<Row> fast(4, Row(size + 2, -1)), plain = fast;

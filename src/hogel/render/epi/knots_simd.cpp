@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Knots of spans from the radiance cache, filled for all spans that a plane shows before any of it is shaded; compiled
-// for every instruction set and chosen when first called. The plain twin fills each knot when a sample needs it.
+// Fills the knots of all visible spans of a plane from the radiance cache before the plane is shaded. Compiled for
+// every SIMD target and chosen when first called. The plain twin fills each knot when a sample needs it.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/knots_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void FillVisibleKnots(std::span<const std::uint64_t>, std::span<const SpanValues
 #else
 constexpr std::size_t max_lanes = hn::MaxLanes(FloatTag());
 
-// Collects numbers of visible spans that are pending, and clears their pending flags.
+// Collects the numbers of visible spans that are pending, and clears their pending flags.
 class PendingSpans {
   public:
     PendingSpans(std::uint8_t* pending, std::uint32_t* found) : pending_(pending), found_(found) {}
@@ -44,7 +44,7 @@ class PendingSpans {
     std::size_t count_ = 0;
 };
 
-// Writes the numbers of pending spans that these words show, each once, and returns how many there are.
+// Writes the numbers of the pending spans in these words, each once, and returns how many there are.
 HWY_INLINE std::size_t find_pending(std::span<const std::uint64_t> words, std::uint8_t* pending, std::uint32_t* found) {
     const NumberTag d;
     constexpr std::size_t lanes = hn::MaxLanes(d), usual = 4;
@@ -67,7 +67,7 @@ HWY_INLINE std::size_t find_pending(std::span<const std::uint64_t> words, std::u
     return spans.count();
 }
 
-// SpanOnGrid, a span a lane.
+// SpanOnGrid, one span per lane.
 struct SpansOnGrids {
     HWY_ALIGN float start[2][max_lanes], change[2][max_lanes], scale[2][max_lanes], limit[2][max_lanes],
         intervals[max_lanes];
@@ -101,7 +101,7 @@ HWY_INLINE void place_on_grids(const RadianceSource::Grids& grids, const std::ui
     const auto [weight0, weight1, unused, lone_and_next] = origin;
     const Numbers lone = hn::And(hn::BitCast(du, lone_and_next), hn::Set(du, 0xffff)),
                   next = hn::ShiftRight<16>(hn::BitCast(du, lone_and_next));
-    // The weights of these corners at the two ends (SpanOrigin::weights).
+    // The weights of a corner at the two ends (SpanOrigin::weights).
     const auto weights = [&](Numbers corner, Floats(&weight)[2]) HWY_ATTR {
         const auto is_lone = hn::RebindMask(d, hn::Eq(corner, lone)), is_next = hn::RebindMask(d, hn::Eq(corner, next));
         weight[0] = hn::IfThenElse(is_lone, weight0, hn::IfThenElse(is_next, hn::Sub(one, weight0), zero));
@@ -128,7 +128,8 @@ HWY_INLINE void place_on_grids(const RadianceSource::Grids& grids, const std::ui
     hn::Store(hn::Add(hn::ConvertTo(d, hn::ConvertTo(di, intervals)), one), d, to.intervals);
 }
 
-// LightGrid::Place: the number of a grid's row or column at this part of its length, and the fraction `beyond`.
+// LightGrid::Place: the number of a grid's row or column at this fraction of its length, and the remaining fraction
+// `beyond`.
 HWY_INLINE Numbers place_on_axis(Floats part, float scale, float limit, Floats& beyond) {
     const FloatTag d;
     const NumberTag du;
@@ -140,13 +141,13 @@ HWY_INLINE Numbers place_on_axis(Floats part, float scale, float limit, Floats& 
     return hn::And(hn::BitCast(du, rounded), hn::Set(du, shading::LightGrid::node_bits));
 }
 
-// Knots of several spans whose points are being prefetched: for each knot the offset of its upper left point, in words,
-// and the fractions of the way to the next points.
+// The knots of several spans whose cache points are being prefetched: for each knot the offset of its upper left point,
+// in words, and the fractions of the distance to the next points.
 class KnotBatch {
   public:
     explicit KnotBatch(bool colour) : colour_(colour) {}
 
-    // Adds the knots of the span in a lane, whose first knot has the number `to`.
+    // Adds the knots of the span in a lane; the first one is knot number `to`.
     HWY_INLINE void add(const SpansOnGrids& spans, std::size_t lane, const SpanValues& values, std::uint32_t to) {
         const FloatTag d;
         const NumberTag du;
@@ -191,12 +192,12 @@ class KnotBatch {
         count_ = span_count_ = 0;
     }
 
-    static constexpr std::size_t max_intervals = 512;  // of a span
+    static constexpr std::size_t max_intervals = 512;  // maximum per span
 
   private:
     struct Span {
         const std::uint32_t* points;
-        std::uint32_t right, down;  // words from a point to the next
+        std::uint32_t right, down;  // words from a point to the next one
         std::uint32_t to;
         std::size_t begin, end;  // its knots in the batch
     };

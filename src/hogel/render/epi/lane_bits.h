@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masks as bits of an integer; included after hwy/highway.h, once for every instruction set.
+// Masks as bits of an integer. To be included after hwy/highway.h, once for every SIMD target.
 #if defined(HOGEL_RENDER_EPI_LANE_BITS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_EPI_LANE_BITS
 #undef HOGEL_RENDER_EPI_LANE_BITS
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 
-// Bit i is set where lane i of the mask is.
+// Bit i is that of lane i of the mask.
 template <class D>
 HWY_INLINE std::uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
     std::uint8_t bytes[8] = {};

@@ -7,15 +7,15 @@
 namespace hogel::render::epi {
 namespace {
 
-// Triangles are set up as soon as a batch holds this many.
+// The number of triangles of a batch from which on they are set up.
 constexpr std::size_t min_batch = 64;
 
 // Prefetch distance of the footprints of boxes, in clusters.
 constexpr std::size_t prefetch_distance = 8;
 
-// The hierarchical z is updated after this many spans, or more if a plane has many samples: often enough to draw little
-// in vain, and seldom enough to cost little. Where spans cover many cells it is updated earlier: as soon as so much has
-// been drawn as would fill the plane.
+// The hierarchical z is updated after this number of spans, or more if a plane has many samples: a compromise between
+// its cost and spans that are drawn unnecessarily. If spans cover many cells it is updated earlier, as soon as the
+// drawn cells would fill the plane.
 constexpr std::size_t min_update_interval = 128, samples_per_update = 256;
 
 }  // namespace
@@ -43,7 +43,7 @@ void PlaneDrawer::draw(const EpipolarPlane& plane, const CutPlane& cut, std::spa
     draw_new(plane);
 }
 
-// Adds triangles to the batch.
+// Adds triangles to the batch and prefetches them.
 void PlaneDrawer::prefetch(const CrossedTriangles& crossed) {
     const std::size_t first = crossed.cluster * cluster_size;
     for (std::uint64_t rest = crossed.triangles; rest != 0; rest &= rest - 1) {

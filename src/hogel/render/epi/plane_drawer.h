@@ -14,19 +14,19 @@
 
 namespace hogel::render::epi {
 
-/// Finds which span each sample of an epipolar plane sees. Clusters that the hierarchical z occludes are skipped.
-/// Triangles of the others are prefetched, set up in batches and drawn.
+/// Determines which span each sample of an epipolar plane sees. Clusters that the hierarchical z occludes are skipped;
+/// triangles of the others are prefetched, set up in batches and drawn.
 class PlaneDrawer {
   public:
-    /// Both arguments have to outlive it.
+    /// Both arguments must outlive this object.
     PlaneDrawer(const TriangleClusters& clusters, PlaneSpans& spans) : clusters_(clusters), spans_(spans) {}
 
-    /// Begins a row of hogels, whose planes all have these samples, `shift` and `z0` (EpipolarFrame::Plane).
-    /// @param plane  has to outlive the row
+    /// Begins a row of hogels, whose planes share these samples, `shift` and `z0` (EpipolarFrame::Plane).
+    /// @param plane  must outlive the row
     void begin_row(const EpipolarPlane& plane, double shift, double z0);
     /// Sets up the spans of a plane and draws them.
     /// @param plane  empty
-    /// @param crossed  clusters in the order in which they are drawn, best from front to back
+    /// @param crossed  clusters in drawing order, preferably front to back
     void draw(const EpipolarPlane& plane, const CutPlane& cut, std::span<const CrossedTriangles> crossed);
 
   private:
@@ -39,8 +39,9 @@ class PlaneDrawer {
     PlaneSpans& spans_;
     HierarchicalZ depths_;
     BoxFootprints footprints_;
-    std::vector<std::uint32_t> batch_;  // slots of triangles that are being prefetched
-    // Numbers of spans: up to which they are drawn, and are in the hierarchical z; and after how many it is updated.
+    std::vector<std::uint32_t> batch_;  // slots of the triangles being prefetched
+    // The numbers of the first span that is not drawn and of the first not included in the hierarchical z, and the
+    // number of spans after which that is updated.
     std::size_t drawn_ = 1, updated_ = 1, update_interval_ = 0;
 };
 

@@ -6,7 +6,7 @@
 namespace hogel::render::epi {
 namespace {
 
-// The radiance of one plane's samples that is evaluated one by one, and points of the radiance cache.
+// Evaluates the radiance of single samples of one plane, and points of the radiance cache.
 class PlaneRadiance final : public RadianceSource {
   public:
     PlaneRadiance(const ShadedScene& scene, const LightFieldGrid& grid, const RowAxes& axes, const PlaneSpans& spans,

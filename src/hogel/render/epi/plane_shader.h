@@ -10,10 +10,10 @@
 
 namespace hogel::render::epi {
 
-/// Writes radiance and depth of the spans that the samples of an epipolar plane see.
+/// Writes the radiance and depth of the samples of an epipolar plane from the spans that they see.
 class PlaneShader {
   public:
-    /// Scene and spans have to outlive it.
+    /// Scene and spans must outlive this object.
     PlaneShader(const ShadedScene& scene, const LightFieldGrid& grid, PlaneSpans& spans)
         : scene_(scene), grid_(grid), axes_(grid), spans_(spans), writer_(grid, axes_) {}
 

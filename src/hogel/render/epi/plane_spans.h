@@ -14,11 +14,12 @@
 
 namespace hogel::render::epi {
 
-/// Where the triangles of a scene get their radiance from; found once for all planes.
+/// The source of radiance of each triangle of a scene, determined once for all planes.
 struct RadianceTable {
-    /// Whether spans are shaded between knots (ShadedSpans), because some get it from elsewhere than their ends.
+    /// Whether spans are shaded between knots (ShadedSpans), because some do not interpolate radiance between their
+    /// ends.
     bool uses_knots;
-    std::vector<RadianceFrom> from;  ///< by slot of the clusters; empty without `uses_knots`
+    std::vector<RadianceFrom> from;  ///< by slot of the clusters; empty unless `uses_knots`
     SpanValues background;
 
     /// @param channels  of the light field: with one, the background's first value is its luminance
@@ -29,10 +30,10 @@ struct RadianceTable {
 /// they are added; number 0 is the background.
 class PlaneSpans {
   public:
-    /// All arguments have to outlive it.
+    /// All arguments must outlive this object.
     PlaneSpans(const ShadedScene& scene, const TriangleClusters& clusters, const RadianceTable& table);
 
-    /// Begins a plane: forgets all spans but the background.
+    /// Begins a plane: removes all spans except the background.
     void clear();
     /// Sets up the spans of the triangles in these slots of the clusters.
     void add(std::span<const std::uint32_t> slots, const CutPlane& plane);
@@ -42,7 +43,7 @@ class PlaneSpans {
     std::span<const EpiSpan> from(std::size_t first) const { return std::span(spans_).subspan(first, count_ - first); }
     std::span<const SpanValues> values() const { return std::span(values_).first(count_); }
 
-    /// RadianceTable::uses_knots; the following is there only with it.
+    /// RadianceTable::uses_knots; the members below are valid only with it.
     bool uses_knots() const { return table_.uses_knots; }
     const SpanOrigin* origins() const { return origins_.data(); }
     ShadedSpans& shaded() { return shaded_; }
@@ -53,7 +54,7 @@ class PlaneSpans {
     const ShadedScene& scene_;
     const TriangleClusters& clusters_;
     const RadianceTable& table_;
-    std::size_t count_ = 0;  // in use of the following
+    std::size_t count_ = 0;  // number of elements in use of the arrays below
     std::vector<EpiSpan> spans_;
     std::vector<SpanValues, CacheLineAllocator<SpanValues>> values_;
     std::vector<SpanOrigin> origins_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of setup.cpp, a triangle a lane, compiled for every instruction set and chosen when first called.
+// The vector twin of setup.cpp, one triangle per lane, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/setup_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using Tag = hn::FixedTag<double, 2>;
 using Tag = hn::ScalableTag<double>;
 #endif
 using IndexTag = hn::RebindToSigned<Tag>;
-using HalfTag = hn::Rebind<float, Tag>;  // as many floats
+using HalfTag = hn::Rebind<float, Tag>;  // as many floats as doubles
 using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
@@ -39,14 +39,14 @@ constexpr std::size_t max_lanes = hn::MaxLanes(Tag());
 // Loads two doubles at `offset` from each base, the first of each into `first`, the second into `second`.
 HWY_INLINE void load_pairs(const double* const* bases, std::size_t offset, Doubles& first, Doubles& second) {
     const Tag d;
-    // From every other base, beginning with base i.
+    // Loads from every second base, beginning with base i.
     const auto blocks = [&](std::size_t i) HWY_ATTR {
         if constexpr (max_lanes == 2) {
             return hn::LoadDup128(d, bases[i] + offset);
         } else if constexpr (max_lanes == 4) {
             return hn::OddEvenBlocks(hn::LoadDup128(d, bases[i + 2] + offset), hn::LoadDup128(d, bases[i] + offset));
         } else {
-            // Half by half, for the compiler, as load_blocks().
+            // Half by half, because of the compiler error described at load_blocks().
             const hn::Half<Tag> dh;
             const auto half = [&](std::size_t k) HWY_ATTR {
                 return hn::OddEvenBlocks(hn::LoadDup128(dh, bases[k + 2] + offset),
@@ -60,7 +60,7 @@ HWY_INLINE void load_pairs(const double* const* bases, std::size_t offset, Doubl
     second = hn::InterleaveUpper(d, even, odd);
 }
 
-// A corner of each lane's triangle: its height above the plane, and its coordinates in it.
+// A corner of each lane's triangle: its height above the plane, and its coordinates in the plane.
 struct CornerLanes {
     Doubles height, x, z;
 };
@@ -84,7 +84,7 @@ HWY_INLINE void load_corners(const TriangleCorners* const* triangles, const CutP
         c.height = hn::Sub(hn::Sub(c.height, hn::Mul(hn::Set(d, plane.slope), c.z)), hn::Set(d, plane.row));
 }
 
-// Crossing.
+// Crossing, one per lane.
 struct CrossingLanes {
     Doubles x, z, weight;
 };
@@ -100,7 +100,7 @@ HWY_INLINE CrossingLanes cross_edge(const CornerLanes& lone, const CornerLanes& 
             hn::IfThenElse(upwards, hn::Sub(hn::Set(d, 1.0), fraction), fraction)};
 }
 
-// TriangleCut, and as bits which lanes the plane crosses.
+// TriangleCut, one per lane, and the lanes that the plane crosses as bits.
 struct CutLanes {
     CrossingLanes end0, end1;
     Mask lone_is_2, lone_is_1, upwards;
@@ -127,7 +127,7 @@ HWY_INLINE CutLanes cut_lanes(const CornerLanes (&corner)[3], const CutPlane& pl
             crossed};
 }
 
-// A vector of cuts in memory, for what is done triangle by triangle.
+// A vector of cuts in memory, for work that is done triangle by triangle.
 struct StoredCuts {
     HWY_ALIGN float ends[max_lanes][4];  // x0, z0, dx, dz of SpanValues
     HWY_ALIGN float weights0[max_lanes], weights1[max_lanes], depths0[max_lanes], depths1[max_lanes];

@@ -62,7 +62,7 @@ TEST_P(SetUpKernels, vector_and_plain_twins_agree) {
             CutPlane plane = cut_plane(frame, t, v);
             plane.shift = 0.25;
             plane.z0 = 0.1 * double(v);
-            // Triangles that the plane crosses, and some others.
+            // Triangles that the plane crosses, and some that it does not.
             std::vector<std::uint32_t> slots;
             for (std::uint32_t i = 0; i < clusters.corners.size(); ++i) {
                 std::size_t below = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of shade_between_ends_plain in kernels.cpp, compiled for every instruction set and chosen when first
+// The vector twin of shade_between_ends_plain in kernels.cpp, compiled for every SIMD target and chosen when first
 // called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/shade_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <bit>
@@ -25,13 +25,13 @@ void ShadeBetweenEnds(const EpipolarPlane& plane, std::span<const SpanValues> sp
 #else
 using FloatMask = hn::Mask<FloatTag>;
 
-// SpanValues of a vector of samples. Block b, of four lanes, of vector i in each array holds those of sample 4 b + i.
+// The SpanValues of a vector of samples. Block b (four lanes) of vector i in each array holds those of sample 4 b + i.
 struct ValueBlocks {
     Floats ends[4], value0[4], difference[4];
 };
 
-// Loads whole cache lines where a vector is as long as one, because a processor can load as many of them in a cycle as
-// parts of lines.
+// Loads whole cache lines if a vector has that size, because a processor loads as many lines per cycle as parts of
+// lines.
 HWY_INLINE void load_values(const SpanValues* const* spans, ValueBlocks& to) {
     const FloatTag d;
 #if HWY_MAX_BYTES >= 64
@@ -60,7 +60,7 @@ HWY_INLINE void load_values(const SpanValues* const* spans, ValueBlocks& to) {
     }
 }
 
-// Values of samples that show any number of spans.
+// The values of samples that see any number of spans.
 HWY_INLINE void shade_several(const std::uint64_t* words, const SpanValues* spans, Floats n, Floats K,
                               Floats (&values)[4]) {
     const SpanValues* from[hn::MaxLanes(FloatTag())];
@@ -78,8 +78,8 @@ HWY_INLINE void shade_several(const std::uint64_t* words, const SpanValues* span
     transpose(values);
 }
 
-// Values of samples that show up to three spans: the last and the middle one in the lanes of these masks, the first in
-// all others.
+// The values of samples that see up to three spans: the last and the middle one in the lanes of these masks, the first
+// in all others.
 template <bool depth>
 HWY_INLINE void shade_three(const SpanValues& first, const SpanValues& middle, const SpanValues& last,
                             FloatMask in_middle, FloatMask in_last, Floats n, Floats K, Floats (&values)[4]) {
@@ -96,7 +96,7 @@ HWY_INLINE void shade_three(const SpanValues& first, const SpanValues& middle, c
                             hn::Mul(position, in_lanes(first.difference[i], middle.difference[i], last.difference[i])));
 }
 
-// Values of samples that all show one span.
+// The values of samples that all see one span.
 template <bool depth>
 HWY_INLINE void shade_one(const SpanValues& span, Floats n, Floats K, Floats (&values)[4]) {
     const FloatTag d;
@@ -105,8 +105,8 @@ HWY_INLINE void shade_one(const SpanValues& span, Floats n, Floats K, Floats (&v
         values[i] = hn::Add(hn::Set(d, span.value0[i]), hn::Mul(position, hn::Set(d, span.difference[i])));
 }
 
-// Shades a vector of samples. Whether it shows one span, two or three cannot be predicted, so all take one path, unless
-// most spans are `large`. (A class, because lambdas that are called twice are not inlined.)
+// Shades a vector of samples. Whether it sees one, two or three spans is unpredictable, so these cases share one path,
+// unless most spans are `large`. (It is a class, because lambdas that are called twice are not inlined.)
 template <bool depth, bool large>
 struct ShadeVector {
     const SpanValues* spans;
@@ -130,7 +130,7 @@ struct ShadeVector {
                 for (int i = 0; i < 4; ++i) values[i] = hn::Set(d, spans[EpipolarPlane::background].value0[i]);
             return;
         }
-        // A span other than first and last, or the last again if there is no other.
+        // A span other than the first and the last, or the last if there is no other.
         const std::uint64_t others_or_last = others | std::uint64_t{1} << (lanes - 1);
         const auto middle = static_cast<std::uint32_t>(words[std::countr_zero(others_or_last)]);
         const auto in_middle = hn::Eq(numbers, hn::Set(du, middle));

@@ -29,7 +29,7 @@ shading::RadianceCache::Corners corners_of(const SpanOnGrid& grid, const shading
     return corners;
 }
 
-// The cached radiance at a position on a span, and a zero.
+// The cached radiance at a position on a span, with a zero in place of the depth.
 Knot cached_radiance(const SpanOnGrid& grid, float position, std::size_t span, const RadianceSource& source) {
     const float towards = grid.start[0] + position * grid.change[0], last = grid.start[1] + position * grid.change[1];
     const shading::LightGrid::Place row(towards, grid.axis[0]);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of shade_between_knots_plain in shaded_spans.cpp, compiled for every instruction set and chosen when
+// The vector twin of shade_between_knots_plain in shaded_spans.cpp, compiled for every SIMD target and chosen when
 // first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/render/epi/shaded_spans_simd.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <bit>
@@ -25,8 +25,8 @@ void ShadeBetweenKnots(const EpipolarPlane& plane, std::span<const SpanValues> v
     shade_between_knots_plain(plane, values, spans, source, out);
 }
 #else
-// Shades vectors of samples, column by column. Where the knots of a column's samples lie is computed for all of them
-// before any knot is loaded, because otherwise each vector would wait for it.
+// Shades vectors of samples, column by column. The positions of the knots are computed for all samples of a column
+// before any knot is loaded, because otherwise each vector would wait for them.
 class KnotShading {
   public:
     KnotShading(const EpipolarPlane& plane, std::span<const SpanValues> span_values, ShadedSpans& spans,
@@ -40,7 +40,7 @@ class KnotShading {
           offsets_(offsets),
           fractions_(fractions) {}
 
-    // Finds the knots of a column's samples.
+    // Computes the positions of the knots of a column's samples.
     HWY_INLINE void begin(std::size_t column) const {
         const FloatTag d;
         const NumberTag du;
@@ -87,7 +87,7 @@ class KnotShading {
         interpolate(k, values);
         // Pending knots have no depth.
         if (HWY_UNLIKELY(!hn::AllFalse(d, hn::IsNaN(values[3])))) {
-            // A copy, so that values can stay in registers.
+            // A copy, so that `values` can stay in registers.
             Floats some[4] = {values[0], values[1], values[2], values[3]};
             shade_pending(words, column, k, some);
             for (int i = 0; i < 4; ++i) values[i] = some[i];
@@ -157,7 +157,7 @@ class KnotShading {
         for (; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const std::size_t number = words[i] & 0xffffffff;
-            // A lane behind the column's end, where begin() saw the next column.
+            // A lane beyond the column's end, where begin() read the next column.
             if (number == EpipolarPlane::background) continue;
             const float position = position_of(i);
             const Rgb radiance = source_.radiance(number, position, column, k + i);
@@ -174,7 +174,7 @@ class KnotShading {
     ShadedSpans& spans_;
     const RadianceSource& source_;
     bool colour_, depth_;
-    // For each sample of a column: the offset of the knot before it, in bytes, and Interval::fraction.
+    // For each sample of a column: the offset in bytes of the knot before it, and Interval::fraction.
     std::uint32_t* offsets_;
     float* fractions_;
 };

@@ -17,7 +17,7 @@ namespace {
 
 using Weights = std::array<float, 3>;
 
-// Light that is linear on each triangle, or a wave; partly below zero, as no lamp would make it.
+// Light that is linear on each triangle, or a wave; partly negative, unlike real light.
 class TestLight final : public SampleLighting {
   public:
     explicit TestLight(bool linear) : linear_(linear) {}
@@ -33,7 +33,7 @@ class TestLight final : public SampleLighting {
     bool linear_;
 };
 
-// A broad triangle, slivers and small ones, listed from different corners on.
+// A large triangle, slivers and small ones, listed from different corners on.
 ShadedScene lit_triangles(float spacing, bool linear) {
     ShadedScene scene;
     scene.positions = {{-1, -1, 0}, {1, -0.9, 0.2}, {0.1, 1, -0.3}, {-0.99, -1, 0}, {0.1, 1.01, -0.3}, {-1, -0.98, 0}};
@@ -47,7 +47,7 @@ ShadedScene lit_triangles(float spacing, bool linear) {
     return scene;
 }
 
-// Spans of one plane: number 0 is the background, others lie anywhere on triangles.
+// Spans of one plane: number 0 is the background, others are anywhere on triangles.
 struct TestSpans final : RadianceSource {
     const ShadedScene& scene;
     std::vector<SpanValues> values;
@@ -57,7 +57,7 @@ struct TestSpans final : RadianceSource {
 
     TestSpans(const ShadedScene& lit, std::mt19937& random, std::size_t count) : scene(lit) {
         std::uniform_real_distribution<float> fraction(0, 1), coordinate(-25, 25);
-        const auto on_side = [&] { return random() % 5 == 0 ? 0.0f : fraction(random); };  // at a corner
+        const auto on_side = [&] { return random() % 5 == 0 ? 0.0f : fraction(random); };  // sometimes a corner
         origins.emplace_back();
         values.push_back({0, 0, 1, 0, {10, 20, 30, std::numeric_limits<float>::infinity()}, {}});
         from.push_back(RadianceFrom::ends);
@@ -78,7 +78,7 @@ struct TestSpans final : RadianceSource {
         }
     }
 
-    // The spans as they are before a plane is shaded.
+    // Sets up the spans as before shading a plane.
     void start(ShadedSpans& shaded) const {
         shaded.clear(values[0]);
         for (std::size_t i = 1; i < values.size(); ++i) {
@@ -116,7 +116,7 @@ struct OutputRows {
 
 HOGEL_TEST_ON_EVERY_TARGET(KnotKernels);
 
-// Words of a plane that show random spans, with runs of one span.
+// Words of a plane that see random spans, with runs of one span.
 std::vector<std::uint64_t> random_words(std::mt19937& random, std::size_t size) {
     std::vector<std::uint64_t> words(size + EpipolarPlane::padding, EpipolarPlane::empty);
     for (std::uint64_t& word : std::span(words).first(size))
@@ -126,7 +126,7 @@ std::vector<std::uint64_t> random_words(std::mt19937& random, std::size_t size) 
     return words;
 }
 
-// Whether values are those of the background, and of the depth and, where it is linear, the light of cached spans.
+// Compares values with the background and with the depth and, if it is linear, the light of cached spans.
 void expect_values(const EpipolarPlane& plane, const TestSpans& spans, bool linear, std::size_t offset,
                    const OutputRows& out) {
     const bool colour = out.plane.values[1] != nullptr, depth = out.plane.values[3] != nullptr;
@@ -155,7 +155,7 @@ TEST_P(KnotKernels, twins_agree_and_reproduce_the_cache) {
     std::size_t points_filled = 0;
     for (const std::size_t directions : {1, 7, 16, 64, 67, 128, 150}) {
         const bool linear = directions % 4 != 0;
-        // So that spans have few knots, many, or too many to be filled before they are needed.
+        // Spacings for which spans have few knots, many, or too many to be filled in advance.
         const ShadedScene scene = lit_triangles(directions == 67 ? 0.003f : directions % 2 == 0 ? 0.3f : 0.03f, linear);
         const TestSpans spans(scene, random, 40);
         constexpr std::size_t columns = 3;
@@ -196,7 +196,7 @@ TEST(ShadedSpans, show_a_wave_to_second_order) {
         spans.start(shaded);
         worst.push_back(0);
         for (std::size_t number = 1; number < spans.values.size(); ++number) {
-            // Only on the broad triangle, whose points lie close along both axes.
+            // Only on the large triangle, whose points are dense along both axes.
             if (spans.from[number] != RadianceFrom::cache || spans.origins[number].triangle % 5 != 0) continue;
             std::vector<std::uint64_t> words(256, std::uint64_t{12345} << 32 | number);
             const EpipolarPlane plane{words.data(), nullptr, 4, 64, -2, -31.5f};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of samples, for shade_simd.cpp, shaded_spans_simd.cpp and knots_simd.cpp; included after hwy/highway.h, once
-// for every instruction set.
+// Vectors of samples, for shade_simd.cpp, shaded_spans_simd.cpp and knots_simd.cpp. To be included after hwy/highway.h,
+// once for every SIMD target.
 #if defined(HOGEL_RENDER_EPI_SHADING_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_EPI_SHADING_LANES
 #undef HOGEL_RENDER_EPI_SHADING_LANES
@@ -22,7 +22,7 @@ namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A single lane holds no four values.
+// A vector of one lane cannot hold four values.
 #if HWY_TARGET != HWY_SCALAR
 #if HWY_HAVE_SCALABLE
 using FloatTag = hn::FixedTag<float, 4>;
@@ -33,7 +33,7 @@ using NumberTag = hn::RebindToUnsigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Numbers = hn::Vec<NumberTag>;
 
-// Loads four floats from each of address(0), address(4), …, one after the other.
+// Loads four floats from each of address(0), address(4), … into consecutive blocks.
 template <class Address>
 HWY_INLINE Floats load_blocks(const Address& address) {
     const FloatTag d;
@@ -44,7 +44,7 @@ HWY_INLINE Floats load_blocks(const Address& address) {
     else if constexpr (lanes == 8)
         return hn::OddEvenBlocks(in_all_blocks(4), in_all_blocks(0));
     else {
-        // Half by half, because g++ 12 has an internal error on blends of blocks that are already in a register.
+        // Half by half, because g++ 12 has an internal error for blends of blocks that are already in a register.
         const hn::Half<FloatTag> dh;
         const auto half = [&](std::size_t i) HWY_ATTR {
             return hn::OddEvenBlocks(hn::LoadDup128(dh, address(i + 4)), hn::LoadDup128(dh, address(i)));
@@ -58,8 +58,8 @@ HWY_INLINE Floats load_blocks(const float* const* bases, std::size_t offset) {
     return load_blocks([=](std::size_t i) { return bases[i] + offset; });
 }
 
-// Four vectors v[i], whose block b holds four floats of sample 4 b + i, become vectors of one of the floats of all
-// samples; and back.
+// Transposes four vectors v[i], whose block b holds four floats of sample 4 b + i, into vectors of one float of all
+// samples, or back.
 HWY_INLINE void transpose(Floats (&v)[4]) {
     const FloatTag d;
     const hn::RepartitionToWide<FloatTag> dw;
@@ -72,7 +72,7 @@ HWY_INLINE void transpose(Floats (&v)[4]) {
     v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, c, e));
 }
 
-// position_on_span(), a span a lane.
+// position_on_span(), one span per lane.
 // @param ends  x0, z0, dx, dz
 HWY_INLINE Floats positions_on_spans(Floats n, Floats K, const Floats (&ends)[4]) {
     const FloatTag d;
@@ -83,14 +83,14 @@ HWY_INLINE Floats positions_on_spans(Floats n, Floats K, const Floats (&ends)[4]
     return hn::IfThenElse(hn::Lt(positive, one), positive, one);
 }
 
-// position_on_span() of samples that all see one span.
+// position_on_span() for samples that all see one span.
 HWY_INLINE Floats positions_on_one(const SpanValues& span, Floats n, Floats K) {
     const FloatTag d;
     return positions_on_spans(n, K,
                               {hn::Set(d, span.x0), hn::Set(d, span.z0), hn::Set(d, span.dx), hn::Set(d, span.dz)});
 }
 
-// The spans' numbers in a vector of words.
+// The numbers of the spans in a vector of words.
 HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
     const NumberTag du;
     const hn::RepartitionToWide<NumberTag> d64;
@@ -98,9 +98,9 @@ HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
                           hn::BitCast(du, hn::LoadU(d64, words)));
 }
 
-// Writes the values of all samples of a plane, and empties it. `shade_vector` gets the words of a vector of samples,
-// their column and the first of their directions, and sets their values; words behind the end of a column are 0. If it
-// has a function `begin`, that is called with each column first.
+// Writes the values of all samples of a plane, and empties it. shade_vector(words, column, first direction, values)
+// sets the values of a vector of samples; words beyond the end of a column are 0. If it has a member function `begin`,
+// that is first called for each column.
 template <class ShadeVector>
 HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const PlaneOutput& out, const ShadeVector& shade_vector) {
     const FloatTag d;
@@ -119,7 +119,7 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const PlaneOutput& out
             shade_vector(words, column, k, values);
             hn::StoreU(empty, d64, words);
             hn::StoreU(empty, d64, words + lanes / 2);
-            // Past the caches, because samples are not read soon after.
+            // Non-temporal stores, because samples are not read again soon.
             if (to[0]) hn::Stream(values[0], d, to[0] + k);
             if (to[1]) hn::Stream(values[1], d, to[1] + k);
             if (to[2]) hn::Stream(values[2], d, to[2] + k);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of the samples that spans can cover, found before they are drawn, for draw_simd.cpp; included after
-// hwy/highway.h, once for every instruction set.
+// Bounds of the samples that spans can cover, computed before the spans are drawn, for draw_simd.cpp. To be included
+// after hwy/highway.h, once for every SIMD target.
 #if defined(HOGEL_RENDER_EPI_SPAN_BOUNDS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_EPI_SPAN_BOUNDS
 #undef HOGEL_RENDER_EPI_SPAN_BOUNDS
@@ -20,15 +20,15 @@ namespace hogel::render::epi {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Costs in processor cycles, roughly: of a vector of directions or columns, of the candidates in it, of a hit that is
-// queued, and of a column of a vector of directions that is drawn in place.
+// Approximate costs in processor cycles: of a vector of directions or columns, of the candidates in it, of a queued
+// hit, and of a column of a vector of directions that is drawn in place.
 constexpr float cost_of_vector = 20, cost_of_candidates = 12, cost_of_hit = 3, cost_of_row = 7;
 
 constexpr std::size_t max_lanes = HWY_MAX_BYTES / 4;
 
-// Bounds of the samples that each of a vector of spans can cover, and the cheapest order to draw it in.
+// Bounds of the samples that each of a vector of spans can cover, and the cheapest order of drawing it.
 struct SpanBounds {
-    enum Order : std::int32_t { none, rows, directions, columns };  // `none` where no sample sees the span
+    enum Order : std::int32_t { none, rows, directions, columns };  // `none` if no sample sees the span
     HWY_ALIGN float n_begin[max_lanes], n_end[max_lanes], per_z0[max_lanes], per_z1[max_lanes], margin[max_lanes],
         K_begin[max_lanes], K_end[max_lanes];
     HWY_ALIGN std::int32_t order[max_lanes];
@@ -44,7 +44,7 @@ struct PlaneExtent {
 HWY_INLINE Floats min_of(Floats a, Floats b, Floats c, Floats e) { return hn::Min(hn::Min(a, b), hn::Min(c, e)); }
 HWY_INLINE Floats max_of(Floats a, Floats b, Floats c, Floats e) { return hn::Max(hn::Max(a, b), hn::Max(c, e)); }
 
-// Columns that see a span in some direction of the plane.
+// The columns that see a span in some direction of the plane.
 struct ColumnBounds {
     Floats begin, end;
     FloatMask seen;
@@ -59,32 +59,32 @@ HWY_INLINE ColumnBounds bound_columns(const SpanLanes& span, const PlaneExtent& 
     const Floats low = min_of(c[0], c[1], c[2], c[3]), high = max_of(c[0], c[1], c[2], c[3]);
     FloatMask seen = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
     if (plane.fronts_only) {
-        // Beyond the rounding of c.
+        // A margin larger than the rounding error of c.
         const Floats max_K = hn::Max(hn::Abs(k_first), hn::Abs(k_last));
         const Floats size = hn::Add(hn::Max(hn::Abs(span.x0), hn::Abs(span.x1)),
                                     hn::Mul(max_K, hn::Max(hn::Abs(span.z0), hn::Abs(span.z1))));
         const Floats margin = hn::Mul(hn::Set(d, -1e-6f), size);
         seen = hn::And(seen, hn::Or(hn::Ge(hn::Sub(c[2], c[0]), margin), hn::Ge(hn::Sub(c[3], c[1]), margin)));
     }
-    // c is monotonic in K, also as it is rounded.
+    // c is monotonic in K, even after rounding.
     return {hn::Max(n_first, hn::Add(hn::Floor(low), hn::Set(d, 1.0f))), hn::Min(n_last, hn::Floor(high)), seen};
 }
 
-// Directions in which some of those columns see a span.
+// The directions in which some of those columns see a span.
 struct DirectionBounds {
     Floats begin, end, per_z0, per_z1, max_per_z, margin;
-    FloatMask bounded;  // else they are all directions of the plane
+    FloatMask bounded;  // lanes without bounds can have all directions of the plane
 };
 
-// Column n sees p in direction (x_p − n) / z_p. If both ends lie on one side of the hologram, the directions that see
-// the span lie between those of the ends; if not, outside of them, up to infinity.
+// Column n sees p in direction (x_p − n) / z_p. If both ends are on one side of the hologram, the directions that see
+// the span are between those of the ends; otherwise they are outside of that range, up to infinity.
 HWY_INLINE DirectionBounds bound_directions(const SpanLanes& span, const ColumnBounds& n, const PlaneExtent& plane) {
     const FloatTag d;
     const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const Floats k_first = hn::Set(d, plane.k_first), k_last = hn::Set(d, plane.k_last);
     const Floats per_z0 = hn::Div(one, span.z0), per_z1 = hn::Div(one, span.z1);
     const Floats max_per_z = hn::Max(hn::Abs(per_z0), hn::Abs(per_z1));
-    // Many times the rounding of these directions and of c.
+    // Many times the rounding errors of these directions and of c.
     const float size = std::max(std::abs(plane.n_first), std::abs(plane.n_last)) + plane.k_last;
     const Floats margin = hn::Add(hn::Set(d, 0.01f), hn::Mul(hn::Set(d, 1e-6f * size), hn::Add(one, max_per_z)));
     const FloatMask one_side = hn::Not(hn::Xor(hn::Gt(span.z0, zero), hn::Gt(span.z1, zero)));
@@ -135,7 +135,7 @@ HWY_NOINLINE inline void bound_spans(const float* ends, const PlaneExtent& plane
     const SpanLanes span = load_spans(ends);
     const ColumnBounds n = bound_columns(span, plane);
     const DirectionBounds K = bound_directions(span, n, plane);
-    // Beyond the rounding of a sample's depth.
+    // A margin larger than the rounding error of a sample's depth.
     const Floats max_z = hn::Max(hn::Abs(span.z0), hn::Abs(span.z1));
     const Floats min_depth = hn::Sub(hn::Min(span.z0, span.z1), hn::Mul(hn::Set(d, 1e-6f), max_z));
     hn::Store(n.begin, d, to.n_begin);

@@ -11,20 +11,20 @@
 
 namespace hogel::render::epi {
 
-/// The first sample of an epipolar plane, by the numbers that RowAxes gives to hogels and directions.
+/// The first sample of an epipolar plane, in the numbering of hogels and directions of RowAxes.
 struct FirstSample {
     std::size_t slow_hogel, fast_hogel, slow_direction;
 };
 
-/// Places the values of epipolar planes in a tile. Where directions of a plane lie side by side in the tile, they are
-/// written there at once; where they lie apart, on the left and the right side of a hemicube, by way of a buffer.
+/// Writes the values of epipolar planes to a tile: directly if the directions of a plane are contiguous in the tile,
+/// through a buffer if not, on the left and right sides of a hemicube.
 class TileWriter {
   public:
     TileWriter(const LightFieldGrid& grid, const RowAxes& axes) : grid_(grid), axes_(axes) {}
 
-    /// Where the values of a plane are to be written: valid until the next call, and to be followed by finish().
+    /// The destination of the values of a plane, valid until the next call. Must be followed by finish().
     PlaneOutput begin(LightFieldTile& tile, const EpipolarPlane& plane, const FirstSample& first);
-    /// With the same arguments once all values are written: empties the buffer into the tile.
+    /// Copies the buffer to the tile. To be called with the same arguments as begin() when all values are written.
     void finish(LightFieldTile& tile, const EpipolarPlane& plane, const FirstSample& first) const;
 
   private:
@@ -34,7 +34,7 @@ class TileWriter {
 
     LightFieldGrid grid_;
     RowAxes axes_;
-    std::array<std::vector<float>, 4> buffer_;  // by values, column by column
+    std::array<std::vector<float>, 4> buffer_;  // one per value, column by column
 };
 
 }  // namespace hogel::render::epi

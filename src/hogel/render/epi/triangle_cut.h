@@ -6,25 +6,25 @@
 
 namespace hogel::render::epi {
 
-/// Where an edge meets a plane, and the weight there of the lone corner (TriangleCut); the edge's other corner has the
-/// rest.
+/// The point where an edge meets a plane, and the weight of the lone corner (TriangleCut) there; the edge's other
+/// corner has the remaining weight.
 struct Crossing {
     double x, z, weight;
 };
 
-/// The segment in which a plane cuts a triangle. Of three corners on two sides of the plane one is alone on its side:
-/// `lone`. End 0 lies on the edge from there to the corner `next`, end 1 on the edge to `last`. `next` is the corner
-/// that makes end 0 the left one as seen from the triangle's front, where its corners run counterclockwise.
+/// The segment in which a plane cuts a triangle. One of the three corners, `lone`, is alone on its side of the plane.
+/// End 0 is on the edge from there to the corner `next`, end 1 on the edge to `last`. `next` is chosen so that end 0 is
+/// the left one, seen from the triangle's front, where its corners run counterclockwise.
 struct TriangleCut {
     std::uint32_t lone, next, last;
     Crossing end0, end1;
 };
 
-/// Cuts a triangle whose corners (x, z) have these heights above the plane: one or two of them below 0. An edge is
-/// always cut from its lower end to its upper, so that triangles that share it get the same crossing, to the last bit.
+/// Cuts a triangle whose corners (x, z) have these heights above the plane, one or two of them below 0. An edge is
+/// always cut from its lower to its upper end, so that triangles that share it get bit for bit the same crossing.
 inline TriangleCut cut_triangle(const std::array<double, 3>& x, const std::array<double, 3>& z,
                                 const std::array<double, 3>& height) {
-    // By tables and selections, because no branch here can be predicted.
+    // Uses tables and selections, because branches would be unpredictable.
     constexpr std::array<std::uint8_t, 8> alone{0, 0, 1, 2, 2, 1, 0, 0}, after{1, 2, 0}, before{2, 0, 1};
     const unsigned below = unsigned{height[0] < 0} | unsigned{height[1] < 0} << 1 | unsigned{height[2] < 0} << 2;
     const bool upwards = (below & (below - 1)) == 0;

@@ -36,7 +36,7 @@ Span SliceInHogels::columns(std::size_t row, std::size_t ns) const {
     const double t = static_cast<double>(row);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
-        // A row within the margin of a corner may miss both edges there.
+        // A row within the margin of a corner may not cross either edge there, so the corner is included.
         if (std::abs(t_[i] - t) <= scan_margin) include(s_[i]);
         if ((t_[i] <= t && t <= t_[j]) || (t_[j] <= t && t <= t_[i])) include(crossing(slice_[i], slice_[j], t));
     }

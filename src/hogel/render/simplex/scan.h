@@ -9,14 +9,14 @@
 
 namespace hogel::render::simplex {
 
-/// The column s where row t crosses the edge between two projected points; one lies on either side of the row, or on
-/// it. Source: [K] 5.7.4, the equation below (5.7).
+/// The column s where row t crosses the edge between two projected points, which are on different sides of the row or
+/// on it. Source: [K] 5.7.4, the equation below (5.7).
 double crossing(const ProjectedPoint& a, const ProjectedPoint& b, double t);
 
 /// The rows and columns of hogels that a slice of a projected volume at one U and one V covers.
 ///
 /// [K] calls the edges of the slice curves in (s, t). They are straight: (s, t) = (S, T)/Q is a central projection of
-/// (S, T, Q), in which the edges are straight. Only the spacing of points along them is uneven.
+/// (S, T, Q), in which the edges are straight. Only the spacing of points along them is not uniform.
 class SliceInHogels {
   public:
     explicit SliceInHogels(const Simplex<2>& slice);

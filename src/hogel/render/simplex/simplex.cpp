@@ -34,7 +34,8 @@ class SimplexRenderer final : public Renderer {
         std::vector<Simplex<4>> simplices;
         for (std::uint32_t index : triangles_) {
             core::throw_if_stopped();
-            // Clipped at half the depth of the near plane, so that the clip itself decides about no ray: see() does.
+            // Clips at half the depth of the near plane, so that the visibility of every ray is decided by see(), not
+            // by the clip.
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
                 simplices.clear();

@@ -174,7 +174,8 @@ double area(const std::vector<CameraPoint>& polygon) {
     return 0.5 * twice;
 }
 
-// [K] fig. 5.22: from nothing, a triangle, a quadrilateral, a pentagon or everything of the region the front is seen.
+// [K] fig. 5.22: the part of the region that sees the front is nothing, a triangle, a quadrilateral, a pentagon or
+// everything.
 TEST(BackFace, divides_the_region_in_one_of_five_ways) {
     const LightFieldGrid grid{8, 8, 1_mm, 32, 32, Perspective{0.5, 0.5}, 1};
     const HogelRange range{2, 2, 4, 4};
@@ -212,7 +213,7 @@ TEST(BackFace, divides_the_region_in_one_of_five_ways) {
     EXPECT_EQ(cases, (std::set<std::size_t>{0, 3, 4, 5}));  // 4: a quadrilateral, or everything
 }
 
-// Where both faces are seen the volume folds through itself; the parts of the two sides still fill it without overlap.
+// If both faces are visible the volume folds through itself; the parts of the two sides still fill it without overlap.
 TEST(ProjectedVolume, is_filled_without_overlap_where_it_folds) {
     const LightFieldGrid grid{8, 8, 1_mm, 32, 32, Perspective{0.5, 0.5}, 1};
     const HogelRange range{2, 2, 4, 4};
@@ -255,7 +256,7 @@ TEST(ProjectedVolume, is_filled_without_overlap_where_it_folds) {
 TEST(NearPlane, keeps_what_lies_behind_it) {
     const DeepTriangle triangle{{{0, 0, 1}, {4, 0, 1}, {0, 4, 3}}};
     const auto height_along_depth = [](const DeepTriangle& t) {
-        // Twice the area in the plane of x and ζ, in which the triangle above has 8.
+        // Twice the area in the plane of x and ζ; the triangle above has 8.
         return std::abs((t[1][0] - t[0][0]) * (t[2][2] - t[0][2]) - (t[1][2] - t[0][2]) * (t[2][0] - t[0][0]));
     };
     const std::array expected{8.0, 2.0, 0.0};
@@ -268,7 +269,7 @@ TEST(NearPlane, keeps_what_lies_behind_it) {
         for (const DeepTriangle& t : kept) sum += height_along_depth(t);
         EXPECT_NEAR(sum, expected[i], 1e-12);
     }
-    // Upside down a quadrilateral remains: 8 − 2.
+    // Mirrored in depth a quadrilateral remains: 8 − 2.
     double sum = 0;
     const std::vector<DeepTriangle> kept = clip_to_near_plane({{{0, 0, 3}, {4, 0, 3}, {0, 4, 1}}}, 2);
     ASSERT_EQ(kept.size(), 2u);
@@ -307,8 +308,8 @@ TEST(Clip, divides_a_simplex_without_gap_or_overlap) {
     EXPECT_EQ(pieces, (std::set<std::size_t>{0, 1, 4, 6}));
 }
 
-// A point of the plane lies in one tetrahedron of the slice exactly if it lies in the simplex, and in one triangle of
-// the slice of the slice.
+// A point of the plane is in one tetrahedron of the slice exactly if it is in the simplex; likewise for triangles of a
+// slice of the slice.
 TEST(Slice, is_the_intersection_of_simplex_and_plane) {
     std::mt19937 random(5);
     std::set<std::size_t> tetrahedra, triangles;
@@ -330,7 +331,7 @@ TEST(Slice, is_the_intersection_of_simplex_and_plane) {
             sort_along(axis::u, at_v);
             slice(at_v, axis::u, p[axis::u], [&](const Simplex<2>& at_uv) {
                 ++triangles_here;
-                // In S and T alone.
+                // Only S and T.
                 std::array<ProjectedPoint, 3> flat;
                 for (std::size_t k = 0; k < 3; ++k) flat[k] = {at_uv[k][axis::s], at_uv[k][axis::t], 0, 0, 0};
                 in_triangles += contains<2>(flat, {p[axis::s], p[axis::t], 0, 0, 0}) ? 1 : 0;
@@ -347,7 +348,7 @@ TEST(Slice, is_the_intersection_of_simplex_and_plane) {
     EXPECT_EQ(triangles, (std::set<std::size_t>{0, 1, 2}));
 }
 
-// A simplex is sliced at whole values, also where a corner has one.
+// A simplex is sliced at whole values, including those of corners.
 TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_sliced_there_once) {
     const auto at = [](double v) { return ProjectedPoint{0, v, 0, 0, 1}; };
     std::vector<double> values;

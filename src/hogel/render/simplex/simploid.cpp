@@ -16,14 +16,14 @@
 namespace hogel::render::simplex {
 namespace {
 
-// A point (x, ζ) in the plane of the rays of one t and one V: x as a column of hogels, counted from the tile's first,
-// and the depth in hogels, by which x shifts for a U of one.
+// A point (x, ζ) in the plane of the rays of one t and one V: x as a column of hogels relative to the tile's first, and
+// the depth in hogels, which is the shift of x for U = 1.
 struct SegmentPoint {
     double x = 0, depth = 0;
 };
 
-// The part of a triangle that the rays of one t and one V can see: as a rule the segment between the points where two
-// edges cross their plane. In the plane (s, U) each point is a line, and the segment the band between two lines.
+// The part of a triangle that the rays of one t and one V can see, usually the segment between the points where two
+// edges cross their plane. In the plane (s, U) each point is a line, and the segment is the band between two lines.
 struct Segment {
     std::array<SegmentPoint, 5> points;  // at most two crossings of edges and three vertices
     std::size_t count = 0;
@@ -31,8 +31,8 @@ struct Segment {
     void include(SegmentPoint p) { points[count++] = p; }
 };
 
-// The corners of a triangle projected along the directions of one V: the row that each is seen from, in hogels, and x
-// and ζ.
+// The corners of a triangle projected along the directions of one V: for each the row of hogels that sees it, and x and
+// ζ.
 struct ProjectedTriangle {
     std::array<double, 3> row;
     std::array<SegmentPoint, 3> at;
@@ -72,7 +72,7 @@ class SimploidRenderer final : public Renderer {
     void read(LightFieldTile& tile) const override {
         const std::size_t rows = axes_.slow_hogels(tile.range), hogels = axes_.fast_hogels(tile.range);
         const std::size_t directions = axes_.fast_directions();
-        // One V at a time, so that neighbouring triangles write to memory that is close together.
+        // Processes one V at a time, so that neighbouring triangles write to neighbouring memory.
         Array<NearestTriangle, 3> buffer(simploid_buffer(axes_, tile.range));
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
             core::throw_if_stopped();
@@ -158,7 +158,7 @@ class SimploidRenderer final : public Renderer {
         }
 
         // The directions in which hogels of the tile may see a segment: all if it comes close to the hologram plane,
-        // whose points have no direction.
+        // where directions are undefined.
         Span columns_of_directions(const Segment& segment) const {
             constexpr double margin = 1e-3, infinity = std::numeric_limits<double>::infinity();
             double low = infinity, high = -infinity, shallow = infinity, deep = -infinity;

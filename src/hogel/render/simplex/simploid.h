@@ -5,10 +5,10 @@
 
 namespace hogel::render::simplex {
 
-/// The four-dimensional depth buffer without simplices ([K] 7.2.2, future work there): the simploid that a triangle
-/// sweeps out is sliced whole, first at each V, then at each t; each slice is a band in the plane (s, U), which is scan
-/// converted as it is. Gives what `simplex` gives. Memory: 8 bytes for each ray of one V of the tile, besides the tile
-/// itself.
+/// The four-dimensional depth buffer without simplices (future work in [K] 7.2.2): the simploid that a triangle sweeps
+/// out is sliced directly, first at each V, then at each t; each slice is a band in the plane (s, U), which is scan
+/// converted. The result equals that of `simplex`. Memory in addition to the tile: 8 bytes for each ray of one V of the
+/// tile.
 RendererInfo simploid_renderer();
 
 }  // namespace hogel::render::simplex

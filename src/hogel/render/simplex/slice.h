@@ -9,8 +9,8 @@
 
 namespace hogel::render::simplex {
 
-/// Sorts the corners of a simplex along an axis, and where these are equal by their other coordinates. Simplices that
-/// share corners then have them in the same order, so slices through shared faces agree to the last bit.
+/// Sorts the corners of a simplex along an axis, equal ones by their other coordinates. Simplices that share corners
+/// then have them in the same order, so slices through shared faces are bit for bit equal.
 template <std::size_t N>
 void sort_along(std::size_t axis, std::array<ProjectedPoint, N>& corners) {
     std::sort(corners.begin(), corners.end(), [axis](const ProjectedPoint& a, const ProjectedPoint& b) {
@@ -62,7 +62,7 @@ void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, c
 template <std::size_t N>
 void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axis, double bound, bool keep_above);
 
-/// Clips to the field of view, whose edges lie half a sample outside the first and the last sample. Source: [K] 5.7.2.
+/// Clips to the field of view, whose edges are half a sample outside the first and the last sample. Source: [K] 5.7.2.
 template <std::size_t N>
 void clip_to_view(std::vector<std::array<ProjectedPoint, N>>& simplices, const LightFieldGrid& grid);
 

@@ -13,8 +13,8 @@
 namespace hogel::render::simplex {
 namespace {
 
-// The part of a convex polygon where `side` is not negative. A point between two corners is computed from the negative
-// one to the other, so that both sides of a clip have the same points.
+// The part of a convex polygon where `side` is not negative. A point between two corners is always computed from the
+// negative to the other one, so that both sides of a clip have the same points.
 template <class Point, class Side, class Interpolate>
 std::vector<Point> clip_polygon(const std::vector<Point>& polygon, const Side& side, const Interpolate& interpolate) {
     std::vector<Point> kept;
@@ -33,7 +33,7 @@ CameraPoint point_on_line(const CameraPoint& p, const CameraPoint& q, double f) 
     return {p.s + f * (q.s - p.s), p.t + f * (q.t - p.t)};
 }
 
-// Margin of a region around its outermost hogels, in hogels, so that a region of one hogel is more than a point.
+// Margin of a region around its outermost hogels, in hogels, so that a region of one hogel is not a point.
 constexpr double margin = 1e-3;
 
 // N·(P − (s, t, 0)): positive for camera points that see the front of a triangle, negative for those that see its back.
@@ -59,7 +59,7 @@ class Facing {
     const HogelRange& range_;
 };
 
-// A point as a camera sees it, before the division: to the right and up in its picture, the camera's (s, t), forward.
+// A point seen by a camera, before the division: right and up in its picture, the camera's (s, t), and forward.
 ProjectedPoint as_seen(const std::array<double, 3>& point, CameraPoint camera, const LightFieldGrid& grid,
                        const HogelRange& range) {
     const double s = grid.s(static_cast<double>(range.s0) + camera.s);
@@ -73,7 +73,7 @@ ProjectedPoint divided(const ProjectedPoint& seen, const LightFieldGrid& grid) {
     return {grid.column(right / forward), grid.row(up / forward), s / forward, t / forward, 1 / forward};
 }
 
-// Clips simplices of undivided points where they come nearer than `min_forward`, and divides them.
+// Clips simplices of undivided points at the distance `min_forward`, then divides them.
 template <std::size_t N>
 void append_divided(std::vector<std::array<ProjectedPoint, N>>& seen, double min_forward, const LightFieldGrid& grid,
                     std::vector<std::array<ProjectedPoint, N>>& simplices) {
@@ -124,7 +124,7 @@ std::vector<DeepTriangle> clip_to_near_plane(const DeepTriangle& triangle, doubl
 }
 
 double min_forward_distance(const LightFieldGrid& grid, double near) {
-    double max_depth = 0;  // of a ray one unit forward
+    double max_depth = 0;  // largest depth of a ray one unit forward
     for (const double u : {-1.0, 1.0})
         for (const double v : {-1.0, 1.0})
             max_depth =

@@ -43,8 +43,8 @@ std::uint64_t converted_bytes(const aiMesh& mesh) {
     return mesh.mNumVertices * vertex + triangles * 3 * sizeof(std::uint32_t) + sizeof(ImportedMesh);
 }
 
-/// Every mesh of the node hierarchy with its transform. Bytes are counted before anything is copied, because a small
-/// file can demand billions of copies.
+/// Lists every mesh of the node hierarchy with its transform. Bytes are counted before anything is copied, because a
+/// small file can request billions of copies.
 std::vector<Placed> place_meshes(const aiScene& source, const std::string& file, std::uint64_t max_bytes) {
     struct Visit {
         const aiNode* node;
@@ -78,7 +78,7 @@ std::vector<Placed> place_meshes(const aiScene& source, const std::string& file,
     return placed;
 }
 
-// In double precision, as matrices are products over the hierarchy.
+// In double precision, because matrices are products over the hierarchy.
 Vec3 transform_point(const aiMatrix4x4& m, const aiVector3D& p) {
     const double x = p.x, y = p.y, z = p.z;
     return {m.a1 * x + m.a2 * y + m.a3 * z + m.a4, m.b1 * x + m.b2 * y + m.b3 * z + m.b4,
@@ -101,7 +101,7 @@ struct NormalTransform {
     }
 };
 
-/// False if a normal of the file has no direction; then new ones are made.
+/// Returns false if a normal of the file is zero; then new normals are made.
 bool import_normals(const aiMesh& source, const NormalTransform& transform, Mesh& mesh) {
     mesh.normals.reserve(source.mNumVertices);
     for (unsigned i = 0; i < source.mNumVertices; ++i) {

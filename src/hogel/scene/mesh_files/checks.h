@@ -12,7 +12,7 @@ namespace hogel::scene::mesh_files {
 /// Throws Error(bad_input) "file: what; expected ...".
 [[noreturn]] void reject_file(const std::string& file, const std::string& what, const std::string& expected);
 
-/// A message of another library as a single line of moderate length.
+/// Shortens a message of another library to a single line of moderate length.
 std::string one_line(const std::string& message);
 
 /// Whether the name ends in one of these, in letters of any case.
@@ -26,8 +26,8 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t size, co
 /// Throws Error(bad_input) for a file that is missing, not regular, empty or larger than any mesh.
 std::uintmax_t check_regular_file(const std::filesystem::path& path);
 
-/// Checks what a PLY file announces, which assimp 5.2 trusts. `bytes` is the whole file. Throws Error(bad_input) by
-/// reject_file().
+/// Checks what a PLY file announces, which assimp 5.2 does not check. `bytes` is the whole file. Throws
+/// Error(bad_input) by reject_file().
 void check_ply(const std::string& file, std::string_view bytes);
 
 /// The same for a glTF file, whose buffers lie in `folder` (canonical). Returns the file that assimp is to read

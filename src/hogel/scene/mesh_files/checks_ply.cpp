@@ -133,7 +133,7 @@ std::uint64_t read_count(std::string_view bytes, const Type& type, Format format
     return value;  // a negative length becomes a huge one, which is refused as too long
 }
 
-/// Every element of binary data must lie inside the file.
+/// Throws unless every element of binary data is inside the file.
 void check_binary(const std::string& file, const Header& header, std::string_view data) {
     for (const Element& element : header.elements) {
         std::size_t fixed = 0;
@@ -186,7 +186,7 @@ class Words {
     std::string_view rest_;
 };
 
-/// A line of text must hold every value of its element, lists with as many as they announce.
+/// Throws unless a line of text has every value of its element, and as many for a list as it announces.
 void check_values(const std::string& file, const Element& element, std::size_t number, std::string_view line) {
     Words words(line);
     const auto reject_line = [&](const std::string& what) {
@@ -206,7 +206,7 @@ void check_values(const std::string& file, const Element& element, std::size_t n
     }
 }
 
-/// Text has one line for each element.
+/// Throws unless text data has one line for each element.
 void check_text(const std::string& file, const Header& header, std::string_view data) {
     const auto next_line = [&data] {
         std::string_view line;

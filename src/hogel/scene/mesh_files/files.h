@@ -12,12 +12,12 @@
 namespace hogel::scene::mesh_files {
 
 /// The file that a mesh file means by a relative path or URI ("my%20wood.png" is "my wood.png" where no file has the
-/// undecoded name), symbolic links followed: a regular file in the folder or below, or none. Paths in a mesh file are
-/// not trusted.
+/// undecoded name), after following symbolic links: a regular file in the folder or below, or none. Paths in a mesh
+/// file are not trusted.
 /// @param folder  canonical
 std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path& folder, const std::string& name);
 
-/// Lets assimp open regular files in one folder and below, and nothing else, in the child process that it runs in.
+/// Restricts assimp to regular files in one folder and below, in the child process that it runs in.
 /// With each file that it opens, the child may use more memory and time: in proportion to what there is to read.
 class FolderFiles final : public Assimp::DefaultIOSystem {
   public:

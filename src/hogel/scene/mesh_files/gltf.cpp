@@ -33,7 +33,7 @@ constexpr std::array supported_extensions{"KHR_lights_punctual",
                                           "KHR_xmp_json_ld"};
 
 std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
-    std::uint32_t value = 0;  // little-endian, as this machine is
+    std::uint32_t value = 0;  // little-endian, like this machine
     std::memcpy(&value, bytes.data() + at, sizeof value);
     return value;
 }
@@ -46,8 +46,8 @@ std::string shown(const Json& value) {
     return text.size() > longest ? text.substr(0, longest) + " ..." : text;
 }
 
-/// The JSON part of a .gltf or .glb file. The chunks of a .glb file must lie inside it, because assimp allocates the
-/// sizes that they state.
+/// The JSON part of a .gltf or .glb file. Throws unless the chunks of a .glb file are inside it, because assimp
+/// allocates the sizes that they state.
 std::string_view split_chunks(std::string_view bytes, Gltf& gltf) {
     gltf.is_binary = bytes.starts_with("glTF");
     if (!gltf.is_binary) return bytes;

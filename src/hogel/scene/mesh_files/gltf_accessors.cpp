@@ -43,7 +43,7 @@ std::size_t component_size(unsigned type) {
 }
 
 std::uint64_t read_whole_number(const char* at, std::size_t size) {
-    std::uint64_t value = 0;  // little-endian, as this machine is
+    std::uint64_t value = 0;  // little-endian, like this machine
     std::memcpy(&value, at, size);
     return value;
 }
@@ -81,7 +81,7 @@ class Accessors {
                     "a larger byteStride of its view");
             accessor.data = part(where, view, offset, accessor.count, accessor.stride, accessor.element_size);
         } else if (accessor.count > gltf_.file_size) {
-            // Without data its elements are zero, so that a few bytes could demand any number of them.
+            // Without data its elements are zero, so that a few bytes could request any number of them.
             gltf_.reject(where, fmt::format("has {} elements without data", accessor.count),
                          "no more than the file has bytes");
         }

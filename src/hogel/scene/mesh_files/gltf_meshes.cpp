@@ -162,7 +162,8 @@ void check_primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accesso
 void check_nodes(const Gltf& gltf) {
     constexpr std::size_t max_depth = 1000;
     const auto parent = find_parents(gltf, gltf.list("nodes"));
-    // As each node has one parent, a node is too deep or on a cycle exactly if the path upwards does not end soon.
+    // Each node has at most one parent, so a node is too deep or on a cycle exactly if the path upwards does not end
+    // within the limit.
     for (std::size_t i = 0; i < parent.size(); ++i) {
         std::size_t depth = 0;
         for (std::size_t at = i; at != no_node; at = parent[at])

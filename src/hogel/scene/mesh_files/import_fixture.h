@@ -32,7 +32,7 @@ class Import : public testing::Test {
         std::ofstream(path, std::ios::binary) << bytes;
         return path;
     }
-    /// The message with which an import must fail: one line that begins with the file's name.
+    /// The message of an import that must fail: one line that begins with the file's name.
     static std::string refusal(const fs::path& path) {
         try {
             import_scene(path);

@@ -76,7 +76,7 @@ TEST_F(Import, node_transforms_are_applied_and_mirrored_instances_keep_their_fro
 }
 
 TEST_F(Import, normals_are_perpendicular_after_uneven_scaling) {
-    // A facet with normal (1, 1, 0)/√2, squeezed in y by 2, has the normal (1, 2, 0)/√5.
+    // A facet with normal (1, 1, 0)/√2, compressed in y by 2, has the normal (1, 2, 0)/√5.
     const std::string bytes =
         raw<float>({1, 0, 0, 0, 1, 0, 0, 1, 1}) +
         raw<float>({0.70710678f, 0.70710678f, 0, 0.70710678f, 0.70710678f, 0, 0.70710678f, 0.70710678f, 0});

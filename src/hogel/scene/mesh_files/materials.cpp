@@ -42,7 +42,8 @@ Material read_material(const aiMaterial& source) {
          source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS))
         material.base_color = {reflectance(color.r), reflectance(color.g), reflectance(color.b)};
 
-    // Only glTF's materials are glossy. Metallic-roughness textures are not supported: such materials are not metallic.
+    // Only glTF's materials are glossy. Metallic-roughness textures are not supported; materials with one are treated
+    // as not metallic.
     float metallic = 1;
     if (source.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS) {
         material.reflectance = 0.04f;
@@ -51,7 +52,8 @@ Material read_material(const aiMaterial& source) {
         if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == AI_SUCCESS) material.roughness = unit(roughness);
     }
 
-    // With an emission texture, which is not supported, the factor is its scale and would light the whole surface.
+    // With an emission texture, which is not supported, the factor is ignored, because it would make the whole surface
+    // emit.
     aiColor3D emission;
     if (source.GetTextureCount(aiTextureType_EMISSIVE) == 0 &&
         source.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == AI_SUCCESS)

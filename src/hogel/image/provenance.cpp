@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/provenance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+constexpr const char* camera_key = "camera";
+
+auto find_key(auto& metadata, const std::string& key) {
+    return std::ranges::find(metadata, key, [](const auto& entry) { return entry.first; });
+}
+
+}  // namespace
+
+Metadata with_history(Metadata now, const Metadata& before) {
+    for (const auto& [key, text] : before) {
+        std::string free = key;
+        auto same = find_key(now, free);
+        while (same != now.end() && same->second != text) same = find_key(now, free = "source " + free);
+        if (same == now.end()) now.emplace_back(free, text);
+    }
+    return now;
+}
+
+Metadata to_metadata(const Provenance& provenance) {
+    if (!provenance.camera) return provenance.entries;
+    return with_history({{camera_key, describe(*provenance.camera)}}, provenance.entries);
+}
+
+Provenance to_provenance(Metadata metadata) {
+    Provenance provenance;
+    if (const auto found = find_key(metadata, camera_key); found != metadata.end()) {
+        provenance.camera = parse_camera(found->second);
+        if (provenance.camera) metadata.erase(found);
+    }
+    provenance.entries = std::move(metadata);
+    return provenance;
+}
+
+std::string describe(const Camera& camera) {
+    const Grid& g = camera.picture;
+    return fmt::format("eye {} {} {} focus {} {} {} pupil {} picture {} {} {} {} {} {}", camera.eye.x, camera.eye.y,
+                       camera.eye.z, camera.focus_depth, camera.focus_slope_x, camera.focus_slope_y, camera.pupil,
+                       g.width, g.height, g.pitch_x, g.pitch_y, g.center_x, g.center_y);
+}
+
+std::optional<Camera> parse_camera(const std::string& text) {
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    const auto word = [&](const char* expected) {
+        std::string found;
+        if (in >> found && found != expected) in.setstate(std::ios::failbit);
+    };
+    Camera camera;
+    Grid& g = camera.picture;
+    word("eye");
+    in >> camera.eye.x >> camera.eye.y >> camera.eye.z;
+    word("focus");
+    in >> camera.focus_depth >> camera.focus_slope_x >> camera.focus_slope_y;
+    word("pupil");
+    in >> camera.pupil;
+    word("picture");
+    in >> g.width >> g.height >> g.pitch_x >> g.pitch_y >> g.center_x >> g.center_y;
+    std::string rest;
+    if (!in || in >> rest) return {};
+    try {
+        validate(camera);
+    } catch (const Error&) {
+        return {};
+    }
+    return camera;
+}
+
+}  // namespace hogel

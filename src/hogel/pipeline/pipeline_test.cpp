@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/pipeline.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <algorithm>
+
+#include "hogel/error.h"
+#include "hogel/units.h"
+
+namespace hogel::pipeline {
+namespace {
+
+using namespace hogel::literals;
+
+class Pipeline : public ::testing::Test {
+  protected:
+    Pipeline() {
+        std::string name = std::filesystem::temp_directory_path() / "hogel_pipeline_XXXXXX";
+        folder_ = mkdtemp(name.data());
+        request_.grid = {8, 8, 0.25_mm, 32, 32, field_of_view(16_deg)};
+        holograms_.channels = rgb(633_nm, 532_nm, 460_nm);
+        holograms_.pitch = 1.5625_um;
+    }
+    ~Pipeline() override { std::filesystem::remove_all(folder_); }
+
+    LightField rendered() const { return render_light_field(load_scene("ball", request_), request_); }
+
+    std::filesystem::path folder_;
+    LightFieldRequest request_;
+    HologramRequest holograms_;
+};
+
+std::string entry(const Provenance& provenance, const std::string& key) {
+    for (const auto& [name, text] : provenance.entries)
+        if (name == key) return text;
+    return "(none)";
+}
+
+// From a scene to a picture file, with a file after each step.
+TEST_F(Pipeline, provenance_travels_through_all_files) {
+    const LightField light_field = rendered();
+    EXPECT_EQ(entry(light_field.provenance(), "scene"), "ball");
+    EXPECT_EQ(entry(light_field.provenance(), "renderer"), "epi");
+
+    const auto radiance = folder_ / "a.h5", stream = folder_ / "a.hgl", fields = folder_ / "b.h5";
+    write_light_field(radiance, light_field, {.metadata = {{"command", "first"}}});
+    CompressionOptions compression;
+    compression.metadata = {{"command", "second"}};
+    compress(open_light_field(radiance), stream, compression);
+    const LightField decoded = open_light_field(stream);
+    write_holograms(fields, make_holograms(decoded, holograms_), {.metadata = {{"command", "third"}}});
+    const Fields opened = open_hologram(fields);
+    const Camera camera = camera_for(2_mm, 2_mm, 20);
+    const Image picture = photograph_colours(opened, {&camera, 1}).front();
+    for (const char* name : {"c.png", "c.exr", "c.tif"}) {
+        write_image(folder_ / name, picture, 1, {{"command", "fourth"}});
+        const Provenance provenance = read_image(folder_ / name).provenance;
+        EXPECT_EQ(provenance.camera, camera) << name;
+        EXPECT_EQ(entry(provenance, "command"), "fourth") << name;
+        EXPECT_EQ(entry(provenance, "source command"), "third") << name;
+        EXPECT_EQ(entry(provenance, "source source command"), "second") << name;
+        EXPECT_EQ(entry(provenance, "source source source command"), "first") << name;
+        EXPECT_EQ(entry(provenance, "scene"), "ball") << name;
+    }
+}
+
+TEST_F(Pipeline, a_light_field_keeps_its_camera) {
+    const Camera camera = camera_for(2_mm, 2_mm, 40);
+    const auto radiance = folder_ / "a.h5", stream = folder_ / "a.hgl";
+    const LightField light_field = rendered().with({{{"scene", "mine"}}, camera});
+    write_light_field(radiance, light_field, {});
+    EXPECT_EQ(open_light_field(radiance).provenance().camera, camera);
+    compress(open_light_field(radiance), stream, {});
+    EXPECT_EQ(open_light_field(stream).provenance().camera, camera);
+    EXPECT_EQ(prepare_for_reading(light_field, 3, false).provenance().camera, camera);
+    EXPECT_EQ(make_holograms(light_field, holograms_).front()->provenance().camera, camera);
+    // A picture has the camera that took it and keeps the entry of the other one.
+    const Camera other = camera_for(2_mm, 2_mm, 10);
+    const Image picture = photograph(light_field, {&other, 1}).front();
+    EXPECT_EQ(picture.provenance.camera, other);
+    EXPECT_EQ(entry(picture.provenance, "camera"), describe(camera));
+}
+
+TEST_F(Pipeline, photographs_go_into_the_callers_pictures) {
+    const LightField light_field = rendered();
+    const std::vector<Camera> cameras{camera_for(2_mm, 2_mm, 20), camera_for(2_mm, 2_mm, 30)};
+    const auto hologram = make_holograms(light_field, holograms_).front();
+    std::vector<Image> pictures(2);
+    pictures[0] = Image(20, 20, 3);
+    std::ranges::fill(pictures[0].pixels.elements(), 7.0f);
+    photograph_into(light_field, cameras, {}, pictures);
+    const float* const memory = pictures[0].pixels.data();
+    const std::vector<Image> alone = photograph(light_field, cameras);
+    for (int i = 0; i < 2; ++i)
+        EXPECT_TRUE(std::ranges::equal(pictures[i].pixels.elements(), alone[i].pixels.elements())) << i;
+    photograph_into(light_field, cameras, {}, pictures);
+    EXPECT_EQ(pictures[0].pixels.data(), memory);
+    photograph_into(*hologram, cameras, {}, pictures);
+    const std::vector<Image> waves = photograph(*hologram, cameras);
+    for (int i = 0; i < 2; ++i)
+        EXPECT_TRUE(std::ranges::equal(pictures[i].pixels.elements(), waves[i].pixels.elements())) << i;
+    EXPECT_THROW(photograph_into(light_field, cameras, {}, {pictures.data(), 1}), Error);
+    EXPECT_THROW(photograph_into(*hologram, cameras, {}, {pictures.data(), 1}), Error);
+}
+
+// Apart from its samples a file has a few kilobytes.
+TEST_F(Pipeline, plans_know_the_size_of_files) {
+    const LightField light_field = rendered();
+    for (const SampleType type : {SampleType::half, SampleType::single}) {
+        LightFieldFileOptions file;
+        file.type = type;
+        write_light_field(folder_ / "a.h5", light_field, file);
+        const double bytes = static_cast<double>(std::filesystem::file_size(folder_ / "a.h5"));
+        const double planned = plan_light_field(light_field, request_, 1000, file).disk;
+        EXPECT_GE(bytes, planned);
+        EXPECT_LE(bytes, planned + 20'000);
+        const HologramFileOptions hologram{.type = type};
+        write_holograms(folder_ / "b.h5", make_holograms(light_field, holograms_), hologram);
+        const double samples = static_cast<double>(std::filesystem::file_size(folder_ / "b.h5"));
+        const double expected = plan_holograms(light_field.grids(), holograms_, hologram).disk;
+        EXPECT_GE(samples, expected);
+        EXPECT_LE(samples, expected + 20'000);
+    }
+}
+
+TEST_F(Pipeline, what_does_not_fit_is_refused_with_the_numbers) {
+    const auto message = [](const Plan& plan, const std::filesystem::path& file) -> std::string {
+        try {
+            require_resources(plan, "this", file);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(message({1e6, 1e6, 1}, folder_ / "a"), "");
+    EXPECT_NE(message({1e18, 0, 1}, {}).find("takes 1000 PB of memory"), std::string::npos)
+        << message({1e18, 0, 1}, {});
+    EXPECT_NE(message({0, 1e18, 1}, folder_ / "a").find("of disk"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hogel::pipeline
