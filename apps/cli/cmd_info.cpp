@@ -31,8 +31,8 @@ FileSummary summarize_picture(const std::string& path) {
     return summary;
 }
 
-FileSummary summarize_mesh(const std::string& path) {
-    const Scene scene = import_scene(path);
+FileSummary summarize_mesh(const std::string& path, const Progress& progress) {
+    const Scene scene = import_scene(path, progress);
     const Bounds box = bounds(scene);
     FileSummary summary;
     summary.kind = FileKind::mesh;
@@ -49,7 +49,7 @@ FileSummary summarize_mesh(const std::string& path) {
     return summary;
 }
 
-FileSummary summarize_any(const std::string& path) {
+FileSummary summarize_any(const std::string& path, const Progress& progress) {
     switch (file_kind(path)) {
         case FileKind::light_field:
         case FileKind::hologram:
@@ -57,7 +57,7 @@ FileSummary summarize_any(const std::string& path) {
         case FileKind::picture:
             return summarize_picture(path);
         case FileKind::mesh:
-            return summarize_mesh(path);
+            return summarize_mesh(path, progress);
         case FileKind::unknown:
             break;
     }
@@ -66,7 +66,7 @@ FileSummary summarize_any(const std::string& path) {
 }
 
 int info(const std::string& path, const Session& session) {
-    const FileSummary summary = summarize_any(path);
+    const FileSummary summary = summarize_any(path, Progress(session.stop.get_token()));
     std::string words;
     for (const auto& [name, value] : summary.text) words += fmt::format("{:<24} {}\n", name, value);
     for (const auto& [name, value] : summary.numbers) words += fmt::format("{:<24} {:.9g}\n", name, value);

@@ -13,18 +13,9 @@ namespace {
 
 constexpr std::uintmax_t max_file = std::uintmax_t{4} << 30;
 
-std::string extension(const std::filesystem::path& path) {
-    std::string text = path.extension().string();
+std::string lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     return text;
-}
-
-std::string read_file(const std::filesystem::path& path, std::uintmax_t size) {
-    std::string bytes(size, '\0');
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
-        reject_file(path.string(), "cannot be read", "a readable mesh file");
-    return bytes;
 }
 
 }  // namespace
@@ -42,12 +33,23 @@ std::string one_line(const std::string& message) {
     return line;
 }
 
-bool is_gltf(const std::filesystem::path& path) {
-    const std::string ext = extension(path);
-    return ext == ".gltf" || ext == ".glb" || ext == ".vrm";
+bool has_extension(const std::filesystem::path& path, std::initializer_list<std::string_view> extensions) {
+    return std::find(extensions.begin(), extensions.end(), lower_case(path.extension().string())) != extensions.end();
 }
 
-void check_mesh_file(const std::filesystem::path& path) {
+bool is_gltf(const std::filesystem::path& path) { return has_extension(path, {".gltf", ".glb", ".vrm"}); }
+
+bool starts_like_ply(std::string_view bytes) { return lower_case(std::string(bytes.substr(0, 3))) == "ply"; }
+
+std::string read_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file) {
+    std::string bytes(size, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
+        reject_file(file, fmt::format("{} cannot be read", one_line(path.filename().string())), "a readable file");
+    return bytes;
+}
+
+std::uintmax_t check_regular_file(const std::filesystem::path& path) {
     const std::string file = path.string();
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -58,14 +60,7 @@ void check_mesh_file(const std::filesystem::path& path) {
     if (error) reject_file(file, error.message(), "a readable mesh file");
     if (size == 0) reject_file(file, "empty", "a mesh file");
     if (size > max_file) reject_file(file, "more than 4 GiB", "a smaller mesh file");
-    // assimp chooses its reader both by the first bytes and by the name.
-    char magic[4] = {};
-    std::ifstream(path, std::ios::binary).read(magic, sizeof magic);
-    const std::string_view start(magic, sizeof magic);
-    if (extension(path) == ".ply" || start.starts_with("ply") || start.starts_with("PLY"))
-        check_ply(file, read_file(path, size));
-    else if (is_gltf(path) || start == "glTF")
-        check_gltf(file, read_file(path, size));
+    return size;
 }
 
 }  // namespace hogel::scene::mesh_files

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -13,15 +15,24 @@ namespace hogel::scene::mesh_files {
 /// Shortens a message of another library to a single line of moderate length.
 std::string one_line(const std::string& message);
 
+/// Whether the name ends in one of these, in letters of any case.
+bool has_extension(const std::filesystem::path& path, std::initializer_list<std::string_view> extensions);
 bool is_gltf(const std::filesystem::path& path);
+bool starts_like_ply(std::string_view bytes);
 
-/// Throws Error(bad_input) for files that assimp must not read: missing, not regular, empty, or of a size or content on
-/// which its readers are known to crash or hang.
-void check_mesh_file(const std::filesystem::path& path);
+/// All bytes of a file. Throws Error(bad_input), which names `file`.
+std::string read_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file);
 
-/// Check the sizes and references in a glTF or PLY file, which assimp 5.2 does not check. `bytes` is the whole file.
-/// Both throw Error(bad_input) by reject_file().
-void check_gltf(const std::string& file, std::string_view bytes);
+/// Throws Error(bad_input) for a file that is missing, not regular, empty or larger than any mesh.
+std::uintmax_t check_regular_file(const std::filesystem::path& path);
+
+/// Checks what a PLY file announces, which assimp 5.2 does not check. `bytes` is the whole file. Throws
+/// Error(bad_input) by reject_file().
 void check_ply(const std::string& file, std::string_view bytes);
+
+/// The same for a glTF file, whose buffers lie in `folder` (canonical). Returns the file that assimp is to read
+/// instead: what was checked, without what hogel does not use (skins, animations, morph targets, cameras). Empty for a
+/// document of glTF 1, which is not checked.
+std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes);
 
 }  // namespace hogel::scene::mesh_files

@@ -31,7 +31,7 @@ struct Property {
 };
 
 struct Element {
-    std::string_view name;
+    std::string name;  ///< for messages
     std::size_t count = 0;
     std::vector<Property> properties;
 };
@@ -87,7 +87,7 @@ Format parse_format(const std::string& file, std::string_view line, std::string_
 }
 
 Element parse_element(const std::string& file, std::string_view line, const std::vector<std::string_view>& words) {
-    Element element{words[1], 0, {}};
+    Element element{one_line(std::string(words[1])), 0, {}};
     const auto [rest, status] = std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
     if (status != std::errc{} || rest != words[2].data() + words[2].size()) reject(file, line, "a number of elements");
     return element;
@@ -146,7 +146,9 @@ void check_binary(const std::string& file, const Header& header, std::string_vie
             reject_file(file, fmt::format("ends in element '{}' {} of {}", element.name, done, element.count),
                         "the data that the header promises");
         };
-        if (fixed > 0 && element.count > data.size() / fixed) truncated(data.size() / fixed);
+        // Elements without values have no bytes, yet assimp makes room for each.
+        if (const std::size_t least = std::max<std::size_t>(fixed, 1); element.count > data.size() / least)
+            truncated(data.size() / least);
         if (!has_lists) {
             data.remove_prefix(element.count * fixed);
             continue;
@@ -167,18 +169,67 @@ void check_binary(const std::string& file, const Header& header, std::string_vie
     }
 }
 
-/// Throws unless text data has one line for each element.
-void check_lines(const std::string& file, const Header& header, std::string_view data) {
-    std::size_t lines = 0;
-    for (std::size_t at = 0; (at = data.find_first_not_of(" \t\r\n", at)) != data.npos; ++lines)
-        at = std::min(data.find_first_of("\r\n", at), data.size());
-    std::size_t expected = 0;
-    for (const Element& element : header.elements) {
-        if (element.count > lines) expected = lines + 1;
-        expected += element.properties.empty() ? 0 : element.count;
+/// The words of a line, one after the other.
+class Words {
+  public:
+    explicit Words(std::string_view line) : rest_(line) {}
+    /// Empty at the end of the line.
+    std::string_view next() {
+        rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
+        const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t"));
+        rest_.remove_prefix(word.size());
+        return word;
     }
-    if (expected > lines)
-        reject_file(file, fmt::format("{} lines of data", lines), "one for each element that the header promises");
+    std::size_t bytes_left() const { return rest_.size(); }
+
+  private:
+    std::string_view rest_;
+};
+
+/// Throws unless a line of text has every value of its element, and as many for a list as it announces.
+void check_values(const std::string& file, const Element& element, std::size_t number, std::string_view line) {
+    Words words(line);
+    const auto reject_line = [&](const std::string& what) {
+        reject_file(file, fmt::format("element '{}' {}: {}", element.name, number, what),
+                    "a line with all values that the header promises");
+    };
+    for (const Property& property : element.properties) {
+        std::size_t values = 1;
+        if (property.count) {
+            const std::string_view word = words.next();
+            const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), values);
+            if (status != std::errc{} || end != word.data() + word.size() || values > words.bytes_left())
+                reject_line(fmt::format("list length '{}'", one_line(std::string(word.substr(0, 40)))));
+        }
+        for (; values > 0; --values)
+            if (words.next().empty()) reject_line("ends early");
+    }
+}
+
+/// Throws unless text data has one line for each element.
+void check_text(const std::string& file, const Header& header, std::string_view data) {
+    const auto next_line = [&data] {
+        std::string_view line;
+        do {
+            data.remove_prefix(std::min(data.find_first_not_of(" \t\r\n"), data.size()));
+            line = data.substr(0, data.find_first_of("\r\n"));
+            data.remove_prefix(line.size());
+        } while (line.starts_with("comment"));
+        return line;
+    };
+    for (const Element& element : header.elements) {
+        const auto missing = [&](std::size_t lines) {
+            reject_file(file, fmt::format("has {} lines of data for element '{}'", lines, element.name),
+                        fmt::format("one for each of the {} that the header promises", element.count));
+        };
+        if (element.count > data.size()) missing(0);
+        if (element.properties.empty()) continue;
+        for (std::size_t i = 0; i < element.count; ++i) {
+            const std::string_view line = next_line();
+            if (line.empty()) missing(i);
+            check_values(file, element, i, line);
+        }
+    }
 }
 
 }  // namespace
@@ -187,7 +238,7 @@ void check_ply(const std::string& file, std::string_view bytes) {
     const Header header = parse_header(file, bytes);
     const std::string_view data = bytes.substr(header.size);
     if (header.format == Format::ascii)
-        check_lines(file, header, data);
+        check_text(file, header, data);
     else
         check_binary(file, header, data);
 }

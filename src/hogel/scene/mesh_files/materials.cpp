@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/scene/mesh_files/materials.h"
+
 #include <assimp/material.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "hogel/error.h"
-#include "hogel/scene/mesh_files/materials.h"
+#include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/files.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
@@ -16,47 +19,20 @@ float reflectance(float value) { return std::isfinite(value) ? std::clamp(value,
 float unit(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 1.0f; }
 float radiance(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1e6f) : 0.0f; }
 
-/// Decodes a URI: "my%20wood.png" is "my wood.png".
-std::string percent_decoded(const std::string& text) {
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned value = 0;
-        const char* digits = text.data() + i + 1;
-        if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
-            decoded += static_cast<char>(value);
-            i += 2;
-        } else {
-            decoded += text[i];
-        }
-    }
-    return decoded;
+std::string where(const std::string& file, const TextureSource& source) {
+    return fmt::format("{}: embedded texture '{}'", file, source.name);
 }
 
-Image from_texels(const aiTexture& source) {
-    Image image(source.mWidth, source.mHeight, 3);
-    for (std::size_t i = 0; i < image.width() * image.height(); ++i) {
-        const aiTexel texel = source.pcData[i];
-        float* pixel = image.pixels.data() + 3 * i;
-        pixel[0] = srgb_decode(static_cast<float>(texel.r) / 255);
-        pixel[1] = srgb_decode(static_cast<float>(texel.g) / 255);
-        pixel[2] = srgb_decode(static_cast<float>(texel.b) / 255);
-    }
+Image from_texels(const TextureSource& source) {
+    Image image(source.width, source.height, 3);
+    for (std::size_t i = 0; i < source.bytes.size(); ++i)
+        image.pixels.data()[i] = srgb_decode(static_cast<float>(source.bytes[i]) / 255);
     return image;
 }
 
 }  // namespace
 
-MaterialImport::MaterialImport(const aiScene& source, const std::filesystem::path& folder, std::string file)
-    : source_(source), files_(folder), folder_(folder), file_(std::move(file)) {}
-
-const Material& MaterialImport::operator[](unsigned index) {
-    const auto known = materials_.find(index);
-    if (known != materials_.end()) return known->second;
-    const bool exists = index < source_.mNumMaterials && source_.mMaterials[index];
-    return materials_.emplace(index, exists ? read(*source_.mMaterials[index]) : Material{}).first->second;
-}
-
-Material MaterialImport::read(const aiMaterial& source) {
+Material read_material(const aiMaterial& source) {
     Material material;
     aiString name;
     source.Get(AI_MATKEY_NAME, name);
@@ -82,44 +58,64 @@ Material MaterialImport::read(const aiMaterial& source) {
     if (source.GetTextureCount(aiTextureType_EMISSIVE) == 0 &&
         source.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == AI_SUCCESS)
         material.emission = {radiance(emission.r), radiance(emission.g), radiance(emission.b)};
-
-    for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
-        aiString path;
-        if (source.GetTextureCount(type) == 0 || source.GetTexture(type, 0, &path) != AI_SUCCESS) continue;
-        material.base_color_texture = texture(path.C_Str());
-        break;
-    }
     return material;
 }
 
-bool MaterialImport::is_unlit(unsigned index) const {
+bool is_unlit(const aiMaterial& source) {
     int model = 0;
-    return index < source_.mNumMaterials && source_.mMaterials[index] &&
-           source_.mMaterials[index]->Get(AI_MATKEY_SHADING_MODEL, model) == AI_SUCCESS && model == aiShadingMode_Unlit;
+    return source.Get(AI_MATKEY_SHADING_MODEL, model) == AI_SUCCESS && model == aiShadingMode_Unlit;
 }
 
-std::shared_ptr<const Image> MaterialImport::texture(const std::string& name) {
-    const auto [known, is_new] = textures_.emplace(name, nullptr);
-    if (is_new) known->second = load(name);
-    return known->second;
+std::string base_color_texture(const aiMaterial& source) {
+    for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+        aiString path;
+        if (source.GetTextureCount(type) > 0 && source.GetTexture(type, 0, &path) == AI_SUCCESS) return path.C_Str();
+    }
+    return {};
 }
 
-std::shared_ptr<const Image> MaterialImport::load(const std::string& name) const {
-    if (const aiTexture* embedded = source_.GetEmbeddedTexture(name.c_str())) {
-        const std::string where = fmt::format("{}: embedded texture '{}'", file_, name);
-        if (!embedded->pcData || embedded->mWidth == 0)
-            throw Error(ErrorCode::bad_input, where + ": empty; expected a picture");
-        if (embedded->mHeight > 0) return std::make_shared<Image>(from_texels(*embedded));
-        return std::make_shared<Image>(
-            decode_image({reinterpret_cast<const unsigned char*>(embedded->pcData), embedded->mWidth}, where));
+TextureSource find_texture(const aiScene& source, const std::string& name, const std::string& file) {
+    TextureSource texture;
+    texture.name = name;
+    const aiTexture* embedded = source.GetEmbeddedTexture(name.c_str());
+    if (!embedded) return texture;
+    if (!embedded->pcData || embedded->mWidth == 0)
+        throw Error(ErrorCode::bad_input, where(file, texture) + ": empty; expected a picture");
+    if (embedded->mHeight == 0) {  // then the width is the size of a picture file in memory
+        texture.kind = TextureSource::Kind::encoded;
+        const auto* bytes = reinterpret_cast<const unsigned char*>(embedded->pcData);
+        texture.bytes.assign(bytes, bytes + embedded->mWidth);
+        return texture;
     }
-    for (std::string candidate : {name, percent_decoded(name)}) {
-        std::replace(candidate.begin(), candidate.end(), '\\', '/');
-        if (candidate.find('\0') == std::string::npos && files_.contains(folder_ / candidate))
-            return std::make_shared<Image>(read_image(folder_ / candidate));
+    texture.kind = TextureSource::Kind::texels;
+    texture.width = embedded->mWidth;
+    texture.height = embedded->mHeight;
+    for (std::size_t i = 0; i < std::size_t{texture.width} * texture.height; ++i)
+        for (const unsigned char value : {embedded->pcData[i].r, embedded->pcData[i].g, embedded->pcData[i].b})
+            texture.bytes.push_back(value);
+    return texture;
+}
+
+Textures::Textures(std::vector<TextureSource> sources, std::filesystem::path folder, std::string file)
+    : sources_(std::move(sources)), images_(sources_.size()), folder_(std::move(folder)), file_(std::move(file)) {}
+
+std::shared_ptr<const Image> Textures::operator[](std::uint32_t number) {
+    if (number >= sources_.size()) return nullptr;
+    if (!images_[number]) images_[number] = std::make_shared<Image>(load(sources_[number]));
+    return images_[number];
+}
+
+Image Textures::load(const TextureSource& source) const {
+    if (source.kind == TextureSource::Kind::encoded) return decode_image(source.bytes, where(file_, source));
+    if (source.kind == TextureSource::Kind::texels) {
+        if (source.bytes.size() != 3 * std::uint64_t{source.width} * source.height)
+            throw Error(ErrorCode::bad_input, where(file_, source) + ": damaged; expected a picture");
+        return from_texels(source);
     }
-    throw Error(ErrorCode::bad_input,
-                fmt::format("{}: texture '{}' not found; expected a file in the folder of the mesh", file_, name));
+    if (const auto path = find_in_folder(folder_, source.name)) return read_image(*path);
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("{}: texture '{}' not found; expected a file in the folder of the mesh", file_, source.name));
 }
 
 }  // namespace hogel::scene::mesh_files

@@ -4,37 +4,44 @@
 #include <assimp/scene.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "hogel/scene.h"
-#include "hogel/scene/mesh_files/files.h"
+#include "hogel/scene/mesh_files/transfer.h"
 
 namespace hogel::scene::mesh_files {
 
-/// Converts assimp's materials. A texture shared by several materials is read once.
-class MaterialImport {
+/// assimp's material, without its texture.
+Material read_material(const aiMaterial& source);
+
+/// Whether the material's colour is its radiance, independent of lights (glTF: KHR_materials_unlit).
+bool is_unlit(const aiMaterial& source);
+
+/// What the file calls the base-colour texture of a material; empty: there is none.
+std::string base_color_texture(const aiMaterial& source);
+
+/// The texture of that name, which may lie in the mesh file itself. Throws Error(bad_input) for an empty one.
+/// @param file  name of the mesh for messages, as the caller gave it
+TextureSource find_texture(const aiScene& source, const std::string& name, const std::string& file);
+
+/// Decodes textures, each when it is first asked for.
+class Textures {
   public:
     /// @param folder  of the mesh, canonical
     /// @param file    name of the mesh for messages, as the caller gave it
-    MaterialImport(const aiScene& source, const std::filesystem::path& folder, std::string file);
-    const Material& operator[](unsigned index);
-    /// Whether the material's colour is its radiance, independent of lights (glTF: KHR_materials_unlit).
-    bool is_unlit(unsigned index) const;
+    Textures(std::vector<TextureSource> sources, std::filesystem::path folder, std::string file);
+    /// Null for a number that does not exist. Throws Error(bad_input) for a missing or damaged picture.
+    std::shared_ptr<const Image> operator[](std::uint32_t number);
 
   private:
-    Material read(const aiMaterial& source);
-    std::shared_ptr<const Image> texture(const std::string& name);
-    std::shared_ptr<const Image> load(const std::string& name) const;
+    Image load(const TextureSource& source) const;
 
-    const aiScene& source_;
-    FolderFiles files_;
+    std::vector<TextureSource> sources_;
+    std::vector<std::shared_ptr<const Image>> images_;
     std::filesystem::path folder_;
     std::string file_;
-    std::map<unsigned, Material> materials_;
-    std::map<std::string, std::shared_ptr<const Image>> textures_;
 };
 
 }  // namespace hogel::scene::mesh_files

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/child_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+
+namespace hogel::core {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int poll_ms = 100;  // how soon a stop is seen
+
+/// Bytes of address space that this process uses.
+std::uint64_t address_space() {
+    char text[64] = {};
+    const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    if (file < 0) return 0;
+    const ssize_t size = read(file, text, sizeof text - 1);
+    close(file);
+    return size > 0 ? std::strtoull(text, nullptr, 10) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+// Soft limits only: the child raises them for files that it opens. Never above what this process may use itself.
+void set_limit(__rlimit_resource resource, rlim_t value) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0) return;
+    limit.rlim_cur = std::min({value, limit.rlim_max, limit.rlim_cur});
+    setrlimit(resource, &limit);
+}
+
+void raise_limit(__rlimit_resource resource, rlim_t more) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    limit.rlim_cur = std::min(limit.rlim_cur + more, limit.rlim_max);
+    setrlimit(resource, &limit);
+}
+
+/// Nothing of the parent reaches the child, or the reverse, but by the pipe, which becomes file 3.
+void close_files(int pipe) {
+    const int kept = fcntl(pipe, F_DUPFD, 10);  // out of the way of the numbers below
+    const int null = open("/dev/null", O_RDWR);
+    for (const int stream : {0, 1, 2}) dup2(null, stream);
+    dup2(kept, 3);
+    if (syscall(SYS_close_range, 4, ~0U, 0) == 0) return;
+    for (int file = 4; file < 4096; ++file) close(file);  // before Linux 5.9
+}
+
+/// Handlers of the parent are not run here. Ctrl-C reaches the parent as well, which ends the child.
+void reset_signals() {
+    for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
+    for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTSTP}) ::signal(signal, SIG_IGN);
+    sigset_t none;
+    sigemptyset(&none);
+    pthread_sigmask(SIG_SETMASK, &none, nullptr);
+}
+
+[[noreturn]] void run_child(pid_t parent, const ChildLimits& limits, int pipe,
+                            const std::function<void(int)>& work) noexcept {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);  // it ended before that
+    reset_signals();
+    close_files(pipe);
+    set_limit(RLIMIT_CORE, 0);
+    set_limit(RLIMIT_FSIZE, 0);
+    set_limit(RLIMIT_CPU, limits.cpu_seconds);  // a child starts with no time used
+    set_limit(RLIMIT_AS, address_space() + limits.memory);
+    work(3);
+    _exit(0);  // no destructors of the parent's objects, no buffers of its streams
+}
+
+/// Processor time that another process has used.
+std::chrono::nanoseconds cpu_time(pid_t process) {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return {};
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const ChildLimits& limits, const std::function<void(int)>& work)
+    : patience_(limits.patience) {
+    int ends[2] = {};
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw Error(ErrorCode::internal, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+    fcntl(ends[1], F_SETPIPE_SZ, 1 << 20);  // fewer switches; a smaller pipe works as well
+    pipe_ = ends[0];
+    const pid_t parent = getpid();
+    // No signal may run a handler of this process in the child.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    child_ = fork();
+    if (child_ == 0) run_child(parent, limits, ends[1], work);
+    const int error = errno;
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    close(ends[1]);
+    if (child_ < 0) {
+        close(pipe_);
+        throw Error(ErrorCode::internal, fmt::format("cannot start a process: {}", std::strerror(error)));
+    }
+}
+
+ChildProcess::~ChildProcess() {
+    reap(true);
+    close(pipe_);
+}
+
+/// Returns the status of waitpid(), or 0 where the program around this library has taken it.
+int ChildProcess::reap(bool kill_first) {
+    if (child_ < 0) return 0;
+    if (kill_first) kill(child_, SIGKILL);
+    int status = 0;
+    pid_t done = 0;
+    do done = waitpid(child_, &status, 0);
+    while (done < 0 && errno == EINTR);
+    child_ = -1;
+    return done < 0 ? 0 : status;
+}
+
+void ChildProcess::fail() {
+    const int status = reap(false);
+    if (!WIFSIGNALED(status)) throw ChildFailure(ChildFailure::Kind::crashed, "ended early");
+    const int signal = WTERMSIG(status);
+    if (signal == SIGXCPU) throw ChildFailure(ChildFailure::Kind::time, "took too long");
+    throw ChildFailure(ChildFailure::Kind::crashed, fmt::format("crashed (signal {})", signal));
+}
+
+void ChildProcess::wait_for_data() {
+    Clock::time_point alive = Clock::now();
+    std::chrono::nanoseconds used{};
+    for (;;) {
+        throw_if_stopped();
+        pollfd file{pipe_, POLLIN, 0};
+        if (poll(&file, 1, poll_ms) > 0) return;
+        if (const auto now_used = child_ < 0 ? used : cpu_time(child_); now_used != used) {
+            used = now_used;
+            alive = Clock::now();
+        } else if (Clock::now() - alive > patience_) {
+            reap(true);
+            throw ChildFailure(ChildFailure::Kind::stuck, "waits for something that never comes");
+        }
+    }
+}
+
+void ChildProcess::read(void* to, std::size_t bytes) {
+    char* at = static_cast<char*>(to);
+    while (bytes > 0) {
+        wait_for_data();
+        const ssize_t got = ::read(pipe_, at, bytes);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) fail();
+        at += got;
+        bytes -= static_cast<std::size_t>(got);
+    }
+}
+
+void ChildProcess::raise_limits(const ChildLimits& more) {
+    raise_limit(RLIMIT_AS, more.memory);
+    raise_limit(RLIMIT_CPU, more.cpu_seconds);
+}
+
+void ChildProcess::write(int pipe, const void* from, std::size_t bytes) {
+    const char* at = static_cast<const char*>(from);
+    while (bytes > 0) {
+        const ssize_t put = ::write(pipe, at, bytes);
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) _exit(1);
+        at += put;
+        bytes -= static_cast<std::size_t>(put);
+    }
+}
+
+}  // namespace hogel::core

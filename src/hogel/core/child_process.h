@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace hogel::core {
+
+/// What a child process may use, above what the process that starts it uses already.
+struct ChildLimits {
+    std::uint64_t memory = std::uint64_t{1} << 30;  ///< bytes of address space
+    unsigned cpu_seconds = 60;                      ///< then it is ended
+    std::chrono::seconds patience{30};              ///< so long it may use no processor time, then it is ended
+};
+
+/// Thrown where a child process ended without having sent what was to be read: what() says how, in a few words that
+/// begin a sentence about it ("crashed (segmentation fault)").
+class ChildFailure : public std::exception {
+  public:
+    enum class Kind {
+        crashed,  ///< or ended without a word
+        time,     ///< used up
+        stuck,    ///< waits for something, such as a lock of a thread that it does not have
+    };
+    ChildFailure(Kind kind, std::string text) : kind_(kind), text_(std::move(text)) {}
+    Kind kind() const { return kind_; }
+    const char* what() const noexcept override { return text_.c_str(); }
+
+  private:
+    Kind kind_;
+    std::string text_;
+};
+
+/// Work in a copy of this process (fork without exec), so that libraries which crash on damaged files, or ask for very
+/// much memory, do so there. The child inherits no open file, writes none, and ends with this process.
+///
+/// Other threads of this process do not exist in the child, and a lock that one of them held stays locked there. glibc
+/// releases its own (memory, streams, loader); `work` must use nothing else that this process uses on several threads:
+/// no parallel loops, no OpenImageIO. A child that waits for a lock uses no processor time and is ended as `stuck`.
+class ChildProcess {
+  public:
+    /// Calls work(pipe) in the child, which ends when it returns. Throws Error(internal) if no process can be started.
+    ChildProcess(const ChildLimits& limits, const std::function<void(int pipe)>& work);
+    /// Ends the child if it runs.
+    ~ChildProcess();
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// The next bytes that the child writes into its pipe. Throws ChildFailure if it ended before, Error(cancelled)
+    /// when the work of this thread is to stop.
+    void read(void* to, std::size_t bytes);
+
+    /// In the child: allows more, for instance after a further file was opened.
+    static void raise_limits(const ChildLimits& more);
+    /// In the child: writes everything into the pipe; ends the child if that fails.
+    static void write(int pipe, const void* from, std::size_t bytes);
+
+  private:
+    void wait_for_data();
+    [[noreturn]] void fail();
+    int reap(bool kill_first);
+
+    std::chrono::seconds patience_;
+    pid_t child_ = -1;
+    int pipe_ = -1;
+};
+
+}  // namespace hogel::core

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/scene/mesh_files/assimp_import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <map>
+#include <new>
+#include <vector>
+
+#include <unistd.h>
+
+#include "hogel/error.h"
+#include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/files.h"
+#include "hogel/scene/mesh_files/limits.h"
+#include "hogel/scene/mesh_files/materials.h"
+#include "hogel/scene/mesh_files/polygons.h"
+#include "hogel/scene/mesh_files/transfer.h"
+
+namespace hogel::scene::mesh_files {
+namespace {
+
+constexpr std::size_t max_instances = std::size_t{1} << 20;
+
+struct Placed {
+    const aiMesh* mesh;
+    aiMatrix4x4 to_world;
+};
+
+/// Bytes of a mesh as hogel keeps it; 0 for one without a surface.
+std::uint64_t converted_bytes(const aiMesh& mesh) {
+    if (mesh.mNumFaces == 0 || !mesh.HasPositions()) return 0;
+    std::uint64_t vertex = sizeof(Vec3);
+    if (mesh.HasNormals()) vertex += sizeof(Vec3);
+    if (mesh.HasVertexColors(0)) vertex += sizeof(Rgb);
+    if (mesh.HasTextureCoords(0)) vertex += sizeof(TextureCoordinate);
+    std::uint64_t triangles = 0;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) triangles += std::max(mesh.mFaces[i].mNumIndices, 2u) - 2;
+    return mesh.mNumVertices * vertex + triangles * 3 * sizeof(std::uint32_t) + sizeof(ImportedMesh);
+}
+
+/// Lists every mesh of the node hierarchy with its transform. Bytes are counted before anything is copied, because a
+/// small file can request billions of copies.
+std::vector<Placed> place_meshes(const aiScene& source, const std::string& file, std::uint64_t max_bytes) {
+    struct Visit {
+        const aiNode* node;
+        aiMatrix4x4 to_world;
+    };
+    std::vector<std::uint64_t> bytes_of(source.mNumMeshes);
+    for (unsigned i = 0; i < source.mNumMeshes; ++i) bytes_of[i] = converted_bytes(*source.mMeshes[i]);
+    std::vector<Placed> placed;
+    std::vector<Visit> todo{{source.mRootNode, source.mRootNode->mTransformation}};
+    std::uint64_t nodes = 0, bytes = 0;
+    while (!todo.empty()) {
+        const Visit visit = todo.back();
+        todo.pop_back();
+        if (++nodes > max_instances || placed.size() > max_instances)
+            reject_file(file, fmt::format("more than {} nodes or mesh instances", max_instances), "a smaller scene");
+        for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) {
+            const unsigned index = visit.node->mMeshes[i];
+            if (index >= source.mNumMeshes) reject_file(file, fmt::format("mesh index {}", index), "one that exists");
+            if (bytes_of[index] == 0) continue;
+            bytes += bytes_of[index];
+            if (bytes > max_bytes)
+                reject_file(file, fmt::format("the copies of its meshes need more than {} MiB", max_bytes >> 20),
+                            "fewer copies; a file in which they are geometry of their own may be larger");
+            placed.push_back({source.mMeshes[index], visit.to_world});
+        }
+        for (unsigned i = visit.node->mNumChildren; i-- > 0;) {
+            const aiNode* child = visit.node->mChildren[i];
+            todo.push_back({child, visit.to_world * child->mTransformation});
+        }
+    }
+    return placed;
+}
+
+// In double precision, because matrices are products over the hierarchy.
+Vec3 transform_point(const aiMatrix4x4& m, const aiVector3D& p) {
+    const double x = p.x, y = p.y, z = p.z;
+    return {m.a1 * x + m.a2 * y + m.a3 * z + m.a4, m.b1 * x + m.b2 * y + m.b3 * z + m.b4,
+            m.c1 * x + m.c2 * y + m.c3 * z + m.c4};
+}
+
+/// The columns of the cofactor matrix, by which normals transform up to the determinant. Finite for any scale.
+struct NormalTransform {
+    Vec3 x, y, z;
+    double determinant;
+
+    explicit NormalTransform(const aiMatrix4x4& m) {
+        const Vec3 a{m.a1, m.b1, m.c1}, b{m.a2, m.b2, m.c2}, c{m.a3, m.b3, m.c3};
+        x = cross(b, c), y = cross(c, a), z = cross(a, b);
+        determinant = dot(a, x);
+    }
+    Vec3 operator()(const aiVector3D& n) const {
+        const Vec3 v = double{n.x} * x + double{n.y} * y + double{n.z} * z;
+        return determinant < 0 ? -v : v;
+    }
+};
+
+/// Returns false if a normal of the file is zero; then new normals are made.
+bool import_normals(const aiMesh& source, const NormalTransform& transform, Mesh& mesh) {
+    mesh.normals.reserve(source.mNumVertices);
+    for (unsigned i = 0; i < source.mNumVertices; ++i) {
+        const Vec3 normal = transform(source.mNormals[i]);
+        const double size = length(normal);
+        if (!(size > 0 && std::isfinite(size))) return false;
+        mesh.normals.push_back(normal / size);
+    }
+    return true;
+}
+
+/// Colours of PLY, OBJ and similar files are display values; those of glTF are linear.
+Rgb import_color(const aiColor4D& c, bool linear) {
+    return linear ? Rgb{c.r, c.g, c.b} : Rgb{srgb_decode(c.r), srgb_decode(c.g), srgb_decode(c.b)};
+}
+
+void import_triangles(const aiMesh& source, bool mirrored, const std::string& file, Mesh& mesh) {
+    mesh.triangles.reserve(source.mNumFaces);
+    for (unsigned i = 0; i < source.mNumFaces; ++i)
+        add_polygon({source.mFaces[i].mIndices, source.mFaces[i].mNumIndices}, mirrored, file, mesh);
+}
+
+Mesh import_mesh(const Placed& placed, bool linear_colors, const std::string& file) {
+    const aiMesh& source = *placed.mesh;
+    const NormalTransform transform(placed.to_world);
+    Mesh mesh;
+    mesh.name = one_line(source.mName.C_Str());
+    mesh.positions.reserve(source.mNumVertices);
+    for (unsigned i = 0; i < source.mNumVertices; ++i)
+        mesh.positions.push_back(transform_point(placed.to_world, source.mVertices[i]));
+    import_triangles(source, transform.determinant < 0, file, mesh);
+    if (source.HasNormals() && !import_normals(source, transform, mesh)) mesh.normals.clear();
+    if (source.HasVertexColors(0))
+        for (unsigned i = 0; i < source.mNumVertices; ++i)
+            mesh.colors.push_back(import_color(source.mColors[0][i], linear_colors));
+    if (source.HasTextureCoords(0))
+        for (unsigned i = 0; i < source.mNumVertices; ++i)
+            mesh.texture_coordinates.push_back({source.mTextureCoords[0][i].x, source.mTextureCoords[0][i].y});
+    return mesh;
+}
+
+/// Sends meshes, and before the first mesh that needs it each texture.
+class Conversion {
+  public:
+    Conversion(const aiScene& source, const std::string& file, bool linear_colors, int pipe)
+        : source_(source), file_(file), linear_colors_(linear_colors), sender_(pipe) {}
+
+    void run(std::uint64_t max_bytes) {
+        for (const Placed& placed : place_meshes(source_, file_, max_bytes)) {
+            ImportedMesh imported{import_mesh(placed, linear_colors_, file_)};
+            if (imported.mesh.triangles.empty()) continue;
+            const unsigned index = placed.mesh->mMaterialIndex;
+            if (index < source_.mNumMaterials && source_.mMaterials[index]) {
+                const aiMaterial& material = *source_.mMaterials[index];
+                imported.mesh.material = read_material(material);
+                imported.is_unlit = is_unlit(material);
+                imported.texture = send_texture(base_color_texture(material));
+            }
+            sender_.send(imported);
+        }
+        sender_.send_end();
+    }
+
+  private:
+    std::uint32_t send_texture(const std::string& name) {
+        if (name.empty()) return ImportedMesh::no_texture;
+        const auto [known, is_new] = textures_.emplace(name, static_cast<std::uint32_t>(textures_.size()));
+        if (is_new) sender_.send(find_texture(source_, name, file_));
+        return known->second;
+    }
+
+    const aiScene& source_;
+    const std::string& file_;
+    bool linear_colors_;
+    Sender sender_;
+    std::map<std::string, std::uint32_t> textures_;
+};
+
+const char* const readable = "a mesh file that assimp can read";
+
+[[noreturn]] void reject_size(const std::string& file) {
+    reject_file(file, "needs more memory than a file of its size should", "a smaller or undamaged mesh");
+}
+
+void import_or_throw(const std::filesystem::path& path, const std::string& file, std::string_view contents, int pipe) {
+    auto* files = new FolderFiles(path, contents);
+    Assimp::Importer importer;
+    importer.SetIOHandler(files);
+    // Read by off.cpp. assimp takes any text with "off" near its start for such a file, and counts for true.
+    importer.UnregisterLoader(importer.GetImporter("off"));
+    const aiScene* source = importer.ReadFile(path.string(), 0);
+    if (!source || !source->mRootNode) {
+        if (importer.GetException()) std::rethrow_exception(importer.GetException());
+        const std::string message = one_line(importer.GetErrorString());
+        if (message.find("std::bad_") != message.npos || message.find("length_error") != message.npos)
+            reject_size(file);
+        reject_file(file, message.empty() ? "not readable" : message, readable);
+    }
+    for (const auto& opened : files->opened()) Sender(pipe).send_file(opened);
+    Conversion(*source, file, is_gltf(path), pipe).run(max_scene_bytes(files->bytes_opened()));
+    // The process ends: nothing is freed one by one, where a damaged structure would be found.
+    _exit(0);
+}
+
+}  // namespace
+
+void import_with_assimp(const std::filesystem::path& path, const std::string& file, std::string_view contents,
+                        int pipe) noexcept {
+    const Sender sender(pipe);
+    try {
+        try {
+            import_or_throw(path, file, contents, pipe);
+        } catch (const Error&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            reject_size(file);
+        } catch (const std::length_error&) {
+            reject_size(file);
+        } catch (const std::exception& error) {
+            reject_file(file, one_line(error.what()), readable);
+        }
+    } catch (const std::exception& error) {
+        sender.send_error(error.what());
+    }
+    _exit(0);
+}
+
+}  // namespace hogel::scene::mesh_files

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/scene/mesh_files/gltf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "hogel/scene/mesh_files/checks.h"
+
+namespace hogel::scene::mesh_files {
+namespace {
+
+constexpr int max_json_depth = 100;
+
+// Extensions without which hogel shows what it shows anyway: those of looks beyond base colour, metal and roughness,
+// of lights and of metadata. What changes geometry, or where textures come from, is not among them.
+constexpr std::array supported_extensions{"KHR_lights_punctual",
+                                          "KHR_materials_anisotropy",
+                                          "KHR_materials_clearcoat",
+                                          "KHR_materials_dispersion",
+                                          "KHR_materials_emissive_strength",
+                                          "KHR_materials_ior",
+                                          "KHR_materials_iridescence",
+                                          "KHR_materials_pbrSpecularGlossiness",
+                                          "KHR_materials_sheen",
+                                          "KHR_materials_specular",
+                                          "KHR_materials_transmission",
+                                          "KHR_materials_unlit",
+                                          "KHR_materials_variants",
+                                          "KHR_materials_volume",
+                                          "KHR_xmp_json_ld"};
+
+std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;  // little-endian, like this machine
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+/// A value as a message shows it.
+std::string shown(const Json& value) {
+    constexpr std::size_t longest = 40;
+    if (value.is_structured()) return value.is_array() ? "an array" : "an object";
+    const std::string text = one_line(value.dump());
+    return text.size() > longest ? text.substr(0, longest) + " ..." : text;
+}
+
+/// The JSON part of a .gltf or .glb file. Throws unless the chunks of a .glb file are inside it, because assimp
+/// allocates the sizes that they state.
+std::string_view split_chunks(std::string_view bytes, Gltf& gltf) {
+    gltf.is_binary = bytes.starts_with("glTF");
+    if (!gltf.is_binary) return bytes;
+    if (bytes.size() < 12) reject_file(gltf.file, "ends in its header", "a .glb file");
+    const std::uint32_t length = read_u32(bytes, 8);
+    if (length > bytes.size())
+        reject_file(gltf.file, fmt::format("has {} bytes and announces {}", bytes.size(), length), "a complete file");
+    if (read_u32(bytes, 4) != 2)
+        reject_file(gltf.file, fmt::format("is a .glb file of version {}", read_u32(bytes, 4)), "version 2");
+    std::string_view json;
+    std::size_t chunk = 0;
+    for (std::size_t at = 12; at < bytes.size(); ++chunk) {
+        const std::size_t left = bytes.size() - at;
+        const std::uint32_t size = left >= 8 ? read_u32(bytes, at) : 0;
+        if (left < 8 || size > left - 8)
+            reject_file(gltf.file, fmt::format("a chunk of {} bytes at byte {}", size, at),
+                        "one that ends in the file");
+        const std::string_view type = bytes.substr(at + 4, 4), content = bytes.substr(at + 8, size);
+        if (chunk == 0 && (type != "JSON" || size % 4 != 0))
+            reject_file(gltf.file, "does not begin with a JSON chunk of whole words", "a .glb file");
+        if (chunk == 0) json = content;
+        if (chunk == 1 && type == std::string_view("BIN\0", 4)) {
+            gltf.binary = content;
+            gltf.has_binary = true;
+        }
+        at += 8 + std::size_t{size};
+    }
+    return json;
+}
+
+Json parse_json(const std::string& file, std::string_view text) {
+    std::vector<std::set<std::string>> keys;  // of the objects around the place that is parsed
+    const auto check = [&](int depth, Json::parse_event_t event, Json& parsed) {
+        if (depth > max_json_depth)
+            reject_file(file, fmt::format("its JSON nests deeper than {}", max_json_depth), "a glTF document");
+        if (event == Json::parse_event_t::object_start) keys.emplace_back();
+        if (event == Json::parse_event_t::object_end) keys.pop_back();
+        if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
+            reject_file(file, fmt::format("the key {} occurs twice in one object of its JSON", shown(parsed)),
+                        "keys that differ");
+        return true;
+    };
+    try {
+        return Json::parse(text, check);
+    } catch (const Json::parse_error& error) {
+        reject_file(file, fmt::format("its JSON has an error at byte {}", error.byte), "a glTF document in UTF-8");
+    } catch (const Json::exception&) {
+        reject_file(file, "its JSON has a number out of range", "a glTF document");
+    }
+}
+
+void check_version(Gltf& gltf) {
+    const auto asset = gltf.json.find("asset");
+    if (asset == gltf.json.end() || !asset->is_object() || !asset->contains("version") ||
+        !(*asset)["version"].is_string())
+        gltf.reject("asset.version", "missing", "\"2.0\"");
+    const std::string version = (*asset)["version"];
+    if (version.starts_with("1.")) return;
+    if (!version.starts_with("2.")) gltf.reject("asset.version", "is " + shown(version), "\"2.0\"");
+    if (const auto least = asset->find("minVersion"); least != asset->end() && *least != "2.0")
+        gltf.reject("asset.minVersion", "is " + shown(*least), "\"2.0\"");
+    gltf.is_version_2 = true;
+}
+
+void check_extensions(const Gltf& gltf) {
+    for (const Json& name : gltf.list("extensionsRequired"))
+        if (std::find(supported_extensions.begin(), supported_extensions.end(), name) == supported_extensions.end())
+            gltf.reject("extensionsRequired", fmt::format("names {}, which hogel cannot read", shown(name)),
+                        "a file that needs no such extension; convert it, for instance without compression");
+}
+
+/// What moves a model, and cameras. assimp crashes on skins that lack what glTF does not ask for.
+void drop_unused(Json& json) {
+    for (const char* name : {"animations", "cameras", "skins"}) json.erase(name);
+    if (json.contains("nodes"))
+        for (Json& node : json["nodes"])
+            for (const char* name : {"camera", "skin", "weights"}) node.erase(name);
+    if (!json.contains("meshes")) return;
+    for (Json& mesh : json["meshes"]) {
+        mesh.erase("weights");
+        for (Json& primitive : mesh["primitives"]) primitive.erase("targets");
+    }
+}
+
+void append_chunk(std::string& bytes, std::string_view type, std::string_view content) {
+    const auto size = static_cast<std::uint32_t>(content.size());
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size).append(type).append(content);
+}
+
+/// The file anew, as a .glb file if it was one.
+std::string assemble(const Gltf& gltf) {
+    std::string json = gltf.json.dump();
+    if (!gltf.is_binary) return json;
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::uint32_t version = 2;
+    const auto size = static_cast<std::uint32_t>(20 + json.size() + (gltf.has_binary ? 8 + gltf.binary.size() : 0));
+    std::string bytes = "glTF";
+    bytes.append(reinterpret_cast<const char*>(&version), sizeof version);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    append_chunk(bytes, "JSON", json);
+    if (gltf.has_binary) append_chunk(bytes, {"BIN\0", 4}, gltf.binary);
+    return bytes;
+}
+
+}  // namespace
+
+void Gltf::reject(const std::string& where, const std::string& what, const std::string& expected) const {
+    reject_file(file, where + " " + what, expected);
+}
+
+const Json& Gltf::list(const char* name) const {
+    static const Json empty = Json::array();
+    const auto found = json.find(name);
+    if (found == json.end()) return empty;
+    if (!found->is_array()) reject(name, "is " + shown(*found), "an array");
+    return *found;
+}
+
+const Json& Gltf::object(const Json& array, std::size_t i, const std::string& where) const {
+    if (!array[i].is_object()) reject(where, "is " + shown(array[i]), "an object");
+    return array[i];
+}
+
+std::uint64_t Gltf::number(const Json& object, const std::string& where, const char* name, std::uint64_t max,
+                           std::optional<std::uint64_t> otherwise) const {
+    const auto found = object.find(name);
+    const std::string place = where + "." + name;
+    if (found == object.end()) {
+        if (!otherwise) reject(place, "missing", "a whole number");
+        return *otherwise;
+    }
+    if (!found->is_number_unsigned() || found->get<std::uint64_t>() > max)
+        reject(place, "is " + shown(*found), fmt::format("a whole number from 0 to {}", max));
+    return *found;
+}
+
+std::optional<std::size_t> Gltf::reference(const Json& object, const std::string& where, const char* name,
+                                           const char* list_name) const {
+    const auto found = object.find(name);
+    if (found == object.end()) return std::nullopt;
+    const std::size_t size = list(list_name).size();
+    if (!found->is_number_unsigned() || found->get<std::uint64_t>() >= size)
+        reject(fmt::format("{}.{}", where, name), "is " + shown(*found),
+               fmt::format("the number of one of {} {}", size, list_name));
+    return found->get<std::size_t>();
+}
+
+Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
+    Gltf gltf;
+    gltf.file = file;
+    gltf.folder = folder;
+    gltf.file_size = bytes.size();
+    gltf.json = parse_json(file, split_chunks(bytes, gltf));
+    if (!gltf.json.is_object()) reject_file(file, "its JSON is " + shown(gltf.json), "an object: a glTF document");
+    check_version(gltf);
+    if (gltf.is_version_2) check_extensions(gltf);
+    return gltf;
+}
+
+// assimp 5.2 drops faces with indices that do not exist, wraps offsets around, allocates what counts and indexed names
+// announce, and walks trees recursively.
+std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
+    Gltf gltf = parse_gltf(file, folder, bytes);
+    if (!gltf.is_version_2) return {};
+    {
+        const GltfBuffers buffers(gltf);
+        check_primitives(gltf, check_accessors(gltf, buffers));
+    }
+    check_nodes(gltf);
+    drop_unused(gltf.json);
+    return assemble(gltf);
+}
+
+}  // namespace hogel::scene::mesh_files

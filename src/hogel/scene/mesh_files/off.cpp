@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/scene/mesh_files/off.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/polygons.h"
+
+namespace hogel::scene::mesh_files {
+namespace {
+
+constexpr std::string_view spaces = " \t\r\f\v";
+
+/// Lines without comments; empty ones are skipped.
+class Lines {
+  public:
+    Lines(const std::string& file, std::string_view bytes) : file_(&file), rest_(bytes) {}
+
+    /// False at the end of the file.
+    bool next() {
+        while (!rest_.empty()) {
+            const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+            line_ = rest_.substr(0, end);
+            rest_.remove_prefix(std::min(end + 1, rest_.size()));
+            ++number_;
+            line_ = line_.substr(0, line_.find('#'));
+            if (!at_end()) return true;
+        }
+        return false;
+    }
+    /// Whether the line has no further word.
+    bool at_end() {
+        line_.remove_prefix(std::min(line_.find_first_not_of(spaces), line_.size()));
+        return line_.empty();
+    }
+    std::string_view word() {
+        if (at_end()) reject("ends early", "a further number");
+        const std::string_view word = line_.substr(0, line_.find_first_of(spaces));
+        line_.remove_prefix(word.size());
+        return word;
+    }
+    template <class T>
+    T number(const char* expected) {
+        const std::string_view text = word();
+        const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+        T value{};
+        const auto [end, status] = std::from_chars(begin, text.data() + text.size(), value);
+        if (status != std::errc{} || end != text.data() + text.size())
+            reject(fmt::format("has '{}'", one_line(std::string(text.substr(0, 40)))), expected);
+        return value;
+    }
+    /// A number that may be the first of a further line.
+    std::uint32_t count() {
+        if (at_end() && !next()) reject("is the last", "the numbers of vertices and faces");
+        return number<std::uint32_t>("a whole number");
+    }
+    /// Takes a word off the start of the line if it is there.
+    bool take(std::string_view start) {
+        if (!line_.starts_with(start)) return false;
+        line_.remove_prefix(start.size());
+        return true;
+    }
+    std::size_t bytes_left() const { return rest_.size(); }
+    const std::string& file() const { return *file_; }
+    [[noreturn]] void reject(const std::string& what, const std::string& expected) const {
+        reject_file(*file_, fmt::format("line {} {}", number_, what), expected);
+    }
+
+  private:
+    const std::string* file_;
+    std::string_view rest_, line_;
+    std::size_t number_ = 0;
+};
+
+struct Header {
+    bool has_texture = false, has_colors = false, has_normals = false, has_weight = false, has_dimensions = false;
+    unsigned dimensions = 3;
+    std::uint32_t vertices = 0, faces = 0;
+};
+
+/// The letters before "OFF".
+bool take_keyword(Lines& lines, Header& header) {
+    header.has_texture = lines.take("ST");
+    header.has_colors = lines.take("C");
+    header.has_normals = lines.take("N");
+    header.has_weight = lines.take("4");
+    header.has_dimensions = lines.take("n");
+    return lines.take("OFF");
+}
+
+Header read_header(Lines& lines) {
+    Header header;
+    if (!lines.next()) reject_file(lines.file(), "has no line", "an OFF file");
+    // The keyword may be missing; then the first line begins with the number of vertices.
+    Lines first = lines;
+    if (take_keyword(first, header)) {
+        lines = first;
+        if (!lines.at_end() && lines.take("BINARY")) lines.reject("says BINARY", "an OFF file of text");
+    } else {
+        header = {};
+    }
+    if (header.has_dimensions) header.dimensions = lines.count();
+    if (header.dimensions > 3 || (header.has_dimensions && header.has_weight))
+        lines.reject("says more than three dimensions", "at most three");
+    header.vertices = lines.count();
+    header.faces = lines.count();
+    // "0\n" is the shortest line of a vertex or a face.
+    if (header.vertices > lines.bytes_left() / 2 || header.faces > lines.bytes_left() / 2)
+        lines.reject(fmt::format("announces {} vertices and {} faces", header.vertices, header.faces),
+                     fmt::format("what {} further bytes can hold", lines.bytes_left()));
+    return header;
+}
+
+void read_vertex(Lines& lines, const Header& header, Mesh& mesh) {
+    const auto number = [&] { return lines.number<float>("a number"); };
+    float at[4] = {0, 0, 0, 1};
+    for (unsigned i = 0; i < header.dimensions; ++i) at[i] = number();
+    if (header.has_weight) at[3] = number();
+    mesh.positions.push_back({at[0] / at[3], at[1] / at[3], at[2] / at[3]});
+    if (header.has_normals) {
+        const float x = number(), y = number(), z = number();
+        mesh.normals.push_back({x, y, z});
+    }
+    if (header.has_colors) {
+        const float r = number(), g = number(), b = number();
+        mesh.colors.push_back({r, g, b});
+        // Opacity may follow, which texture coordinates hide.
+        if (!header.has_texture) return;
+    }
+    if (header.has_texture) {
+        const float u = number(), v = number();
+        if (header.has_colors && !lines.at_end()) {  // then u was the opacity
+            const float w = number();
+            mesh.texture_coordinates.push_back({v, w});
+        } else {
+            mesh.texture_coordinates.push_back({u, v});
+        }
+    }
+}
+
+/// Colours are display values, 0 to 1 or 0 to 255.
+void decode_colors(Mesh& mesh) {
+    float largest = 0;
+    for (const Rgb& c : mesh.colors) largest = std::max({largest, c.r, c.g, c.b});
+    const float scale = largest > 1 ? 255.0f : 1.0f;
+    for (Rgb& c : mesh.colors) c = {srgb_decode(c.r / scale), srgb_decode(c.g / scale), srgb_decode(c.b / scale)};
+}
+
+/// New normals are made if one has no direction.
+void normalize(Mesh& mesh) {
+    for (Vec3& normal : mesh.normals) {
+        const double size = length(normal);
+        if (!(size > 0 && size <= std::numeric_limits<double>::max())) {
+            mesh.normals.clear();
+            return;
+        }
+        normal = normal / size;
+    }
+}
+
+}  // namespace
+
+bool starts_like_off(std::string_view bytes) {
+    const std::string none;
+    Lines lines(none, bytes.substr(0, 4096));
+    Header header;
+    return lines.next() && take_keyword(lines, header);
+}
+
+Mesh read_off(const std::string& file, std::string_view bytes) {
+    Lines lines(file, bytes);
+    const Header header = read_header(lines);
+    Mesh mesh;
+    mesh.material.base_color = {0.6f, 0.6f, 0.6f};
+    for (std::uint32_t i = 0; i < header.vertices; ++i) {
+        if (!lines.next()) reject_file(file, fmt::format("has {} vertices", i), fmt::format("{}", header.vertices));
+        read_vertex(lines, header, mesh);
+    }
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t i = 0; i < header.faces; ++i) {
+        if (!lines.next()) reject_file(file, fmt::format("has {} faces", i), fmt::format("{}", header.faces));
+        const auto count = lines.number<std::uint32_t>("a number of corners");
+        corners.clear();
+        for (std::uint32_t k = 0; k < count; ++k) {
+            corners.push_back(lines.number<std::uint32_t>("the number of a vertex"));
+            if (corners.back() >= header.vertices)
+                lines.reject(fmt::format("has the vertex index {}", corners.back()),
+                             fmt::format("less than {}", header.vertices));
+        }
+        add_polygon(corners, false, file, mesh);
+    }
+    decode_colors(mesh);
+    normalize(mesh);
+    return mesh;
+}
+
+}  // namespace hogel::scene::mesh_files
