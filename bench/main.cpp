@@ -118,24 +118,50 @@ void add_render_light_field(CLI::App* command, RenderOptions& options) {
                "F");
 }
 
+struct RenderChoice : RenderOptions {
+    bool scaling = false, stream = false;
+    CLI::Option* peers_option = nullptr;
+};
+
+void measure_render(const RenderChoice& choice, const Session& session) {
+    if (choice.peers_option->count() > 0)
+        measure_peers(choice, session);
+    else if (choice.scaling)
+        measure_scaling(choice, session);
+    else if (choice.stream)
+        measure_stream(choice, session);
+    else
+        measure_regions(choice, session);
+}
+
+// The options that choose what is measured.
+void add_render_measurements(CLI::App* command, RenderChoice& options) {
+    std::vector<std::string> known{""};
+    for (const RenderPeerInfo& peer : render_peers()) known.push_back(peer.name);
+    options.peers_option =
+        command
+            ->add_option("--peers", options.peers,
+                         fmt::format("Instead: samples a second, side by side with {}; all if none are named",
+                                     fmt::join(known.begin() + 1, known.end(), ", ")))
+            ->type_name("NAME,...")
+            ->expected(0, static_cast<int>(render_peers().size()))
+            ->delimiter(',')
+            ->check(CLI::IsMember(known).description(""));
+    CLI::Option* scaling = command->add_flag("--scaling", options.scaling,
+                                             "Instead: how the time grows with hogels, directions and triangles, and "
+                                             "what a second thread gains");
+    CLI::Option* stream = command->add_flag("--stream", options.stream,
+                                            "Instead: whole light fields, which may be larger than memory, into a "
+                                            "sink that keeps nothing of them");
+    scaling->excludes(options.peers_option);
+    stream->excludes(options.peers_option)->excludes(scaling);
+}
+
 void add_render(CLI::App& app, Program& program) {
-    struct Choice : RenderOptions {
-        bool scaling = false, stream = false;
-        CLI::Option* peers_option = nullptr;
-    };
-    auto options = std::make_shared<Choice>();
-    CLI::App* command =
-        add_command<Choice>(app, program, "render", "Renderers: time for each hogel against the size of the region", 0,
-                            options, [&session = program.session](const Choice& choice) {
-                                if (choice.peers_option->count() > 0)
-                                    measure_peers(choice, session);
-                                else if (choice.scaling)
-                                    measure_scaling(choice, session);
-                                else if (choice.stream)
-                                    measure_stream(choice, session);
-                                else
-                                    measure_regions(choice, session);
-                            });
+    auto options = std::make_shared<RenderChoice>();
+    CLI::App* command = add_command<RenderChoice>(
+        app, program, "render", "Renderers: time for each hogel against the size of the region", 0, options,
+        [&session = program.session](const RenderChoice& choice) { measure_render(choice, session); });
     command->footer(
         "Examples:\n"
         "  hogel-bench render -o plots\n"
@@ -163,25 +189,7 @@ void add_render(CLI::App& app, Program& program) {
                "S");
     add_number(command, "--memory", options->gigabytes, CLI::Range(1e-3, 1e6),
                "Stop enlarging regions that would take more, at 20 bytes a ray", "GB");
-    std::vector<std::string> known{""};
-    for (const RenderPeerInfo& peer : render_peers()) known.push_back(peer.name);
-    options->peers_option =
-        command
-            ->add_option("--peers", options->peers,
-                         fmt::format("Instead: samples a second, side by side with {}; all if none are named",
-                                     fmt::join(known.begin() + 1, known.end(), ", ")))
-            ->type_name("NAME,...")
-            ->expected(0, static_cast<int>(render_peers().size()))
-            ->delimiter(',')
-            ->check(CLI::IsMember(known).description(""));
-    CLI::Option* scaling = command->add_flag("--scaling", options->scaling,
-                                             "Instead: how the time grows with hogels, directions and triangles, and "
-                                             "what a second thread gains");
-    CLI::Option* stream = command->add_flag("--stream", options->stream,
-                                            "Instead: whole light fields, which may be larger than memory, into a "
-                                            "sink that keeps nothing of them");
-    scaling->excludes(options->peers_option);
-    stream->excludes(options->peers_option)->excludes(scaling);
+    add_render_measurements(command, *options);
     add_count(command, "--rounds", options->rounds, "Rounds of which --peers and --scaling take medians");
 }
 

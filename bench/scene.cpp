@@ -41,7 +41,7 @@ std::shared_ptr<const ShadedScene> shade(const Session& session, const Scene& sc
     auto shaded = light_scene(scene, request_of(options), until_interrupted());
     if (const auto& cache = shaded->radiance_cache)
         session.detail(fmt::format("radiance cache: at most {}; no room for that of {} of {} triangles",
-                                   format_bytes(cache->bytes()), cache->triangles_without_room(),
+                                   format_bytes(cache->bytes()), cache->uncached_triangles(),
                                    shaded->triangles.size()));
     return shaded;
 }

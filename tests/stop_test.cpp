@@ -78,38 +78,30 @@ struct Verb {
     std::function<void(const Progress&)> call;
 };
 
-std::vector<Verb> verbs() {
+const SlowLightField& slow_rays() {
     static const SlowLightField rays;
+    return rays;
+}
+
+const SlowField& slow_waves() {
     static const SlowField waves;
+    return waves;
+}
+
+// Verbs that read a light field.
+std::vector<Verb> light_field_verbs() {
+    static const SlowLightField& rays = slow_rays();
     static const Grid hologram{8, 8, 64_um, 64_um, 0, 0};
-    static const FieldGrid& grid = waves.grid();
-    static const Scene lit = lit_ball();
-    static const ShadedScene ball = shade_scene_vertices(make_scene("sphere", 0.5_mm));
     return {
         {"copy_of_a_light_field",
          [](const Progress& progress) {
              LightFieldBuffer buffer(rays.grid());
              copy(rays, buffer, progress);
          }},
-        {"copy_of_a_field",
-         [](const Progress& progress) {
-             Field field(grid);
-             copy(waves, field, 0, progress);
-         }},
         {"photograph_of_a_light_field",
          [](const Progress& progress) {
              const Camera camera = camera_of(hologram);
              photograph(borrow(rays), {&camera, 1}, {}, progress);
-         }},
-        {"photograph_of_a_field",
-         [](const Progress& progress) {
-             const Camera camera = camera_of(grid.plane);
-             photograph(waves, {&camera, 1}, {}, progress);
-         }},
-        {"photograph_by_plane_waves",
-         [](const Progress& progress) {
-             const Camera camera = camera_of(grid.plane);
-             photograph_by_plane_waves(waves, {&camera, 1}, {}, progress);
          }},
         {"reading_a_hologram",
          [](const Progress& progress) {
@@ -126,6 +118,29 @@ std::vector<Verb> verbs() {
              options.target = Sqnr{30};
              compress(borrow(rays), std::filesystem::path(testing::TempDir()) / "stopped.hgl", options, progress);
          }},
+    };
+}
+
+// Verbs that read a hologram's field.
+std::vector<Verb> field_verbs() {
+    static const SlowField& waves = slow_waves();
+    static const FieldGrid& grid = waves.grid();
+    return {
+        {"copy_of_a_field",
+         [](const Progress& progress) {
+             Field field(grid);
+             copy(waves, field, 0, progress);
+         }},
+        {"photograph_of_a_field",
+         [](const Progress& progress) {
+             const Camera camera = camera_of(grid.plane);
+             photograph(waves, {&camera, 1}, {}, progress);
+         }},
+        {"photograph_by_plane_waves",
+         [](const Progress& progress) {
+             const Camera camera = camera_of(grid.plane);
+             photograph_by_plane_waves(waves, {&camera, 1}, {}, progress);
+         }},
         {"propagate",
          [](const Progress& progress) {
              Field field(grid);
@@ -138,11 +153,21 @@ std::vector<Verb> verbs() {
              options.modulator.width = options.modulator.height = 256;
              encode_pattern(waves, options, progress);
          }},
+    };
+}
+
+// Verbs that read a scene.
+std::vector<Verb> scene_verbs() {
+    static const Scene lit = lit_ball();
+    static const ShadedScene ball = shade_scene_vertices(make_scene("sphere", 0.5_mm));
+    return {
         {"shade_scene", [](const Progress& progress) { shade_scene(lit, {.model = "vertex"}, progress); }},
         {"bake_scene", [](const Progress& progress) { bake_scene(lit, {.rays = 100000}, progress); }},
         {"a_scene_straight_to_a_field",
          [](const Progress& progress) {
-             scene_hologram_methods().find("points-visible").make(ball, grid, {.spacing = 0.5_um}, progress);
+             scene_hologram_methods()
+                 .find("points-visible")
+                 .make(ball, slow_waves().grid(), {.spacing = 0.5_um}, progress);
          }},
     };
 }
@@ -175,7 +200,12 @@ std::vector<Verb> renderings() {
 }
 
 class Stop : public testing::TestWithParam<Verb> {};
-INSTANTIATE_TEST_SUITE_P(Verbs, Stop, testing::ValuesIn(verbs()), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(LightFields, Stop, testing::ValuesIn(light_field_verbs()),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Fields, Stop, testing::ValuesIn(field_verbs()),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Stop, testing::ValuesIn(scene_verbs()),
+                         [](const auto& test) { return test.param.name; });
 INSTANTIATE_TEST_SUITE_P(Renderers, Stop, testing::ValuesIn(renderings()),
                          [](const auto& test) { return test.param.name; });
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <system_error>
@@ -26,6 +27,8 @@ std::size_t parse_count(const std::string& text, const std::string& what, const 
         const std::size_t count = std::stoul(text);
         if (count > 0 && count <= max_count) return count;
     }
+    if (digits && text.find_first_not_of('0') != std::string::npos)
+        throw Error(ErrorCode::usage, fmt::format("{}: {} is too large; expected at most {}", what, text, max_count));
     throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a positive whole number{}", what, text, hint));
 }
 
@@ -58,6 +61,21 @@ std::string with_unit(const std::string& part, const std::string& unit) {
     return part.find_first_not_of("+-.0123456789") == std::string::npos ? part + unit : part;
 }
 
+// Lengths beyond these are typing errors, and would overflow where they are squared.
+constexpr double min_length = 1_nm * 1e-3, max_length = 1e6;
+
+double parse_any_length(const std::string& text, const std::string& what) {
+    const double metres = parse_length(text, what);
+    if (std::abs(metres) <= max_length) return metres;
+    throw Error(ErrorCode::usage, fmt::format("{}: '{}' is longer than {}", what, text, format_length(max_length)));
+}
+
+double parse_positive_length(const std::string& text, const std::string& what) {
+    const double metres = parse_any_length(text, what);
+    if (metres >= min_length) return metres;
+    throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a positive length", what, text));
+}
+
 Angles parse_angles(const std::string& text, const std::string& what) {
     const std::size_t comma = text.find(',');
     if (comma == std::string::npos) {
@@ -73,7 +91,7 @@ Vec3 parse_point(const std::string& text, const std::string& what) {
     if (first == std::string::npos || second == std::string::npos || text.find(',', second + 1) != std::string::npos)
         throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not x,y,z; write e.g. 0,0,300mm", what, text));
     const std::string z = text.substr(second + 1), unit = unit_of(z);
-    const auto component = [&](const std::string& part) { return parse_length(with_unit(part, unit), what); };
+    const auto component = [&](const std::string& part) { return parse_any_length(with_unit(part, unit), what); };
     return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
 }
 
@@ -91,7 +109,13 @@ std::string degrees(double radians) { return fmt::format("{:.6g}", radians * 180
 Option Command::length(const std::string& name, double& metres, const std::string& help) {
     return read_option(
         name, "LENGTH", typed(metres), help,
-        [&metres](const std::string& text, const std::string& what) { metres = parse_length(text, what); });
+        [&metres](const std::string& text, const std::string& what) { metres = parse_any_length(text, what); });
+}
+
+Option Command::positive_length(const std::string& name, double& metres, const std::string& help) {
+    return read_option(
+        name, "LENGTH", typed(metres), help,
+        [&metres](const std::string& text, const std::string& what) { metres = parse_positive_length(text, what); });
 }
 
 Option Command::angle(const std::string& name, double& radians, const std::string& help) {
@@ -148,14 +172,15 @@ Option Command::wavelengths(std::vector<double>& wavelengths) {
                            if (text == "rgb")
                                wavelengths = {defaults.red, defaults.green, defaults.blue};
                            else
-                               wavelengths = {parse_length(text, what)};
+                               wavelengths = {parse_positive_length(text, what)};
                        });
 }
 
 std::optional<double> parse_number(const std::string& text) {
     double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return {};
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), last, number);
+    if (text.empty() || error != std::errc() || end != last || !std::isfinite(number)) return {};
     return number;
 }
 

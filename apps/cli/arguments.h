@@ -17,7 +17,7 @@ struct Angles {
     double across = 0, down = 0;
 };
 
-/// A number without a unit, or nothing if the text is not a number.
+/// A finite number without a unit, or nothing if the text is not one.
 std::optional<double> parse_number(const std::string& text);
 
 /// The channel of a picture for light of a wavelength: 0 red, 1 green, 2 blue.

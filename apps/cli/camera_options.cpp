@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "concerns.h"
 #include "hogel/error.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
 namespace {
+
+constexpr std::size_t max_pixels = std::size_t{1} << 30;
 
 double mix(double a, double b, double part) { return a + part * (b - a); }
 
@@ -19,7 +24,11 @@ Camera make_camera(const CameraOptions& options, double width, double height, do
     camera.focus_slope_x = std::tan(options.focus_tilt.across);
     camera.focus_slope_y = std::tan(options.focus_tilt.down);
     camera.pupil = options.f_number > 0 ? options.focal_length / options.f_number : options.pupil;
-    if (camera.eye.z > 0 && !(options.gaze.z < camera.eye.z))
+    if (!(camera.eye.z > 0))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: the eye is in front of the hologram, at z > 0, not at {}",
+                                options.moves_eye ? "--eye, --to-eye" : "--eye", format_length(camera.eye.z)));
+    if (!(options.gaze.z < camera.eye.z))
         throw Error(ErrorCode::usage, "--gaze: the eye looks at a point in front of it, not beside or behind it");
     // The middle of the picture is where the line of sight to that point meets the hologram plane.
     const Vec3 middle = camera.eye + camera.eye.z / (camera.eye.z - options.gaze.z) * (options.gaze - camera.eye);
@@ -28,8 +37,16 @@ Camera make_camera(const CameraOptions& options, double width, double height, do
     std::size_t rows = options.resolution.rows;
     if (rows == 0)
         rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(shown * height / width / pixel)));
+    if (options.resolution.columns * rows > max_pixels)
+        throw Error(ErrorCode::usage, fmt::format("--resolution: {}x{} pixels; expected at most {} in all",
+                                                  options.resolution.columns, rows, max_pixels));
     camera.picture = {options.resolution.columns, rows, pixel, pixel, middle.x, middle.y};
-    validate(camera);
+    with_options({{"focus at depth", options.moves_focus ? "--focus, --to-focus" : "--focus"},
+                  {"pupil", options.f_number > 0 ? "--f-number, --focal-length" : "--pupil"},
+                  {"pixel", "--resolution, --angle-of-view"},
+                  {"picture", "--gaze"},
+                  {"", "--focus-tilt"}},
+                 [&] { validate(camera); });
     return camera;
 }
 
@@ -42,12 +59,12 @@ void add_camera_options(Command& command, CameraOptions& options) {
     command.length("--focus", options.focus, "Depth in focus: positive behind the hologram, negative in front");
     command.angles("--focus-tilt", options.focus_tilt,
                    "Tilt of the plane in focus, as by a tilted film:\nits depth grows to the right, and upwards");
-    const Option pupil = command.length("--pupil", options.pupil, "Diameter of the lens");
+    const Option pupil = command.positive_length("--pupil", options.pupil, "Diameter of the lens");
     command.number("--f-number", options.f_number, "NUMBER", "The same as a part of the focal length")
         .no_default()
         .positive()
         .excludes(pupil);
-    command.length("--focal-length", options.focal_length, "With --f-number");
+    command.positive_length("--focal-length", options.focal_length, "With --f-number");
     command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram");
     command.resolution("--resolution", options.resolution, "Pixels across, or across and down");
     command.point("--to-eye", options.last_eye, "The eye of the last frame").sets(options.moves_eye);
@@ -57,6 +74,9 @@ void add_camera_options(Command& command, CameraOptions& options) {
 }
 
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height) {
+    for (const double tilt : {options.focus_tilt.across, options.focus_tilt.down})
+        if (!(std::abs(tilt) < 0.5 * std::numbers::pi))
+            throw Error(ErrorCode::usage, "--focus-tilt: angles between -90deg and 90deg were expected");
     if (options.frames == 1 && (options.moves_eye || options.moves_focus))
         throw Error(ErrorCode::usage, "--to-eye and --to-focus: with --frames, for there is but one picture");
     if (!(options.angle_of_view >= 0 && options.angle_of_view < 3.1))

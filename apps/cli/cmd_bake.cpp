@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -27,7 +28,8 @@ int bake(const Options& options, const Session& session) {
     bake_options.seed = session.seed;
     const Scene scene = load_scene(session, options.scene, place);
     Stage stage(session, "baking");
-    const Scene baked = hogel::bake_scene(scene, bake_options, stage.progress());
+    const Scene baked =
+        with_options({{"", "--tessellate"}}, [&] { return hogel::bake_scene(scene, bake_options, stage.progress()); });
     write_baked_scene(options.output, baked);
     session.say(fmt::format("{}: {} triangles, {}; render it with --as-is", options.output, triangle_count(baked),
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
@@ -48,7 +50,7 @@ void add_bake(Command& command, Session& session) {
     command.count("--rays", options->bake.rays, "From every vertex, for reflected light");
     command.count("--bounces", options->bake.bounces, "How often light is reflected");
     command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
-    command.length("--size", options->size, "Width of the hologram that the scene is fitted to");
+    command.positive_length("--size", options->size, "Width of the hologram that the scene is fitted to");
     add_json_flag(command, session);
     command.work([options, &session] { return bake(*options, session); });
 }

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
 #include "commands.h"
+#include "concerns.h"
 #include "hogel/compress.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -37,6 +39,14 @@ CompressionTarget target_of(const Options& options) {
     return Sqnr{options.sqnr.value_or(defaults.sqnr)};
 }
 
+// Throws Error(usage) for names that do not exist.
+void check_method(const CodingMethod& method) {
+    with_options({{"", "--coder"}}, [&] { coders().find(method.coder); });
+    const std::vector<std::string> known = transform_names();
+    if (!method.transform.empty() && !std::ranges::count(known, method.transform))
+        with_options({{"", "--transform"}}, [&] { throw_unknown("transform", method.transform, known); });
+}
+
 int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
@@ -45,9 +55,10 @@ int compress_file(Options options, const Session& session) {
     CompressionOptions& compression = options.compression;
     compression.target = target_of(options);
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
+    check_method(compression.method);
     if (!options.table.empty()) {
         if (!coders().find(compression.method.coder).quantisation_table)
-            throw Error(ErrorCode::usage, fmt::format("coder {} has no quantisation table; --table goes with jpeg4d",
+            throw Error(ErrorCode::usage, fmt::format("--table: coder {} has no quantisation table; jpeg4d has one",
                                                       compression.method.coder));
         compression.method.table = tables.at(options.table);
     }
@@ -59,7 +70,17 @@ int compress_file(Options options, const Session& session) {
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
     require_resources(plan_compression(light_field, compression), "compressing", options.output);
     Stage stage(session, "compressing");
-    const CompressionResult result = compress(light_field, options.output, compression, stage.progress());
+    const CompressionResult result =
+        with_options({{"tiles", "--tile"},
+                      {"transform", "--coder, --transform"},
+                      {"tone mapping and", "--tone, --chrominance"},
+                      {"chrominance", "--chrominance"},
+                      {"unfolded", "--hemicube"},
+                      {"be lossless", "--coder, --lossless, --max-error"},
+                      {"SQNR", "--sqnr"},
+                      {"rate", "--ppb"},
+                      {"step", "--step"}},
+                     [&] { return compress(light_field, options.output, compression, stage.progress()); });
     report_compressed(session, options.output, result);
     return 0;
 }
@@ -70,12 +91,15 @@ void add_target_options(Command& command, Options& options) {
         "--sqnr", options.sqnr, "DB", fmt::format("Signal to error, within 0.1 dB above (default: {})", defaults.sqnr));
     const Option ppb =
         command.number("--ppb", options.pixels_per_bit, "N", "Size, to the byte: rays, with all their colours, a bit")
+            .positive()
             .excludes(sqnr);
     const Option step = command.number("--step", options.step, "N", "The quantiser's step, in units of radiance")
+                            .positive()
                             .excludes(sqnr)
                             .excludes(ppb);
     const Option max_error =
         command.number("--max-error", options.max_error, "E", "Every sample within this of what it was, in radiance")
+            .positive()
             .excludes(sqnr)
             .excludes(ppb)
             .excludes(step);
@@ -98,8 +122,8 @@ void add_method_options(Command& command, Options& options) {
                    "How a hemicube is coded: its faces one by one, or unfolded into one array with smooth corners");
     const Option no_depth = command.flag("--no-depth", options.no_depth, "Leave the depth of the rays out");
     command
-        .length("--depth-error", options.compression.depth_error,
-                "The depth of every ray within this of what it was (default: a 1,000th of the range)")
+        .positive_length("--depth-error", options.compression.depth_error,
+                         "The depth of every ray within this of what it was (default: a 1,000th of the range)")
         .no_default()
         .excludes(no_depth);
 }
@@ -114,10 +138,13 @@ void add_mapping_options(Command& command, Options& options) {
     command
         .number("--tone-decades", options.tone_decades, "N",
                 "Decades of luminance that the curve leaves (0.1 to 20); what spans no more has none")
+        .range(0.1, 20)
         .needs(tone);
-    command.number("--chrominance", options.compression.chrominance, "F",
-                   "Code the two channels of chrominance so many times as coarsely as luminance (1 to 1024); --sqnr\n"
-                   "and --step then speak of colours whose chrominance is divided by it");
+    command
+        .number("--chrominance", options.compression.chrominance, "F",
+                "Code the two channels of chrominance so many times as coarsely as luminance (1 to 1024); --sqnr\n"
+                "and --step then speak of colours whose chrominance is divided by it")
+        .range(1, 1024);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -40,7 +41,8 @@ int decompress_file(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field || !is_stream(options.input))
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
     require_writable(options.output);
-    const LightField light_field = open_stream(options.input, {.layers = options.layers});
+    const LightField light_field =
+        with_options({{"", "--layers"}}, [&] { return open_stream(options.input, {.layers = options.layers}); });
     LightFieldFileOptions file;
     // Exact coders keep their precision: their samples are not rounded to half floats.
     const std::string coder = read_stream_info(options.input).method.coder;

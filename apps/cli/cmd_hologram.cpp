@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
@@ -45,14 +46,15 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     const double height =
         width * static_cast<double>(options.render.hogels.rows) / static_cast<double>(options.render.hogels.columns);
     const double pitch = options.hologram.pitch;
-    if (!(width >= pitch && height >= pitch && pitch > 0))
+    if (!(width >= pitch && height >= pitch))
         throw Error(ErrorCode::usage, "--size, --pitch: the hologram must hold samples");
     std::vector<FieldGrid> grids;
     for (const double wavelength : options.hologram.wavelengths)
         grids.push_back({{static_cast<std::size_t>(std::lround(width / pitch)),
                           static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
                          wavelength});
-    for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
+    for (const FieldGrid& grid : grids)
+        with_options({{"", "--size, --pitch"}}, [&] { validate(grid, ErrorCode::usage, "hologram"); });
     RenderOptions render = options.render;
     render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     const auto scene = light_scene(session, load_scene(session, options.input, render), render);
@@ -61,11 +63,12 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     how.seed = session.seed;
     how.spacing = options.hologram.spacing;
     how.planes = options.hologram.planes;
-    if (!(how.spacing > 0)) throw Error(ErrorCode::usage, "--spacing: must be positive");
     Stage stage(session, "hologram");
     for (std::size_t i = 0; i < grids.size(); ++i) {
         how.channel = colour_of(grids[i].wavelength);
-        copy(method.make(*scene, grids[i], how, stage.progress(i, grids.size())), *sinks[i]);
+        copy(with_options({{"", "--method"}},
+                          [&] { return method.make(*scene, grids[i], how, stage.progress(i, grids.size())); }),
+             *sinks[i]);
     }
     report_hologram(options, grids, session);
     return 0;
@@ -89,13 +92,14 @@ int hologram(Options options, const Session& session) {
             if (options.resume) file.resume = describe_input(options.input);
             return open_for_holograms(options.input, request, options.hologram.basis.empty());
         }
-        require_holograms(options.render.request().grids(), request);
+        check_holograms(options.render.request().grids(), request, true);
         const Scene scene = load_scene(session, options.input, options.render);
         if (options.resume) file.resume = describe_input(options.input, scene);
-        return prepare_for_reading(session, render_light_field(session, scene, options.render), request.channels.size(),
-                                   needs_depth(request.method));
+        const LightField rendered = render_light_field(session, scene, options.render);
+        require_memory(rendered, options.render, scene);
+        return prepare_for_reading(session, rendered, request.channels.size(), needs_depth(request.method));
     }();
-    require_holograms(light_field.grids(), request);
+    check_holograms(light_field.grids(), request, kind == InputKind::scene);
     if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
     const Plan plan = plan_holograms(light_field.grids(), request, file);
     require_resources(plan, "synthesising the hologram", options.output);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/resources.h"
 #include "hogel/units.h"
@@ -66,7 +67,8 @@ std::vector<PhotographPair> plan_photographs(const Options& options, const Scene
             pair.camera.eye = eye;
             pair.camera.focus_depth = focus.depth;
             pair.camera.pupil = options.pupil;
-            validate(pair.camera);
+            with_options({{"focus", "--eye-distance"}, {"pixel", "--resolution"}, {"", "--eye-distance, --pupil"}},
+                         [&] { validate(pair.camera); });
             pair.wave_file = fmt::format("photo_{}_{}", eye_name, focus.name);
             pair.geometric_file = pair.wave_file + "_geometric";
             pairs.push_back(pair);
@@ -141,7 +143,8 @@ int make(const Options& options, const Session& session) {
     std::vector<Camera> cameras;
     for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
     const HologramRequest request = options.hologram.request(session, report.looks);
-    require_holograms(std::span(&report.light_field, 1), request, cameras);
+    with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--pitch, --fov"}},
+                 [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
     state_plan(report.light_field, request, cameras, session);
 
     const OutputFolder folder(options.output, options.force);
@@ -149,6 +152,7 @@ int make(const Options& options, const Session& session) {
 
     timed(session, report, "light field", [&](Stage& stage) {
         const LightField rendered = render_light_field(session, scene, options.render);
+        require_memory(rendered, options.render, scene);
         write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
     });
     report.light_field_bytes = std::filesystem::file_size(light_field_file);
@@ -194,10 +198,10 @@ void add_make(Command& command, Session& session) {
     command.flag("--store-hologram", options->store_hologram,
                  "Keep hologram.h5 too; otherwise it streams through and is never stored");
     command.group("Hologram");
-    command.length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
+    command.positive_length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
     command.group("Camera");
-    command.length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
-    command.length("--pupil", options->pupil, "Diameter of the lens");
+    command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
+    command.positive_length("--pupil", options->pupil, "Diameter of the lens");
     command.count("--resolution", options->resolution, "Pixels across a photograph");
     command
         .count("--looks", options->looks,

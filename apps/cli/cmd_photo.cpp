@@ -5,6 +5,7 @@
 
 #include "camera_options.h"
 #include "commands.h"
+#include "concerns.h"
 #include "display.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
@@ -48,7 +49,10 @@ double parse_exposure(const std::string& text) {
 // Photographs the intensity of the light or its phase.
 std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
                            const Options& options) {
-    if (options.display != "phase") return photograph_colours(fields, cameras, options.full(), stage.progress());
+    if (options.display != "phase")
+        return with_options(
+            {{"tilted", "--focus-tilt"}, {"film", "--film-distance"}, {"pupil", "--pupil"}, {"", "--camera"}},
+            [&] { return photograph_colours(fields, cameras, options.full(), stage.progress()); });
     if (fields.size() != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("--display phase: a phase is that of one wavelength, but there are {}", fields.size()));
@@ -67,7 +71,8 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
     const Grid& plane = fields.front()->grid().plane;
     const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
     for (const auto& field : fields)
-        for (const Camera& camera : cameras) require_light_towards(field->grid(), camera);
+        for (const Camera& camera : cameras)
+            with_options({{"", "--eye"}}, [&] { require_light_towards(field->grid(), camera); });
     Stage stage(session, "wave photograph");
     std::vector<Image> pictures = develop(stage, fields, cameras, options);
     const auto black = [](const Image& picture) {
@@ -87,10 +92,12 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
         make_cameras(options.view, light_field.grid().width(), light_field.grid().height());
     if (geometric) {
         Stage stage(session, "geometric photograph");
-        return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
+        return with_options({{"", "--focus-tilt"}}, [&] {
+            return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
+        });
     }
     const HologramRequest request = options.hologram.request(session, options.looks);
-    require_holograms(light_field.grids(), request, cameras);
+    check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
     const auto holograms = make_holograms(light_field, request);
@@ -151,9 +158,12 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
 
 int photo(const Options& options, const Session& session) {
     const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
-    const bool foreign = is_external(options.input, options.field);
-    const InputKind kind = foreign ? InputKind::hologram : input_kind(options.input);
-    options.view.frames > 1 ? require_movie(options.output) : require_picture_name(options.output);
+    const bool external = is_external(options.input, options.field);
+    const InputKind kind = external ? InputKind::hologram : input_kind(options.input);
+    if (options.view.frames > 1)
+        with_options({{"", "--frames"}}, [&] { require_movie(options.output); });
+    else
+        require_picture_name(options.output);
     require_writable(options.output);
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     require_sense(options, kind, geometric);

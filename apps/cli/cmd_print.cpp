@@ -11,19 +11,18 @@ namespace {
 
 struct Options {
     std::string input, output, order = "serpentine";
-    bool strips = false, force = false;
+    bool rows = false, force = false;
     double exposure = 1;
 };
 
 int print(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
-    if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "--exposure: a positive number was expected");
     const LightField light_field = open_light_field(options.input);
     const OutputFolder folder(options.output, options.force);
     Stage stage(session, "pictures");
     const auto names = write_printer_images(folder.path(), light_field,
-                                            {.rows = options.strips,
+                                            {.rows = options.rows,
                                              .serpentine = options.order == "serpentine",
                                              .exposure = options.exposure,
                                              .metadata = describe_run(session)},
@@ -53,11 +52,13 @@ void add_print(Command& command, Session& session) {
     command.text("-o,--output", options->output, "FOLDER", "Folder for the pictures, numbered in the order of printing")
         .required();
     add_force_flag(command, options->force);
-    command.flag("--strips", options->strips, "One picture a row of hogels, side by side, instead of one a hogel");
+    command.flag("--strips", options->rows, "One picture a row of hogels, side by side, instead of one a hogel");
     command.choice("--order", options->order, {"serpentine", "rows"}, "NAME",
                    "serpentine: every second row from the right\nrows: all rows from the left");
-    command.number("--exposure", options->exposure, "NUMBER",
-                   "What linear values are multiplied by, the same in all pictures");
+    command
+        .number("--exposure", options->exposure, "NUMBER",
+                "What linear values are multiplied by, the same in all pictures")
+        .positive();
     add_json_flag(command, session);
     command.work([options, &session] { return print(*options, session); });
 }

@@ -130,7 +130,7 @@ void add_propagate(Command& command, Session& session) {
     command.choice("--display", options->display, {"intensity", "amplitude", "log", "phase"},
                    "intensity|amplitude|log|phase",
                    "What a picture shows; log: four decades, phase: black at -pi to white at pi");
-    command.length("--pitch", options->pitch, "Of another program's samples");
+    command.positive_length("--pitch", options->pitch, "Of another program's samples");
     command.wavelengths(options->wavelengths);
     add_field_options(command, options->field);
     add_json_flag(command, session);

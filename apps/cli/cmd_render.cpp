@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "commands.h"
+#include "concerns.h"
 #include "hogel/pipeline.h"
+#include "hogel/resources.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -45,9 +47,14 @@ class InRegions final : public LightFieldSource {
 void state_plan(const Options& options, const LightField& rendered, std::size_t triangles, const Session& session) {
     const Plan plan = plan_light_field(rendered, options.render.request(), triangles, options.file);
     const HogelRange region = rendered.front().preferred_tile();
-    const std::string what = fmt::format("{}: regions of {}x{} hogels", options.render.algorithm, region.ns, region.nt);
-    require_resources(plan, what, options.compressed() ? "" : options.output);
-    const std::string text = fmt::format("{} take {}; about {:.0f} s", what, format_bytes(plan.memory), plan.seconds);
+    const LightFieldGrid& grid = rendered.grid();
+    const std::size_t regions =
+        ((grid.hogels_s + region.ns - 1) / region.ns) * ((grid.hogels_t + region.nt - 1) / region.nt);
+    const std::string what = fmt::format("{}: rendering regions of {}x{} hogels, {} at once,", options.render.algorithm,
+                                         region.ns, region.nt, std::min(thread_count(), regions));
+    with_options({{"", options.region.columns > 0 ? "--region" : "--hogels, --directions"}},
+                 [&] { require_resources(plan, what, options.compressed() ? "" : options.output); });
+    const std::string text = fmt::format("{} takes {}; about {:.0f} s", what, format_bytes(plan.memory), plan.seconds);
     if (options.region.columns > 0)
         session.say(text);
     else
@@ -63,7 +70,8 @@ int write_compressed(const Options& options, const LightField& rendered, const S
     compression.with_depth = options.file.with_depth;
     compression.metadata = describe_run(session);
     Stage stage(session, "compressing");
-    const CompressionResult result = compress(light_field, options.output, compression, stage.progress());
+    const CompressionResult result = with_options(
+        {{"", "--sqnr"}}, [&] { return compress(light_field, options.output, compression, stage.progress()); });
     report_compressed(session, options.output, result);
     return 0;
 }
@@ -99,7 +107,7 @@ int render(Options options, const Session& session) {
             fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
     require_writable(options.output);
     options.file.type = options.single ? SampleType::single : SampleType::half;
-    static_cast<void>(options.render.request().grids());  // throws before a scene is made
+    static_cast<void>(options.render.request());  // throws before a scene is made
     const Scene scene = load_scene(session, options.scene, options.render);
     std::optional<std::string> resume;
     if (options.resume) resume = describe_input(options.scene, scene);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "commands.h"
+#include "concerns.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/pipeline.h"
@@ -27,8 +29,12 @@ Modulator modulator_of(const Options& options) {
     if (options.device.empty() == !described)
         throw Error(ErrorCode::usage,
                     "name a modulator with --device, or describe one with --pixels and --pixel-pitch");
-    if (!described) return modulators().find(options.device);
-    if (options.levels > 256) throw Error(ErrorCode::usage, "--levels: 2 to 256 were expected");
+    if (!described) return with_options({{"", "--device"}}, [&] { return modulators().find(options.device); });
+    if (options.pixels.columns == 0 || options.pixel_pitch == 0)
+        throw Error(ErrorCode::usage, "--pixels and --pixel-pitch: a modulator is described by both");
+    if (std::max(options.pixels.columns, options.pixels.rows) > 65536)
+        throw Error(ErrorCode::usage, "--pixels: at most 65536 were expected on a side");
+    if (options.levels < 2 || options.levels > 256) throw Error(ErrorCode::usage, "--levels: 2 to 256 were expected");
     return {"", options.pixels.columns, options.pixels.rows, options.pixel_pitch,
             static_cast<unsigned>(options.levels)};
 }
@@ -63,7 +69,13 @@ int slm(const Options& options, const Session& session) {
     Metadata metadata = describe_run(session);
     ResultList patterns;
     for (std::size_t c = 0; c < colours; ++c) {
-        const Pattern pattern = encode_pattern(*fields[c], pattern_options, stage.progress(c, colours));
+        const Pattern pattern =
+            with_options({{"reference", options.pattern.reference_angle != 0 ? "--reference" : "--encoding"},
+                          {"squares", "--window"},
+                          {"share", "--clip"},
+                          {"columns", "--encoding"},
+                          {"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}},
+                         [&] { return encode_pattern(*fields[c], pattern_options, stage.progress(c, colours)); });
         for (std::size_t i = 0; i < pattern.levels.size(); ++i)
             levels.data()[i * colours + c] = pattern.levels.data()[i];
         const std::string name = format_length(fields[c]->grid().wavelength);
@@ -125,7 +137,7 @@ void add_slm(Command& command, Session& session) {
     command.group("Modulator");
     command.text("--device", options->device, "NAME", devices);
     command.counts("--pixels", options->pixels, "Any other: pixels across and down");
-    command.length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels");
+    command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels");
     command.count("--levels", options->levels, "Levels of its pixels");
     add_json_flag(command, session);
     command.work([options, &session] { return slm(*options, session); });

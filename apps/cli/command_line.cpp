@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command_line.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -10,6 +12,14 @@
 #include "session.h"
 
 namespace hogel::cli {
+namespace {
+
+// What is wrong with a number, or nothing.
+std::string finite_number(const std::string& text) {
+    return parse_number(text) ? "" : fmt::format("'{}' is not a number", text);
+}
+
+}  // namespace
 
 Option Option::required() const {
     option_->required()->default_str("");  // the help shows no default, which would never be used
@@ -34,12 +44,19 @@ Option Option::default_text(const std::string& text) const {
 }
 
 Option Option::range(double low, double high) const {
-    option_->check(CLI::Range(low, high).description(""));
+    option_->check([low, high](const std::string& text) {
+        const std::optional<double> number = parse_number(text);
+        const bool inside = number && *number >= low && *number <= high;
+        return inside ? "" : fmt::format("'{}' is not a number from {} to {}", text, low, high);
+    });
     return *this;
 }
 
 Option Option::positive() const {
-    option_->check(CLI::PositiveNumber.description(""));
+    option_->check([](const std::string& text) {
+        const std::optional<double> number = parse_number(text);
+        return number && *number > 0 ? "" : fmt::format("'{}' is not a positive number", text);
+    });
     return *this;
 }
 
@@ -71,12 +88,12 @@ Option Command::text(const std::string& name, std::string& value, const std::str
 }
 
 Option Command::number(const std::string& name, double& value, const std::string& type, const std::string& help) {
-    return add(app_.add_option(name, value, help)->type_name(type)->capture_default_str());
+    return add(app_.add_option(name, value, help)->type_name(type)->capture_default_str()->check(finite_number));
 }
 
 Option Command::number(const std::string& name, std::optional<double>& value, const std::string& type,
                        const std::string& help) {
-    return add(app_.add_option(name, value, help)->type_name(type));
+    return add(app_.add_option(name, value, help)->type_name(type)->check(finite_number));
 }
 
 Option Command::flag(const std::string& name, bool& value, const std::string& help) {
@@ -158,11 +175,11 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
     // "help render" is "render --help".
     if (!words.empty() && words.front() == "help") {
         words.erase(words.begin());
-        if (!words.empty() && !words.front().starts_with('-') && impl_->find(words.front()) == nullptr)
-            throw Error(ErrorCode::usage, explain_unknown_command(impl_->app, words.front()));
         words.resize(std::min<std::size_t>(words.size(), 1));
         words.emplace_back("--help");
     }
+    if (!words.empty() && !words.front().starts_with('-') && impl_->find(words.front()) == nullptr)
+        throw Error(ErrorCode::usage, explain_unknown_command(impl_->app, words.front()));
     std::ranges::reverse(words);  // CLI11 expects them in reverse order
     try {
         impl_->app.parse(std::move(words));

@@ -85,6 +85,7 @@ class Command {
 
     /// A length or an angle has a unit: "16mm", "40deg".
     Option length(const std::string& name, double& metres, const std::string& help);
+    Option positive_length(const std::string& name, double& metres, const std::string& help);
     Option angle(const std::string& name, double& radians, const std::string& help);
     /// "40deg" for both across and down, or "40,30deg".
     Option angles(const std::string& name, Angles& angles, const std::string& help);

@@ -27,6 +27,10 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
                    const std::vector<double>& wavelengths) {
     const bool pitch_given = command.given("--pitch"), wavelength_given = command.given("--wavelength");
     if (!is_external(name, options)) {
+        for (const char* option : {"--values", "--imaginary", "--variable", "--conjugate"})
+            if (command.given(option))
+                throw Error(ErrorCode::usage,
+                            fmt::format("{}: is for fields of other programs; {} is a hologram", option, name));
         if (pitch_given || wavelength_given)
             throw Error(ErrorCode::usage, fmt::format("{}: {} comes from the file itself", name,
                                                       pitch_given ? "--pitch" : "--wavelength"));

@@ -89,6 +89,8 @@ std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
 
 std::string explain_unknown_command(const CLI::App& app, const std::string& word) {
     const std::vector<std::string> names = command_names(app);
+    if (word == "bench")
+        return "there is no command 'bench'; what measures renderers and coders is a program of its own, hogel-bench";
     const std::string nearest = nearest_word(word, names);
     return fmt::format("there is no command '{}'{}; expected one of {}", word,
                        nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), fmt::join(names, ", "));

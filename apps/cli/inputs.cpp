@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "concerns.h"
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
@@ -26,9 +27,9 @@ void add_hologram_options(Command& command, HologramChoices& options, const std:
                           const std::string& help) {
     command.group("Hologram");
     command.wavelengths(options.wavelengths);
-    command.length("--pitch", options.pitch, "Distance of samples, rounded to divide a hogel");
-    command.length("--line-pitch", options.lines,
-                   "Distance of the lines of --method lines (default: as far apart as samples)");
+    command.positive_length("--pitch", options.pitch, "Distance of samples, rounded to divide a hogel");
+    command.positive_length("--line-pitch", options.lines,
+                            "Distance of the lines of --method lines (default: as far apart as samples)");
     command.choice("--method", options.method, names, "NAME", help);
     command.choice("--phase", options.phase, phase_names, "NAME",
                    "Phases of each hogel's directions\n"
@@ -105,14 +106,15 @@ struct Adjust {
 }  // namespace
 
 LightFieldGrid RenderOptions::grid() const {
-    if (!(size > 0)) throw Error(ErrorCode::usage, "--size: the hologram's side must be positive");
     LightFieldGrid grid;
     grid.hogels_s = hogels.columns;
     grid.hogels_t = hogels.rows;
     grid.pitch = size / static_cast<double>(hogels.columns);
     grid.directions_u = directions.columns;
     grid.directions_v = directions.rows;
-    grid.view = hogel::field_of_view(field_of_view.across, field_of_view.down, toward.across, toward.down);
+    grid.view = with_options({{"full angle", "--fov"}, {"", "--fov, --toward"}}, [&] {
+        return hogel::field_of_view(field_of_view.across, field_of_view.down, toward.across, toward.down);
+    });
     if (frequencies > 0) {
         // As many frequencies j/d as fit into the field of view.
         const double step = frequencies / grid.pitch;
@@ -122,11 +124,14 @@ LightFieldGrid RenderOptions::grid() const {
         grid.directions_v = static_cast<std::size_t>(down);
         grid.view = Frequencies{{0.5 * across * step, 0.5 * down * step}};
     }
-    validate(grid, ErrorCode::usage, "light field");
+    with_options({{"", frequencies > 0 ? "--frequencies" : "--hogels, --directions, --size"}},
+                 [&] { validate(grid, ErrorCode::usage, "light field"); });
     return grid;
 }
 
 LightFieldRequest RenderOptions::request() const {
+    with_options({{"", "--algorithm"}}, [&] { renderers().find(algorithm); });
+    with_options({{"", "--shading"}}, [&] { shading_models().find(shading); });
     LightFieldRequest request;
     request.renderer = algorithm;
     request.shading.model = shading;
@@ -138,10 +143,15 @@ LightFieldRequest RenderOptions::request() const {
     request.cull_back_faces = fronts_only;
     request.fit = !as_is;
     request.front = front;
+    with_options({{"", "--hemicube, --directions"}}, [&] { request.grids(); });
+    with_options({{"", "--samples"}}, [&] { finer(request.grid, request.samples); });
     return request;
 }
 
 HologramMethod HologramChoices::hologram_method() const {
+    const std::vector<std::string> known = transform_names();
+    if (!basis.empty() && basis != "pieces" && !std::ranges::count(known, basis))
+        with_options({{"", "--basis"}}, [&] { throw_unknown("transform", basis, known); });
     HologramMethod chosen = hologram_methods().find(method).method;
     if (lines > 0 && !std::holds_alternative<Lines>(chosen))
         throw Error(ErrorCode::usage, fmt::format("--line-pitch: belongs to --method lines, not {}", method));
@@ -158,6 +168,22 @@ HologramRequest HologramChoices::request(const Session& session, std::size_t loo
     request.looks = looks;
     request.seed = session.seed;
     return request;
+}
+
+void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
+                     std::span<const Camera> cameras) {
+    if (faces.size() > 1 && !std::holds_alternative<Fourier>(request.method) &&
+        !std::holds_alternative<Lines>(request.method))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--method: a hemicube of {} faces takes fourier or lines", faces.size()));
+    with_options({{"pupil", "--pupil, --pitch"},
+                  {"the eye", "--eye, --pitch"},
+                  {"horizontal parallax", "--method"},
+                  {"added phases", "--method"},
+                  {"light field reaches", rendered ? "--pitch, --fov" : "--pitch"},
+                  {"", "--pitch"}},
+                 [&] { hogel::require_holograms(faces, request, cameras); });
 }
 
 void add_render_options(Command& command, RenderOptions& options) {
@@ -183,7 +209,7 @@ void add_render_options(Command& command, RenderOptions& options) {
     command.counts("--samples", options.samples,
                    "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
                    "makes 16");
-    command.length("--size", options.size, "Width of the hologram");
+    command.positive_length("--size", options.size, "Width of the hologram");
     command.angles("--fov", options.field_of_view, "Field of view, the full angle; or across and down");
     command.angles("--toward", options.toward,
                    "Where the middle of the view looks behind the hologram: angles to the right and up");
@@ -209,7 +235,7 @@ void add_hemicube_option(Command& command, RenderOptions& options) {
 void add_frequencies_option(Command& command, RenderOptions& options) {
     command.group(light_field_group);
     command
-        .length(
+        .positive_length(
             "--frequencies", options.frequencies,
             "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
             "with --algorithm raytrace")
@@ -230,7 +256,7 @@ void add_scene_hologram_options(Command& command, HologramChoices& options) {
         help += fmt::format("\n{}: {}", method.name, method.text);
     }
     add_hologram_options(command, options, names, help);
-    command.length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines");
+    command.positive_length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines");
     command.count("--planes", options.planes, "Depth planes of fresnel and planes");
 }
 
@@ -245,16 +271,28 @@ std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Sce
     if (const double bytes = shadow_map_bytes(scene, request.shading); bytes > 0)
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     Stage stage(session, "lighting");
-    return hogel::light_scene(scene, request, stage.progress());
+    return with_options({{"shadow map", "--shadow-map"}, {"shading model", "--shading"}},
+                        [&] { return hogel::light_scene(scene, request, stage.progress()); });
 }
 
 LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options) {
-    return hogel::render_light_field(light_scene(session, scene, options), options.request());
+    const auto lit = light_scene(session, scene, options);
+    return with_options({{"sines", "--algorithm, --frequencies"}, {"", "--algorithm"}},
+                        [&] { return hogel::render_light_field(lit, options.request()); });
+}
+
+void require_memory(const LightField& rendered, const RenderOptions& options, const Scene& scene) {
+    const Plan plan = plan_light_field(rendered, options.request(), triangle_count(scene));
+    with_options({{"", "--hogels, --directions"}},
+                 [&] { require_resources(plan, "rendering by " + options.algorithm); });
 }
 
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
-    return render_light_field(session, load_scene(session, name, options), options);
+    const Scene scene = load_scene(session, name, options);
+    const LightField rendered = render_light_field(session, scene, options);
+    require_memory(rendered, options, scene);
+    return rendered;
 }
 
 LightField prepare_for_reading(const Session& session, const LightField& light_field, std::size_t times,

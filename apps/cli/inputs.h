@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,10 @@ struct HologramChoices {
     HologramMethod hologram_method() const;
     HologramRequest request(const Session& session, std::size_t looks) const;
 };
+/// As hogel::require_holograms(), whose errors then name the options.
+/// @param rendered  whether a scene becomes the light field by options, too
+void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
+                     std::span<const Camera> cameras = {});
 void add_hologram_options(Command& command, HologramChoices& options);
 /// As add_hologram_options(), and those of methods that compute the hologram of a scene without a light field.
 void add_scene_hologram_options(Command& command, HologramChoices& options);
@@ -70,6 +75,9 @@ std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Sce
 
 /// The light field of a scene, rendered when it is read.
 LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options);
+
+/// Throws Error(usage) where rendering would take more memory than there is.
+void require_memory(const LightField& rendered, const RenderOptions& options, const Scene& scene);
 
 /// The light field of a file, or of a scene, which is rendered when it is read.
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options);

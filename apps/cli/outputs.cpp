@@ -75,8 +75,9 @@ Result result_of(const FileSummary& summary) {
 void report_samples(const Session& session, const std::string& file, const Result& more) {
     if (!session.json) return;
     FileSummary summary = summarize(file);
-    for (const auto& [name, value] : describe_run(session))
-        std::erase_if(summary.text, [&](const auto& fact) { return fact.first == name; });
+    const Provenance provenance = summary.kind == FileKind::light_field ? open_light_field(file).provenance()
+                                                                        : open_hologram(file).front()->provenance();
+    for (const auto& entry : to_metadata(provenance)) std::erase(summary.text, entry);
     Result result{{"file", file}};
     for (const Result& part : {result_of(summary), more}) result.insert(result.end(), part.begin(), part.end());
     result.emplace_back("seconds", session.seconds());

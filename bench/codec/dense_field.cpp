@@ -76,9 +76,9 @@ class DenseField final : public LightFieldSource {
             surface.p0 -= surface.a * surface.x + surface.b * surface.y;
             surface.along = ground ? 1e9 : number.between(0.06, 0.25) * width;
             surface.across = ground ? 1e9 : number.between(0.06, 0.25) * width;
-            const double turn = number() * std::numbers::pi;
-            surface.cosine = std::cos(turn);
-            surface.sine = std::sin(turn);
+            const double angle = number() * std::numbers::pi;
+            surface.cosine = std::cos(angle);
+            surface.sine = std::sin(angle);
             surface.brightness = brightness == Brightness::even ? number.between(0.4, 1) : std::pow(10, -4 * number());
             for (Surface::Wave& wave : surface.texture) {
                 const double rate = 2 * std::numbers::pi * max_frequency * std::pow(0.05, number());

@@ -48,12 +48,12 @@ struct Lane {
 
 // The number of hogels that a peer renders within `seconds`, estimated from the minimum number that it renders.
 std::size_t affordable_hogels(RenderPeer& peer, const HogelRows& rows, double seconds) {
-    const std::size_t least = std::min(peer.min_hogels(), rows.hogels());
-    const std::vector<HogelPlace> first = rows.some(least);
+    const std::size_t min_hogels = std::min(peer.min_hogels(), rows.hogels());
+    const std::vector<HogelPlace> first = rows.some(min_hogels);
     peer.render(first);  // allocates memory and compiles programs
-    const double each = time_of([&] { peer.render(first); }).wall / static_cast<double>(least);
-    const auto batches = static_cast<std::size_t>(std::min(1e9, seconds / each)) / least;
-    return std::clamp(batches * least, least, rows.hogels());
+    const double each = time_of([&] { peer.render(first); }).wall / static_cast<double>(min_hogels);
+    const auto batches = static_cast<std::size_t>(std::min(1e9, seconds / each)) / min_hogels;
+    return std::clamp(batches * min_hogels, min_hogels, rows.hogels());
 }
 
 // The share of the hogels' rays that meet something.

@@ -73,19 +73,19 @@ void plane_to_plane(std::size_t rounds) {
 void full_camera(std::size_t rounds) {
     const Field field = noise(4096);
     const Grid& plane = field.grid().plane;
-    const double wavelength = field.grid().wavelength, room = 1.1;
+    const double wavelength = field.grid().wavelength, margin = 1.1;
     Camera camera;
     camera.pupil = 6_mm;
     camera.focus_depth = -3_mm;
     camera.picture = {400, 400, plane.size_x() / 400, plane.size_y() / 400, 0, 0};
     const Times whole = best_time_of([&] { photograph_by_plane_waves(field, {&camera, 1}); }, rounds);
 
-    const double pupil = room * camera.pupil;
+    const double pupil = margin * camera.pupil;
     const Grid window = optics::padded(plane, plane.size_x() + pupil, plane.size_y() + pupil);
     const optics::Band band =
         optics::band_between(Rectangle(plane), Rectangle(Grid{1, 1, pupil, pupil, 0, 0}), camera.eye.z, wavelength);
     const auto columns = std::size_t((band.high_x - band.low_x) * window.size_x());
-    const double film = std::max(room * double(columns), 3 * pupil / (wavelength * camera.eye.z) * window.size_x());
+    const double film = std::max(margin * double(columns), 3 * pupil / (wavelength * camera.eye.z) * window.size_x());
     const std::size_t side = math::good_fft_size(std::size_t(film) + 16);
     Array<std::complex<float>, 1> line({std::max(window.width, side)});
     const auto lines = [&](std::size_t samples, std::size_t count) {

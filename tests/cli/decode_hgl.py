@@ -336,9 +336,9 @@ class Tile:
                 add(block["second"])
         return result or [0]
 
-    def unary(self, name, most):
+    def unary(self, name, count):
         value = 0
-        while value < most and self.decoder.bit(self.models[(*name, value)]):
+        while value < count and self.decoder.bit(self.models[(*name, value)]):
             value += 1
         return value
 
@@ -677,10 +677,10 @@ def cosines(n):
 
 def jpeg4d_channel(code, shape):
     """One channel, [t][s][v][u]."""
-    scale, most = struct.unpack_from("<fB", code)
+    scale, levels_byte = struct.unpack_from("<fB", code)
     decoder, models, result = Decoder(code[5:]), Models(), np.zeros(shape)
-    table = own_table(decoder, shape) if most & 128 else None
-    tuples = Counts(32 * ((most & 127) + 1))
+    table = own_table(decoder, shape) if levels_byte & 128 else None
+    tuples = Counts(32 * ((levels_byte & 127) + 1))
     for block in np.ndindex(*[-(-n // 8) for n in shape]):
         place = [slice(8 * b, min(8 * b + 8, n)) for b, n in zip(block, shape)]
         extents = [p.stop - p.start for p in place]

@@ -206,7 +206,7 @@ class ExactDecoder final : public TileDecoder {
             const std::size_t across = tile_.hogels_apart ? coded.ns : 1, a_code = coded.ns / across;
             std::vector<std::size_t> missing;
             for (std::size_t n = 0; n < across * coded.nt; ++n)
-                if (!kept(coded.t0 + n / across, coded.s0 + n % across)) missing.push_back(n);
+                if (!decoded(coded.t0 + n / across, coded.s0 + n % across)) missing.push_back(n);
             if (!missing.empty()) {
                 LightFieldTile made(grid_, coded, false);
                 prediction_->read(made);
@@ -222,14 +222,14 @@ class ExactDecoder final : public TileDecoder {
             }
             core::parallel_for(part.range.hogels(), [&](std::size_t n) {
                 const std::size_t t = part.range.t0 + n / part.range.ns, s = part.range.s0 + n % part.range.ns;
-                copy_common(*kept(t, s), part);
+                copy_common(*decoded(t, s), part);
             });
         });
     }
 
   private:
     std::size_t place(std::size_t t, std::size_t s) const { return (t - range_.t0) * range_.ns + s - range_.s0; }
-    const std::optional<LightFieldTile>& kept(std::size_t t, std::size_t s) const { return decoded_[place(t, s)]; }
+    const std::optional<LightFieldTile>& decoded(std::size_t t, std::size_t s) const { return decoded_[place(t, s)]; }
 
     std::vector<std::uint8_t> bytes_;
     ExactTile<Rule> tile_;

@@ -205,8 +205,8 @@ class ReferencesTrial {
     ReferencesTrial(const LightFieldTile& tile, const LightFieldGrid& grid, double step)
         : tile_(tile), grid_(grid), step_(step) {}
 
-    // The squared error plus λ times the bits; infinity if that is more than `most`.
-    double cost(std::uint8_t references, double most = std::numeric_limits<double>::infinity()) {
+    // The squared error plus λ times the bits; infinity if that is more than `max_cost`.
+    double cost(std::uint8_t references, double max_cost = std::numeric_limits<double>::infinity()) {
         std::array<std::atomic<double>, windows> costs{};
         std::atomic<bool> too_much = false;
         core::parallel_for(windows, [&](std::size_t n) {
@@ -219,7 +219,7 @@ class ReferencesTrial {
             };
             const auto coded = encoder.run(*estimates_[n], [&](double error, std::size_t bytes) {
                 costs[n] = cost(error, bytes);
-                if (costs[0] + costs[1] > most) too_much = true;
+                if (costs[0] + costs[1] > max_cost) too_much = true;
                 return !too_much;
             });
             if (coded) costs[n] = cost(coded->squared_error, coded->bytes.size());
@@ -243,12 +243,12 @@ std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& g
     constexpr double far = 1.1, rounding = 1e-9;
     const double many = trial.cost(max_references), one = trial.cost(1, far * many);
     std::uint8_t best = many < one ? max_references : 1;
-    double least = std::min(many, one);
-    if (std::max(many, one) > far * least) return best;
+    double min_cost = std::min(many, one);
+    if (std::max(many, one) > far * min_cost) return best;
     for (std::uint8_t between = 2; between < max_references; ++between) {
-        const double cost = trial.cost(between, least * (1 + rounding));
-        if (!(cost < least)) continue;
-        least = cost;
+        const double cost = trial.cost(between, min_cost * (1 + rounding));
+        if (!(cost < min_cost)) continue;
+        min_cost = cost;
         best = between;
     }
     return best;

@@ -135,12 +135,12 @@ std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::spa
     check_size(pyramid, values.size());
     if (limit.sqnr && !(*limit.sqnr > 0))
         throw Error(ErrorCode::usage, fmt::format("EZW: an SQNR of {} dB, expected more than 0", *limit.sqnr));
-    const float most = max_magnitude(values);
+    const float max_value = max_magnitude(values);
     std::vector<std::uint8_t> bytes;
-    put_float(bytes, most);
-    if (most > 0) {
+    put_float(bytes, max_value);
+    if (max_value > 0) {
         const Forest forest(pyramid);
-        const Quantiser quantiser(std::ldexp(static_cast<double>(most), -planes));
+        const Quantiser quantiser(std::ldexp(static_cast<double>(max_value), -planes));
         std::vector<std::uint32_t> levels(values.size());
         std::vector<bool> negative(values.size());
         for (std::size_t i = 0; i < values.size(); ++i) {
@@ -161,12 +161,12 @@ void ezw_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t>
     check_size(pyramid, values.size());
     std::fill(values.begin(), values.end(), 0.0f);
     if (bytes.size() < header) return;
-    const float most = get_float(bytes);
-    if (!(most >= 0) || !std::isfinite(most))
+    const float max_value = get_float(bytes);
+    if (!(max_value >= 0) || !std::isfinite(max_value))
         throw Error(ErrorCode::bad_input,
                     "EZW stream: its largest magnitude is impossible, expected an undamaged stream");
-    if (most == 0) return;
-    Decoding decoding(bytes.subspan(header), std::ldexp(static_cast<double>(most), -planes), values);
+    if (max_value == 0) return;
+    Decoding decoding(bytes.subspan(header), std::ldexp(static_cast<double>(max_value), -planes), values);
     ezw_passes(Forest(pyramid), planes, decoding);
 }
 

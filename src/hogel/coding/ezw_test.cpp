@@ -94,9 +94,9 @@ TEST(Ezw, whole_streams_are_exact_to_the_last_plane) {
         const std::vector<float> values = picture(pyramid);
         std::vector<float> decoded(values.size());
         ezw_decode(pyramid, ezw_encode(pyramid, values), decoded);
-        const float most = max_magnitude(values);
+        const float max_value = max_magnitude(values);
         for (std::size_t i = 0; i < values.size(); ++i)
-            EXPECT_NEAR(decoded[i], values[i], most * 0x1p-30 + std::abs(values[i]) * 1e-7) << i;
+            EXPECT_NEAR(decoded[i], values[i], max_value * 0x1p-30 + std::abs(values[i]) * 1e-7) << i;
     }
 }
 

@@ -38,16 +38,16 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
 
 // The largest level of all values.
 double max_level(const Blocks& blocks, std::span<const float> values, const Quantisation& quantisation) {
-    double most = 0;
-    const auto least = min_values(blocks, quantisation);
+    double max_steps = 0;
+    const auto min_magnitudes = min_values(blocks, quantisation);
     for (std::size_t number = 0; number < blocks.count(); ++number) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
-        for_each_large(kind, &values[block.origin], least[block.kind], [&](std::size_t entry, float value) {
-            most = std::max(most, std::abs(value) / quantisation.steps[kind.whole[entry]]);
+        for_each_large(kind, &values[block.origin], min_magnitudes[block.kind], [&](std::size_t entry, float value) {
+            max_steps = std::max(max_steps, std::abs(value) / quantisation.steps[kind.whole[entry]]);
         });
     }
-    return std::floor(most + (1 - quantisation.round_up));
+    return std::floor(max_steps + (1 - quantisation.round_up));
 }
 
 void write_level(ArithmeticEncoder& encoder, Models& models, int bits, std::int32_t level) {
@@ -92,11 +92,11 @@ bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, T
 std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::span<const float> values, double scale,
                                         QuantisationTable table) {
     check_size(pyramid, values.size());
-    const float most = max_magnitude(values), stored_scale = static_cast<float>(scale);
+    const float max_value = max_magnitude(values), stored_scale = static_cast<float>(scale);
     const auto impossible = [&] {
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("jpeg4d: a scale of {} for magnitudes up to {}, expected levels of 1 to 30 bits", scale, most));
+        throw Error(ErrorCode::usage,
+                    fmt::format("jpeg4d: a scale of {} for magnitudes up to {}, expected levels of 1 to 30 bits", scale,
+                                max_value));
     };
     if (!(stored_scale > 0) || !std::isfinite(stored_scale)) impossible();
     const Blocks blocks(pyramid);
@@ -123,11 +123,11 @@ std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::
     if (own) write_exponents(encoder, blocks, exponents);
     Models models(b_max);
     SparseLevels levels;
-    const auto least = min_values(blocks, quantisation);
+    const auto min_magnitudes = min_values(blocks, quantisation);
     for (std::size_t number = 0; number < blocks.count(); ++number) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
-        quantise_block(kind, &values[block.origin], least[block.kind], quantisation, levels);
+        quantise_block(kind, &values[block.origin], min_magnitudes[block.kind], quantisation, levels);
         for_each_tuple(levels, kind.offsets.size(), [&](const Tuple& tuple, std::int32_t level) {
             encoder.symbol(models.tuples, tuple.symbol());
             if (tuple.bits > 0) write_level(encoder, models, tuple.bits, level);

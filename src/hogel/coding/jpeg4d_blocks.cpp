@@ -66,18 +66,18 @@ Quantisation jpegs_quantisation(double scale, std::size_t axes) {
 }
 
 std::vector<std::vector<float>> min_values(const Blocks& blocks, const Quantisation& quantisation) {
-    std::vector<std::vector<float>> least;
+    std::vector<std::vector<float>> min_magnitudes;
     for (const Blocks::Kind& kind : blocks.kinds()) {
-        least.emplace_back();
-        for (const std::uint16_t whole : kind.whole) least.back().push_back(quantisation.least(whole));
+        min_magnitudes.emplace_back();
+        for (const std::uint16_t whole : kind.whole) min_magnitudes.back().push_back(quantisation.min_magnitude(whole));
     }
-    return least;
+    return min_magnitudes;
 }
 
-void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> least,
+void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> min_magnitudes,
                     const Quantisation& quantisation, SparseLevels& levels) {
     levels.clear();
-    for_each_large(kind, block, least, [&](std::size_t entry, float value) {
+    for_each_large(kind, block, min_magnitudes, [&](std::size_t entry, float value) {
         const std::int32_t level = quantisation.level(value, kind.whole[entry]);
         if (level != 0) levels.set(kind.place[entry], level);
     });

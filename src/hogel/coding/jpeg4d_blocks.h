@@ -78,20 +78,21 @@ struct Quantisation {
         return value < 0 ? -magnitude : magnitude;
     }
     // Magnitudes below this have level 0 at this entry of a block.
-    float least(std::size_t whole) const {
-        constexpr double most = std::numeric_limits<float>::max();
-        return static_cast<float>(std::min(round_up * (1 - 1e-6) * steps[whole], most));
+    float min_magnitude(std::size_t whole) const {
+        constexpr double max_float = std::numeric_limits<float>::max();
+        return static_cast<float>(std::min(round_up * (1 - 1e-6) * steps[whole], max_float));
     }
 };
 
 Quantisation jpegs_quantisation(double scale, std::size_t axes);
 
-// Calls visit(entry, value) for the values of a block that are not below `least`, entry by entry.
+// Calls visit(entry, value) for the values of a block that are not below `min_magnitudes`, entry by entry.
 template <class Visit>
-void for_each_large(const Blocks::Kind& kind, const float* block, std::span<const float> least, Visit&& visit) {
+void for_each_large(const Blocks::Kind& kind, const float* block, std::span<const float> min_magnitudes,
+                    Visit&& visit) {
     for (std::size_t first = 0; first < kind.offsets.size(); first += kind.run) {
         const float* in = block + kind.offsets[first];
-        const float* bound = &least[first];
+        const float* bound = &min_magnitudes[first];
         bool any = false;
         if (kind.run == transform::dct_block) {
             for (std::size_t i = 0; i < transform::dct_block; ++i) any |= std::abs(in[i]) >= bound[i];
@@ -102,7 +103,7 @@ void for_each_large(const Blocks::Kind& kind, const float* block, std::span<cons
     }
 }
 
-// Quantisation::least() of each entry, for each kind of block.
+// Quantisation::min_magnitude() of each entry, for each kind of block.
 std::vector<std::vector<float>> min_values(const Blocks& blocks, const Quantisation& quantisation);
 
 // The levels of a block that are not zero, by their position in zigzag order.
@@ -123,14 +124,14 @@ class SparseLevels {
     }
 
   private:
-    static constexpr std::size_t most =
+    static constexpr std::size_t max_levels =
         transform::dct_block * transform::dct_block * transform::dct_block * transform::dct_block;
-    std::array<std::uint64_t, most / 64> used_{};
-    std::array<std::int32_t, most> levels_;
+    std::array<std::uint64_t, max_levels / 64> used_{};
+    std::array<std::int32_t, max_levels> levels_;
 };
 
 // Quantises a block.
-void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> least,
+void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> min_magnitudes,
                     const Quantisation& quantisation, SparseLevels& levels);
 
 constexpr int z_max = 31;

@@ -55,13 +55,13 @@ std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + max_sampl
 class Costs {
   public:
     Costs(const Blocks& blocks, std::span<const float> values, const Quantisation& even) {
-        const auto least = min_values(blocks, even);
+        const auto min_magnitudes = min_values(blocks, even);
         std::vector<double> seen(Tuple{z_max, max_bits}.symbol() + 1);
         double all = 0;
         SparseLevels levels;
         for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
             const Blocks::Block block = blocks[number];
-            quantise_block(blocks.kind(block), &values[block.origin], least[block.kind], even, levels);
+            quantise_block(blocks.kind(block), &values[block.origin], min_magnitudes[block.kind], even, levels);
             for_each_tuple(levels, blocks.kind(block).offsets.size(), [&](const Tuple& tuple, std::int32_t) {
                 ++seen[tuple.symbol()];
                 ++all;
@@ -95,14 +95,14 @@ Prices prices(const Blocks& blocks, std::span<const float> values, double scale,
     std::array<double, candidates> steps;
     for (std::size_t e = 0; e < candidates; ++e) steps[e] = scale * std::exp2(static_cast<double>(e) / 4);
     const Quantisation finest = own_quantisation(scale, Exponents(zigzag(blocks.axes()).size(), 0));
-    const auto least = min_values(blocks, finest);
+    const auto min_magnitudes = min_values(blocks, finest);
     const double price = lambda * scale * scale, part = 1 / static_cast<double>(stride_of(blocks));
     Prices result(finest.steps.size(), std::array<double, candidates>{});
     // Values whose level is zero with every candidate are left out, because their distortion is the same.
     for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
-        for_each_large(kind, &values[block.origin], least[block.kind], [&](std::size_t entry, float value) {
+        for_each_large(kind, &values[block.origin], min_magnitudes[block.kind], [&](std::size_t entry, float value) {
             const double magnitude = std::abs(value);
             auto& sums = result[kind.whole[entry]];
             for (std::size_t e = 0; e < candidates; ++e) {
@@ -131,12 +131,12 @@ Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, 
     for (const Frequency& frequency : blocks.frequencies()) {
         const int expected = predict(frequency);
         const std::size_t place = place_in_block(frequency);
-        double least = std::numeric_limits<double>::infinity();
+        double min_price = std::numeric_limits<double>::infinity();
         for (int e = 0; e < candidates; ++e) {
             const double price =
                 of[place][static_cast<std::size_t>(e)] + lambda * scale * scale * bits_of_difference(e - expected);
-            if (price >= least) continue;
-            least = price;
+            if (price >= min_price) continue;
+            min_price = price;
             exponents[place] = static_cast<std::uint8_t>(e);
         }
     }

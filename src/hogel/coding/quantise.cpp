@@ -26,25 +26,25 @@ double squared_error(std::span<const float> values, double step) {
 }
 
 float max_magnitude(std::span<const float> values) {
-    float most = 0;
+    float max_value = 0;
     bool finite = true;
     for (float value : values) {
         finite = finite && std::isfinite(value);
-        most = std::max(most, std::abs(value));
+        max_value = std::max(max_value, std::abs(value));
     }
     if (!finite) throw Error(ErrorCode::usage, "coding: a value is infinite or not a number, expected finite ones");
-    return most;
+    return max_value;
 }
 
 double step_for_sqnr(std::span<const float> values, double sqnr) {
     if (!(sqnr > 0 && sqnr <= 130))
         throw Error(ErrorCode::usage,
                     fmt::format("coding: an SQNR of {} dB, expected more than 0 and at most 130", sqnr));
-    const double most = max_magnitude(values);
-    if (most == 0) return 1;
+    const double max_value = max_magnitude(values);
+    if (max_value == 0) return 1;
     const double allowed = energy(values) * std::pow(10, -sqnr / 10);
     // With the coarse step all levels are zero; with the fine one floats are nearly exact.
-    double coarse = most, fine = most * 0x1p-30;
+    double coarse = max_value, fine = max_value * 0x1p-30;
     while (coarse > fine * 1.001) {
         const double step = std::sqrt(coarse * fine);
         (squared_error(values, step) <= allowed ? fine : coarse) = step;

@@ -69,10 +69,10 @@ class Symbols {
     Coder coder;
 
   private:
-    // Codes a symbol from 0 to most − 1.
-    int unary(Models::Unary& models, int symbol, int most) {
+    // Codes a symbol from 0 to count − 1.
+    int unary(Models::Unary& models, int symbol, int count) {
         int result = 0;
-        while (result + 1 < most && coder.bit(models[static_cast<std::size_t>(result)], symbol > result)) ++result;
+        while (result + 1 < count && coder.bit(models[static_cast<std::size_t>(result)], symbol > result)) ++result;
         return result;
     }
 
@@ -159,14 +159,14 @@ class Histogram {
 std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values,
                                             double step) {
     check_size(pyramid, values.size());
-    const float most = max_magnitude(values), stored_step = static_cast<float>(step);
-    if (!(stored_step > 0) || !std::isfinite(stored_step) || most / stored_step > std::ldexp(1.0f, max_planes))
+    const float max_value = max_magnitude(values), stored_step = static_cast<float>(step);
+    if (!(stored_step > 0) || !std::isfinite(stored_step) || max_value / stored_step > std::ldexp(1.0f, max_planes))
         throw Error(
             ErrorCode::usage,
             fmt::format("three-pass coder: a step of {} for magnitudes up to {}, expected one from 2^-30 of that", step,
-                        most));
+                        max_value));
     const Quantiser quantiser(stored_step);
-    const int planes = std::bit_width(quantiser.level(most));
+    const int planes = std::bit_width(quantiser.level(max_value));
     std::vector<std::uint8_t> bytes;
     put_float(bytes, stored_step);
     bytes.push_back(static_cast<std::uint8_t>(planes));
@@ -200,10 +200,10 @@ void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> valu
 }
 
 double three_pass_step(std::span<const float> values, double bits, double c) {
-    const float most = max_magnitude(values);
-    if (most == 0) return 1;
+    const float max_value = max_magnitude(values);
+    if (max_value == 0) return 1;
     const Histogram histogram(values);
-    double coarse = most, fine = most * 0x1p-29;
+    double coarse = max_value, fine = max_value * 0x1p-29;
     while (coarse > fine * 1.001) {
         const double step = std::sqrt(coarse * fine);
         (histogram.bits(step, c) <= bits ? coarse : fine) = step;
@@ -213,9 +213,9 @@ double three_pass_step(std::span<const float> values, double bits, double c) {
 
 std::vector<std::uint8_t> three_pass_encode_to_bits(const transform::Pyramid& pyramid, std::span<const float> values,
                                                     double bits) {
-    const double most = max_magnitude(values);
+    const double max_value = max_magnitude(values);
     // Logarithms of a step that fits and of one that is too fine. Logarithms of sizes are nearly linear in them.
-    double fits = most > 0 ? std::log2(most) : 0, too_fine = fits - max_planes;
+    double fits = max_value > 0 ? std::log2(max_value) : 0, too_fine = fits - max_planes;
     std::vector<std::uint8_t> best = three_pass_encode(pyramid, values, std::exp2(fits));
     const auto log_size = [](const std::vector<std::uint8_t>& bytes) {
         return std::log2(8 * static_cast<double>(bytes.size()));

@@ -22,10 +22,10 @@ namespace hogel::core {
 template <class Key, class Result>
 class LruCache {
   public:
-    /// @param kept  number of results to keep, at least one
-    explicit LruCache(std::size_t kept) : kept_(std::max<std::size_t>(kept, 1)) {}
+    /// @param capacity  number of results to keep, at least one
+    explicit LruCache(std::size_t capacity) : capacity_(std::max<std::size_t>(capacity, 1)) {}
 
-    std::size_t kept() const { return kept_; }
+    std::size_t capacity() const { return capacity_; }
 
     /// The cached result of that key, or else the result of make(), which returns std::shared_ptr<const Result>. An
     /// exception of make() reaches all threads that wait for this result, and the next call makes it again. If the
@@ -60,7 +60,7 @@ class LruCache {
             return {found->result, std::nullopt};
         }
         entries_.push_front({key, ++last_number_, promise.get_future().share()});
-        if (entries_.size() > kept_) entries_.pop_back();
+        if (entries_.size() > capacity_) entries_.pop_back();
         return {entries_.front().result, last_number_};
     }
 
@@ -99,7 +99,7 @@ class LruCache {
         return result;
     }
 
-    std::size_t kept_;
+    std::size_t capacity_;
     std::mutex mutex_;
     std::list<Entry> entries_;  // most recently used first
     std::uint64_t last_number_ = 0;

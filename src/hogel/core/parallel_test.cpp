@@ -76,12 +76,12 @@ TEST(ParallelFor, inside_a_loop_that_has_failed_never_returns_with_bodies_left_o
 }
 
 TEST(ParallelOrdered, merges_in_order_with_few_results_alive) {
-    std::atomic<int> alive{0}, most{0};
+    std::atomic<int> alive{0}, max_alive{0};
     std::vector<std::size_t> merged;
     parallel_ordered<std::size_t>(
         100, 7,
         [&](std::size_t i) {
-            most = std::max<int>(most, ++alive);
+            max_alive = std::max<int>(max_alive, ++alive);
             return i * i;
         },
         [&](std::size_t i, std::size_t& result) {
@@ -91,7 +91,7 @@ TEST(ParallelOrdered, merges_in_order_with_few_results_alive) {
         });
     ASSERT_EQ(merged.size(), 100u);
     for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(merged[i], i);
-    EXPECT_LE(most, 7);
+    EXPECT_LE(max_alive, 7);
 }
 
 TEST(StopScope, ends_a_long_loop_at_once) {

@@ -178,7 +178,7 @@ TEST_P(EdgeMethod, shows_a_card_by_its_outline) {
     EXPECT_GT(edge, 5 * mean(photo(field, 1.5_mm, {1, 4, 16_um, 30_um, 0.16_mm, 0})));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EdgeMethod, testing::Values("edges", "lines"));
+INSTANTIATE_TEST_SUITE_P(Methods, EdgeMethod, testing::Values("edges", "segments"));
 
 TEST(FresnelPlanes, a_small_patch_is_the_sum_of_its_points_in_the_near_and_far_field) {
     // One sample of the plane's own grid, 633 nm · 4 mm / (128 · 2 µm) wide, in the middle of its cell.

@@ -90,7 +90,7 @@ Reach reach_of(const ShadedScene& scene, const Grid& plane, const Slice& slice) 
 }
 
 // The transform's plane is periodic with λR/Δ, so a wider scene would overlap its copies.
-void require_room(const Reach& reach, const Grid& object, double depth) {
+void require_fit(const Reach& reach, const Grid& object, double depth) {
     const double wider = std::max(2 * reach.x / object.size_x(), 2 * reach.y / object.size_y());
     if (wider <= 1) return;
     throw Error(ErrorCode::usage,
@@ -115,7 +115,7 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
                         fmt::format("a plane of the scene lies on the hologram; expected at least {} between them",
                                     format_length(nearest_depth(grid))));
         const PlaneTransform transform(grid, depth, far);
-        require_room(reach_of(scene, grid.plane, slices[i]), transform.object(), depth);
+        require_fit(reach_of(scene, grid.plane, slices[i]), transform.object(), depth);
         SliceDrawing::Drawn drawn = drawing.draw(slices[i], transform.object(), grid.wavelength, options);
         if (!drawn.empty) transform.add(drawn.light, field.samples);
     }

@@ -36,7 +36,7 @@ Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const Sc
             for (const ScenePoint& point : slices[line]) {
                 const Vec3 place{grid.plane.x(static_cast<double>(column)), point.position.y, 0};
                 const auto ray = passage(point.position, place, grid);
-                if (!ray || !visibility.sees(point.surface, ray->direction)) continue;
+                if (!ray || !visibility.is_visible(point.surface, ray->direction)) continue;
                 const double cycles = ray->path / grid.wavelength + point.cycles;
                 sum += std::polar(modulus(point, *ray) * std::sqrt(grid.wavelength * std::abs(ray->path)) / height,
                                   2 * std::numbers::pi * (cycles - std::round(cycles)));

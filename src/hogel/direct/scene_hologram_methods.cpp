@@ -15,7 +15,7 @@ Table<SceneHologramMethod>& scene_hologram_methods() {
             {"points-tiled", "points with occlusion, by tiles and a table", tiled_points},
             {"points-hpo", "horizontal parallax only: lines of the hologram, each of its own height", horizontal_lines},
             {"edges", "points along edges, without occlusion", points_along_edges},
-            {"lines", "edges as line sources, in closed form, without occlusion", line_sources},
+            {"segments", "edges as line segments, in closed form, without occlusion", line_sources},
             {"fraunhofer", "one far plane, one transform", fraunhofer_plane},
             {"fresnel", "depth planes, one transform each, without occlusion", fresnel_planes},
             {"planes", "depth planes from back to front, each hiding those behind it", occluding_planes},

@@ -43,7 +43,7 @@ double random_cycles(const SceneHologramOptions& options, std::uint32_t a, std::
 std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid& grid,
                                        const SceneHologramOptions& options) {
     std::vector<ScenePoint> points;
-    const ViewSample sight{{0, 0, 1}, options.spacing};
+    const ViewSample view_sample{{0, 0, 1}, options.spacing};
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const auto [a, b, c] = corners(scene, scene.triangles[i]);
         const Vec3 across = cross(b - a, c - a);
@@ -60,9 +60,10 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
                 const double third = column % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
                 const std::uint32_t pair = column / 2;
                 const double u = (pair + third) / cut, v = (row + third) / cut;
-                const float radiance = channel_of(radiance_at(scene, i, static_cast<float>(1 - u - v),
-                                                              static_cast<float>(u), static_cast<float>(v), sight),
-                                                  options.channel);
+                const float radiance =
+                    channel_of(radiance_at(scene, i, static_cast<float>(1 - u - v), static_cast<float>(u),
+                                           static_cast<float>(v), view_sample),
+                               options.channel);
                 if (!(radiance > 0)) continue;
                 const Vec3 at = a + u * (b - a) + v * (c - a);
                 points.push_back({away_from_plane(at, nearest_depth(grid)), at, across / (2 * area),

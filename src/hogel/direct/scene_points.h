@@ -77,8 +77,8 @@ class Visibility {
   public:
     explicit Visibility(const ShadedScene& scene);
     /// Whether nothing is between the point and a distant viewer in that direction.
-    bool sees(Vec3 point, Vec3 direction) const { return !caster_.occluded(point, direction, margin_, far_); }
-    /// As sees(), for many directions: sets hidden[i] if the point is not visible in direction i.
+    bool is_visible(Vec3 point, Vec3 direction) const { return !caster_.occluded(point, direction, margin_, far_); }
+    /// As is_visible(), for many directions: sets hidden[i] if the point is not visible in direction i.
     void hide(Vec3 point, std::span<const Vec3> directions, std::span<bool> hidden) const {
         caster_.occluded(point, directions, margin_, far_, hidden);
     }

@@ -116,7 +116,7 @@ Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneH
             const Zone zone = tile.zone(point.position);
             if (zone == Zone::dark) continue;
             const Passage ray = unlimited_passage(point.position, tile.middle());
-            if (!visibility.sees(point.surface, ray.direction)) continue;
+            if (!visibility.is_visible(point.surface, ray.direction)) continue;
             zone == Zone::lit ? tile.add(point, ray) : tile.add_exactly(point);
         }
         tile.write(values);

@@ -32,7 +32,7 @@ void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> v
         // begins.
         std::size_t current = blocks;
         std::vector<bool> lit(side_), done(blocks);
-        const auto put_away = [&] {
+        const auto store_block = [&] {
             if (current == blocks) return;
             for (std::size_t row = 0; row < rows_at_once; ++row)
                 if (!lit[current * rows_at_once + row]) std::fill_n(sixteen->data() + row * line, line, 0.0f);
@@ -40,13 +40,13 @@ void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> v
             done[current] = true;
         };
         const auto place = [&](std::size_t row) {
-            if (row / rows_at_once != current) put_away();
+            if (row / rows_at_once != current) store_block();
             current = row / rows_at_once;
             lit[row] = true;
             return sixteen->data() + row % rows_at_once * line;
         };
         frequencies.amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, place);
-        put_away();
+        store_block();
         for (std::size_t block = 0; block < blocks; ++block)
             for (std::size_t h = 0; !done[block] && h < hogels; ++h)
                 std::fill_n(&moduli(first + h, block * line), line, 0.0f);
@@ -56,10 +56,10 @@ void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> v
 void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
                            std::complex<float>* to, std::size_t to_row) const {
     // A buffer that is reused for each hogel: sixteen rows, then the square.
-    thread_local Array<float, 1> room;
+    thread_local Array<float, 1> scratch;
     const std::size_t columns = side_ * square_column;  // floats of sixteen columns, or rows
-    if (room.size() < columns + 2 * side_ * side_) room = Array<float, 1>({columns + 2 * side_ * side_});
-    float *waves = room.data(), *square = room.data() + columns;
+    if (scratch.size() < columns + 2 * side_ * side_) scratch = Array<float, 1>({columns + 2 * side_ * side_});
+    float *waves = scratch.data(), *square = scratch.data() + columns;
     for (std::size_t row = 0; row < side_; row += rows_at_once) {
         const float* some = moduli.data() + row * side_;
         if (phases_.empty())

@@ -41,16 +41,16 @@ class FourierSynthesis final : public HogelSynthesis {
         synthesise_to(moduli, place, hogel, hogel.data(), hogel.extent(1));
     }
 
-    void synthesise_to(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> room, Complex* to,
+    void synthesise_to(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> scratch, Complex* to,
                        std::size_t to_row) const override {
         if (fast_)
             return fast_->synthesise(moduli, phase_series(options_, place.s, place.t, place.look), place.look, to,
                                      to_row);
-        if (lines_ == 0) return transform(moduli, place, room, to, to_row);
+        if (lines_ == 0) return transform(moduli, place, scratch, to, to_row);
         // Lines are independent.
         for (std::size_t line = 0; line < lines_; ++line)
             transform(moduli, {place.s, place.t * lines_ + line, place.look},
-                      {&room(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
+                      {&scratch(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
     }
 
   private:

@@ -222,17 +222,17 @@ void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<flo
     for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
         const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
         std::optional<std::size_t> complete;
-        const auto put_away = [&] {
+        const auto store_row = [&] {
             if (complete)
                 transpose(line.data(), hogels_at_once, columns_, hogels, &moduli(first, *complete * columns_),
                           coefficients());
         };
         amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, [&](std::size_t row) {
-            put_away();
+            store_row();
             complete = row;
             return line.data();
         });
-        put_away();
+        store_row();
     }
 }
 
@@ -249,9 +249,9 @@ void FrequencyGrid::average_run(std::size_t lobe, std::size_t count, View<const 
 void FrequencyGrid::amplitudes_by_rows(View<const float, 2> values, bool of_roots, const PlaceOfRow& place) const {
     std::size_t max_rays = 0;
     for (const Band& band : bands_) max_rays = std::max(max_rays, band.rays);
-    thread_local Array<float, 1> room;
-    if (room.size() < max_rays * hogels_at_once) room = Array<float, 1>({max_rays * hogels_at_once});
-    const View<float, 2> beside(room.data(), {max_rays, hogels_at_once});
+    thread_local Array<float, 1> scratch;
+    if (scratch.size() < max_rays * hogels_at_once) scratch = Array<float, 1>({max_rays * hogels_at_once});
+    const View<float, 2> beside(scratch.data(), {max_rays, hogels_at_once});
     for (const Band& band : bands_) {
         transpose(&values(0, band.ray0), rays_, values.extent(0), band.rays, beside.data(), hogels_at_once);
         const std::span runs = std::span(runs_).subspan(band.run0, band.runs);

@@ -31,11 +31,13 @@ class HogelSynthesis {
                          View<float, 2> prepared) const = 0;
     virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
                             View<std::complex<float>, 2> hogel) const = 0;
-    /// As synthesise(), but writes row y to to + y·to_row; `room` is a buffer of the hogel's shape.
+    /// As synthesise(), but writes row y to to + y·to_row; `scratch` is a buffer of the hogel's shape.
     virtual void synthesise_to(std::span<const float> prepared, const HogelPlace& place,
-                               View<std::complex<float>, 2> room, std::complex<float>* to, std::size_t to_row) const {
-        synthesise(prepared, place, room);
-        for (std::size_t y = 0; y < room.extent(0); ++y) std::copy_n(&room(y, 0), room.extent(1), to + y * to_row);
+                               View<std::complex<float>, 2> scratch, std::complex<float>* to,
+                               std::size_t to_row) const {
+        synthesise(prepared, place, scratch);
+        for (std::size_t y = 0; y < scratch.extent(0); ++y)
+            std::copy_n(&scratch(y, 0), scratch.extent(1), to + y * to_row);
     }
 };
 

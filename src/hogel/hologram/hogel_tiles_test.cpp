@@ -13,7 +13,7 @@ namespace hogel::hologram {
 namespace {
 
 HOGEL_TEST_ON_EVERY_TARGET(RandomWaves);
-HOGEL_TEST_ON_EVERY_TARGET(Turns);
+HOGEL_TEST_ON_EVERY_TARGET(TransposeKernels);
 HOGEL_TEST_ON_EVERY_TARGET(FastTileKernels);
 
 using Complex = std::complex<float>;
@@ -44,7 +44,7 @@ TEST_P(RandomWaves, equal_their_plain_version_and_take_the_bytes_of_their_rows) 
     }
 }
 
-TEST_P(Turns, puts_every_number_in_its_place) {
+TEST_P(TransposeKernels, puts_every_number_in_its_place) {
     constexpr std::size_t columns = 32;
     const Array<float, 1> rows = noise(columns * square_column, 2);
     Array<float, 1> transposed({2 * 600});

@@ -61,27 +61,27 @@ class Stereogram final : public FieldSource {
         HogelRange hogels{region.x0 / columns_, region.y0 / rows_, 0, 0};
         hogels.ns = (region.x0 + region.width - 1) / columns_ + 1 - hogels.s0;
         hogels.nt = (region.y0 + region.height - 1) / rows_ + 1 - hogels.t0;
-        auto room = rooms_.take();
-        if (room->square.size() == 0) room->square = Array<Complex, 2>({rows_, columns_});
+        auto scratch = scratch_pool_.take();
+        if (scratch->square.size() == 0) scratch->square = Array<Complex, 2>({rows_, columns_});
         if (looks_ > 1) {
-            write(prepare(hogels)->values, hogels, 0, look, region, room->square, out);
+            write(prepare(hogels)->values, hogels, 0, look, region, scratch->square, out);
             return;
         }
         const View<const float, 5> whole = rays_in_memory(hogels);
         // A few hogels at a time, so that their values stay in the processor's cache.
         const std::size_t values = synthesis_->prepared_size();
-        if (room->prepared.size() == 0) room->prepared = Array<float, 2>({hogels_together, values});
+        if (scratch->prepared.size() == 0) scratch->prepared = Array<float, 2>({hogels_together, values});
         for_each_band(hogels, [&](const HogelRange& band) {
-            if (whole.size() == 0) read_rays(band, room->rays);
+            if (whole.size() == 0) read_rays(band, scratch->rays);
             for (std::size_t first = 0; first < band.hogels(); first += hogels_together) {
-                const View<float, 2> some(room->prepared.data(),
+                const View<float, 2> some(scratch->prepared.data(),
                                           {std::min(hogels_together, band.hogels() - first), values});
                 if (whole.size() > 0)
                     synthesis_->prepare(
                         {&whole(channel_, band.t0, band.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {}, some);
                 else
-                    prepare(room->rays, first, some);
-                write(some, band, first, look, region, room->square, out);
+                    prepare(scratch->rays, first, some);
+                write(some, band, first, look, region, scratch->square, out);
             }
         });
     }
@@ -96,7 +96,7 @@ class Stereogram final : public FieldSource {
     std::span<const LightField::Source> faces() const { return light_field_.faces(); }
 
     // Buffers for one region.
-    struct Room {
+    struct Scratch {
         std::vector<LightFieldTile> rays;  // one per face
         Array<float, 2> prepared;          // [hogels_together][...]
         Array<Complex, 2> square;          // a hogel
@@ -204,7 +204,7 @@ class Stereogram final : public FieldSource {
     std::size_t columns_, rows_;  // samples of a hogel
     std::size_t rays_ = 0;        // of a hogel, over all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
-    mutable core::ObjectPool<Room> rooms_;
+    mutable core::ObjectPool<Scratch> scratch_pool_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;
 };

@@ -10,7 +10,7 @@ double neighbouring_parallax(const LightFieldSource& light_field, double pitch) 
     if (!light_field.has_depth()) return 0;
     const LightFieldGrid& grid = light_field.grid();
     constexpr std::size_t places = 5;
-    double farthest = 0;
+    double max_depth = 0;
     for (std::size_t j = 0; j < places; ++j)
         for (std::size_t i = 0; i < places; ++i) {
             LightFieldTile tile(
@@ -18,9 +18,9 @@ double neighbouring_parallax(const LightFieldSource& light_field, double pitch) 
                 true);
             light_field.read(tile);
             for (const float depth : tile.depth.elements())
-                if (std::isfinite(depth)) farthest = std::max(farthest, std::abs(static_cast<double>(depth)));
+                if (std::isfinite(depth)) max_depth = std::max(max_depth, std::abs(static_cast<double>(depth)));
         }
-    return farthest * std::max(grid.step_u(), grid.step_v()) / pitch;
+    return max_depth * std::max(grid.step_u(), grid.step_v()) / pitch;
 }
 
 }  // namespace hogel::hologram

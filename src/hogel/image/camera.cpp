@@ -36,8 +36,8 @@ void validate(const Camera& camera) {
     const Grid& picture = camera.picture;
     if (picture.width == 0 || picture.height == 0)
         fail(fmt::format("a picture of {}x{} pixels was asked for", picture.width, picture.height));
-    constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / (8 * sizeof(double));
-    if (picture.width > most / picture.height)
+    constexpr std::size_t max_pixels = std::numeric_limits<std::size_t>::max() / (8 * sizeof(double));
+    if (picture.width > max_pixels / picture.height)
         fail(fmt::format("a picture of {}x{} pixels is larger than can be addressed", picture.width, picture.height));
     if (!positive(picture.pitch_x) || !positive(picture.pitch_y) || !std::isfinite(picture.size_x()) ||
         !std::isfinite(picture.size_y()))

@@ -23,7 +23,7 @@ Metadata with_history(Metadata now, const Metadata& before) {
     for (const auto& [key, text] : before) {
         std::string free = key;
         auto same = find_key(now, free);
-        while (same != now.end() && same->second != text) same = find_key(now, free = "source " + free);
+        while (same != now.end() && same->second != text) same = find_key(now, free.insert(0, "source "));
         if (same == now.end()) now.emplace_back(free, text);
     }
     return now;

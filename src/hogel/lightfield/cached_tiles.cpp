@@ -28,12 +28,12 @@ class CachedTiles final : public LightFieldSource {
         // A range that consists of whole rows or whole preferred tiles suits the source. The cache must hold the tiles
         // of two reads, because two threads may read different rows.
         const bool suits = r.ns == grid().hogels_s || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0);
-        if (suits || 2 * tiles > recent_.kept() || (tile.depth.size() > 0 && !with_depth_)) {
+        if (suits || 2 * tiles > recent_.capacity() || (tile.depth.size() > 0 && !with_depth_)) {
             source_->read(tile);
             return;
         }
         for (std::size_t t = first_t; t < end_t; ++t)
-            for (std::size_t s = first_s; s < end_s; ++s) copy_common(*kept(s * size_.ns, t * size_.nt), tile);
+            for (std::size_t s = first_s; s < end_s; ++s) copy_common(*cached_tile(s * size_.ns, t * size_.nt), tile);
     }
 
   private:
@@ -42,7 +42,7 @@ class CachedTiles final : public LightFieldSource {
         return static_cast<double>(size_.hogels() * grid().directions() * values * sizeof(float));
     }
 
-    std::shared_ptr<const LightFieldTile> kept(std::size_t s0, std::size_t t0) const {
+    std::shared_ptr<const LightFieldTile> cached_tile(std::size_t s0, std::size_t t0) const {
         return recent_.get(std::pair(s0, t0), [&] {
             const HogelRange range{s0, t0, std::min(size_.ns, grid().hogels_s - s0),
                                    std::min(size_.nt, grid().hogels_t - t0)};

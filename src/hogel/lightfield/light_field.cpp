@@ -77,9 +77,9 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
     require_positive(grid.step_v(), code, what, "the step between directions in v");
     require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
     require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, code, what, "the height of the hologram");
-    std::size_t room = max_bytes / sizeof(float);
-    for (std::size_t extent : radiance_shape(grid, all_hogels(grid))) room /= extent;
-    if (room == 0)
+    std::size_t budget = max_bytes / sizeof(float);
+    for (std::size_t extent : radiance_shape(grid, all_hogels(grid))) budget /= extent;
+    if (budget == 0)
         throw Error(
             code, fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
                               "be addressed",

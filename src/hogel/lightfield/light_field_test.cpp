@@ -240,7 +240,7 @@ TEST(LightFieldGrid, off_centre_directions_are_around_their_middle_and_column_an
     }
 }
 
-TEST(Face, turns_there_and_back_and_looks_where_its_name_says) {
+TEST(Face, rotates_there_and_back_and_looks_where_its_name_says) {
     const Vec3 p{0.3, -0.7, 1.1};
     for (const Face face : all_faces) EXPECT_EQ(from_face(face, to_face(face, p)), p);
     EXPECT_EQ(from_face(Face::front, {0, 0, 1}), (Vec3{0, 0, 1}));
@@ -268,23 +268,23 @@ TEST(Hemicube, has_every_direction_behind_the_hologram_in_one_face) {
     for (double x = -1; x < 1; x += 0.0173)
         for (double y = -1; y < 1; y += 0.0191) {
             if (x * x + y * y >= 1) continue;
-            const Vec3 way{x, y, std::sqrt(1 - x * x - y * y)};
+            const Vec3 direction{x, y, std::sqrt(1 - x * x - y * y)};
             std::size_t count = 0;
             for (std::size_t i = 0; i < 5; ++i) {
-                rays[i] += faces[i].covers(way) ? 1 : 0;
-                count += faces[i].covers(way) ? 1 : 0;
+                rays[i] += faces[i].covers(direction) ? 1 : 0;
+                count += faces[i].covers(direction) ? 1 : 0;
             }
             ASSERT_EQ(count, 1u) << x << " " << y;
-            for (const LightFieldGrid& face : faces) ASSERT_FALSE(face.covers({x, y, -way.z}));
+            for (const LightFieldGrid& face : faces) ASSERT_FALSE(face.covers({x, y, -direction.z}));
         }
     for (std::size_t count : rays) EXPECT_GT(count, 500u);
     // direction_of() leads to the sample itself.
     for (const LightFieldGrid& face : faces)
         for (std::size_t l = 0; l < face.directions_v; ++l)
             for (std::size_t k = 0; k < face.directions_u; ++k) {
-                const Vec3 way = face.direction_of(face.u(double(k)), face.v(double(l)));
-                EXPECT_GT(way.z, 0);
-                EXPECT_TRUE(face.covers(way));
+                const Vec3 direction = face.direction_of(face.u(double(k)), face.v(double(l)));
+                EXPECT_GT(direction.z, 0);
+                EXPECT_TRUE(face.covers(direction));
             }
 }
 
@@ -293,14 +293,14 @@ TEST(Hemicube, pictures_continue_each_other) {
     grid.directions_u = 8;
     grid.directions_v = 6;
     const std::vector<LightFieldGrid> faces = hemicube(grid);
-    const auto way = [&](std::size_t i, double k, double l) {
+    const auto direction = [&](std::size_t i, double k, double l) {
         return normalize(faces[i].direction_of(faces[i].u(k), faces[i].v(l)));
     };
     for (double along : {-0.5, 1.0, 3.3, 5.5}) {
-        EXPECT_NEAR(length(way(0, 7.5, along) - way(2, -0.5, along)), 0, 1e-12);  // front and right
-        EXPECT_NEAR(length(way(0, -0.5, along) - way(1, 3.5, along)), 0, 1e-12);  // front and left
-        EXPECT_NEAR(length(way(0, along, -0.5) - way(3, along, 2.5)), 0, 1e-12);  // front and top
-        EXPECT_NEAR(length(way(0, along, 5.5) - way(4, along, -0.5)), 0, 1e-12);  // front and bottom
+        EXPECT_NEAR(length(direction(0, 7.5, along) - direction(2, -0.5, along)), 0, 1e-12);  // front and right
+        EXPECT_NEAR(length(direction(0, -0.5, along) - direction(1, 3.5, along)), 0, 1e-12);  // front and left
+        EXPECT_NEAR(length(direction(0, along, -0.5) - direction(3, along, 2.5)), 0, 1e-12);  // front and top
+        EXPECT_NEAR(length(direction(0, along, 5.5) - direction(4, along, -0.5)), 0, 1e-12);  // front and bottom
     }
 }
 

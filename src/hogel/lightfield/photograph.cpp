@@ -103,11 +103,11 @@ class Exposure {
             const double V = (grid.t(static_cast<double>(tile.range.t0 + t)) - lens_y) / distance;
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
                 const double U = (grid.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
-                const Vec3 way = to_face(grid.face(), {U, V, 1});
-                if (!(way.z > 0) || shown_before(face, {U, V, 1})) continue;
-                const double forward = !grid.is_perspective() ? length(way) : way.z;
-                const Interpolation u(grid.column(way.x / forward), grid.directions_u);
-                const Interpolation v(grid.row(way.y / forward), grid.directions_v);
+                const Vec3 direction = to_face(grid.face(), {U, V, 1});
+                if (!(direction.z > 0) || shown_before(face, {U, V, 1})) continue;
+                const double forward = !grid.is_perspective() ? length(direction) : direction.z;
+                const Interpolation u(grid.column(direction.x / forward), grid.directions_u);
+                const Interpolation v(grid.row(direction.y / forward), grid.directions_v);
                 if (u.outside || v.outside) continue;
                 const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
                 for (std::size_t c = 0; c < grid.channels; ++c) {
@@ -122,9 +122,9 @@ class Exposure {
 
     // Whether an earlier face has this direction: faces may overlap, and a direction belongs to the first one that has
     // it.
-    bool shown_before(std::size_t face, Vec3 way) const {
+    bool shown_before(std::size_t face, Vec3 direction) const {
         return std::any_of(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face),
-                           [&](const LightFieldGrid& earlier) { return earlier.covers(way); });
+                           [&](const LightFieldGrid& earlier) { return earlier.covers(direction); });
     }
 
     void expose(std::size_t row, const LensPoint& point, const HogelRange& held, const HogelRange& cells,
@@ -181,9 +181,9 @@ struct FaceBlock {
 HogelRange block_size(const LightFieldGrid& grid) {
     constexpr std::size_t rows = 16, max_bytes = std::size_t{64} << 20;
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
-    const std::size_t most = std::max<std::size_t>(1, max_bytes / hogel_bytes);
-    const std::size_t nt = std::min({rows, grid.hogels_t, most});
-    return {0, 0, std::min(grid.hogels_s, most / nt), nt};
+    const std::size_t max_hogels = std::max<std::size_t>(1, max_bytes / hogel_bytes);
+    const std::size_t nt = std::min({rows, grid.hogels_t, max_hogels});
+    return {0, 0, std::min(grid.hogels_s, max_hogels / nt), nt};
 }
 
 std::vector<Block> blocks(const LightFieldGrid& grid) {

@@ -125,9 +125,10 @@ TEST(GeometricPhotograph, of_a_hemicube_shows_the_scene_to_strongly_oblique_eyes
             for (std::size_t s = 0; s < face.hogels_s; ++s)
                 for (std::size_t v = 0; v < face.directions_v; ++v)
                     for (std::size_t u = 0; u < face.directions_u; ++u) {
-                        const Vec3 way = face.direction_of(face.u(double(u)), face.v(double(v)));
-                        light_field.radiance(0, t, s, v, u) = static_cast<float>(
-                            f(face.s(double(s)) + way.x / way.z * depth, face.t(double(t)) + way.y / way.z * depth));
+                        const Vec3 direction = face.direction_of(face.u(double(u)), face.v(double(v)));
+                        light_field.radiance(0, t, s, v, u) =
+                            static_cast<float>(f(face.s(double(s)) + direction.x / direction.z * depth,
+                                                 face.t(double(t)) + direction.y / direction.z * depth));
                     }
     }
     std::vector<const LightFieldSource*> sources;

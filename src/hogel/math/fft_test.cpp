@@ -36,8 +36,8 @@ TEST(Fft2, backward_is_the_sum_of_waves_with_a_positive_exponent) {
             std::complex<double> sum = 0;
             for (std::size_t k = 0; k < height; ++k)
                 for (std::size_t j = 0; j < width; ++j) {
-                    const double turns = static_cast<double>(k * y) / height + static_cast<double>(j * x) / width;
-                    sum += std::complex<double>(spectrum(k, j)) * std::polar(1.0, 2 * std::numbers::pi * turns);
+                    const double cycles = static_cast<double>(k * y) / height + static_cast<double>(j * x) / width;
+                    sum += std::complex<double>(spectrum(k, j)) * std::polar(1.0, 2 * std::numbers::pi * cycles);
                 }
             EXPECT_LT(std::abs(std::complex<double>(values(y, x)) - sum), 1e-5);
         }
@@ -54,8 +54,8 @@ TEST(Fft2, large_arrays_give_the_same_sum) {
         std::complex<double> sum = 0;
         for (std::size_t k = 0; k < height; ++k)
             for (std::size_t j = 0; j < width; ++j) {
-                const double turns = static_cast<double>(k * y) / height + static_cast<double>(j * x) / width;
-                sum += std::complex<double>(spectrum(k, j)) * std::polar(1.0, 2 * std::numbers::pi * turns);
+                const double cycles = static_cast<double>(k * y) / height + static_cast<double>(j * x) / width;
+                sum += std::complex<double>(spectrum(k, j)) * std::polar(1.0, 2 * std::numbers::pi * cycles);
             }
         EXPECT_LT(std::abs(std::complex<double>(values(y, x)) - sum), 2e-4) << y << " " << x;
     }
@@ -153,8 +153,8 @@ TEST(Fft2, a_large_array_is_transformed_as_a_small_one) {
     for (std::size_t y = 0; y < height; ++y)
         for (std::size_t x = 0; x < width; ++x)
             for (std::size_t w = 0; w < waves.size(); ++w) {
-                const double turns = double(waves[w][0] * y) / height + double(waves[w][1] * x) / width;
-                values(y, x) += Complex(std::polar(1.0 + double(w), 2 * std::numbers::pi * turns));
+                const double cycles = double(waves[w][0] * y) / height + double(waves[w][1] * x) / width;
+                values(y, x) += Complex(std::polar(1.0 + double(w), 2 * std::numbers::pi * cycles));
             }
     const Array<Complex, 2> original = values;
     const Fft2 fft(height, width);

@@ -97,7 +97,7 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
     const std::size_t width = in_place ? plane.width : side,
                       height = in_place ? aligned_rows(source.alignment(), plane.width) : side;
     const std::size_t across = (plane.width + width - 1) / width, down = (plane.height + height - 1) / height;
-    core::ObjectPool<Array<std::complex<float>, 1>> rooms;
+    core::ObjectPool<Array<std::complex<float>, 1>> scratch_pool;
     std::mutex reporting;
     std::size_t done = 0;
     progress.report(0);
@@ -108,9 +108,9 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
         if (in_place) {
             source.read(region, look, {&whole(region.y0, 0), {region.height, region.width}});
         } else if (!sink.has_already(region)) {
-            auto room = rooms.take();
-            if (room->size() < region.samples()) *room = Array<std::complex<float>, 1>({region.samples()});
-            const View<std::complex<float>, 2> values(room->data(), {region.height, region.width});
+            auto scratch = scratch_pool.take();
+            if (scratch->size() < region.samples()) *scratch = Array<std::complex<float>, 1>({region.samples()});
+            const View<std::complex<float>, 2> values(scratch->data(), {region.height, region.width});
             source.read(region, look, values);
             sink.write(region, values);
         }

@@ -55,12 +55,12 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
     const std::size_t looks = window.looks();
     for (std::size_t first = 0; first < looks; first += looks_at_once) {
         const std::size_t count = std::min(looks_at_once, looks - first);
-        const auto tell = [&](double done) {
+        const auto report = [&](double done) {
             progress.report((static_cast<double>(first) + done * static_cast<double>(count)) /
                             static_cast<double>(looks));
         };
         auto drawn = narrow_band::draw_narrow_bands(window, bands, first, count, [&](double fraction) {
-            tell(0.9 * fraction);
+            report(0.9 * fraction);
             return true;
         });
         for (std::size_t e = 0; e < eyes.size(); ++e)
@@ -69,7 +69,8 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
                 drawn[e][look] = {};
                 for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
                     films[e].expose(wave, cameras[eyes[e].members[c]], intensities[e][c]);
-                tell(0.9 + 0.1 * static_cast<double>(e * count + look + 1) / static_cast<double>(eyes.size() * count));
+                report(0.9 +
+                       0.1 * static_cast<double>(e * count + look + 1) / static_cast<double>(eyes.size() * count));
             }
     }
     for (std::size_t e = 0; e < eyes.size(); ++e)

@@ -27,7 +27,7 @@ using namespace optics;
 namespace {
 
 // The factor by which the pupil is widened when directions are selected, so that its sharp edge diffracts correctly.
-constexpr double edge_room = 1.1;
+constexpr double edge_margin = 1.1;
 
 struct Chain {
     const FieldSource& hologram;
@@ -48,9 +48,9 @@ Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pu
 // The number of samples across that represent the spectrum of a wave behind a pupil, with three per period of the
 // finest wave of its intensity, which is interpolated.
 std::size_t film_samples(std::size_t columns, double size, double pupil, double distance, double wavelength) {
-    const double intensity = 3 * edge_room * pupil / (wavelength * distance) * size;
+    const double intensity = 3 * edge_margin * pupil / (wavelength * distance) * size;
     return math::good_fft_size(
-        static_cast<std::size_t>(std::ceil(std::max(edge_room * static_cast<double>(columns), intensity))) + 16);
+        static_cast<std::size_t>(std::ceil(std::max(edge_margin * static_cast<double>(columns), intensity))) + 16);
 }
 
 // The wave at the lens of one eye, just before its opening, restricted to the directions between the hologram and the
@@ -59,7 +59,7 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
                       const Progress& progress) {
     const Grid& plane = chain.hologram.grid().plane;
     const Vec3 lens = cameras[eye.members.front()].eye;
-    const double pupil = edge_room * eye.pupil;
+    const double pupil = edge_margin * eye.pupil;
     // The window is padded for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
     // around to the other side, and padded again for a plane that is tilted later.
     double spread = std::max(1.0, chain.options.film_distance / lens.z);
@@ -101,7 +101,7 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
     // The size of the picture on the plane, and the directions from there to the pupil.
     double half_x = 0, half_y = 0, nearest = camera.eye.z - origin.z;
     Band band{1e30, -1e30, 1e30, -1e30};
-    const double pupil = edge_room * camera.pupil;
+    const double pupil = edge_margin * camera.pupil;
     for (const Vec3& corner : corners(hologram)) {
         const Vec3 p = in_focus(camera, corner.x, corner.y);
         nearest = std::min(nearest, camera.eye.z - p.z);
@@ -137,7 +137,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     const auto samples = [&](std::size_t columns, double size) {
         if (b == 0) return film_samples(columns, size, camera.pupil, R, wavelength);
         // Additional columns for the frequencies that the lens adds to those of the wave.
-        const auto bent = static_cast<std::size_t>(size * edge_room * camera.pupil / (wavelength * focal_length));
+        const auto bent = static_cast<std::size_t>(size * edge_margin * camera.pupil / (wavelength * focal_length));
         return film_samples(columns + bent, size, camera.pupil, b, wavelength);
     };
     const std::size_t width = samples(at_lens.width(), window.size_x());
@@ -146,7 +146,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     Spectrum behind = [&] {
         Wave lens = wave_of(at_lens, width, height, options.scratch);
         area = circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil);
-        if (b > 0) thin_lens(lens, camera.eye.x, camera.eye.y, edge_room * camera.pupil, focal_length);
+        if (b > 0) thin_lens(lens, camera.eye.x, camera.eye.y, edge_margin * camera.pupil, focal_length);
         const Grid& plane = lens.grid().plane;
         const Band whole{lens.carrier_x - 0.5 / plane.pitch_x, lens.carrier_x + 0.5 / plane.pitch_x,
                          lens.carrier_y - 0.5 / plane.pitch_y, lens.carrier_y + 0.5 / plane.pitch_y};
@@ -154,7 +154,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     }();
     // The distance to propagate, and the magnification of the picture there.
     const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
-    const double pupil = edge_room * camera.pupil * (b > 0 ? 1 / larger : 1);
+    const double pupil = edge_margin * camera.pupil * (b > 0 ? 1 / larger : 1);
     propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
                        distance / R * (camera.eye.y - hologram.center_y), 0.5 * larger * (hologram.size_x() + pupil),
                        0.5 * larger * (hologram.size_y() + pupil)});
@@ -263,8 +263,8 @@ void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progre
         const auto part = [&](double fraction) {
             return (static_cast<double>(e) + fraction) / static_cast<double>(eyes.size());
         };
-        const auto tell = [&](double fraction) { return !progress || progress(part(0.5 * fraction)); };
-        const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], tell);
+        const auto report = [&](double fraction) { return !progress || progress(part(0.5 * fraction)); };
+        const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], report);
         for (std::size_t i : eyes[e].members)
             visit(i, wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options));
         progress.report(part(1));
@@ -281,10 +281,10 @@ std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::s
     image::load_film(cameras, 1, hologram.provenance(), images);
     const auto looks = static_cast<double>(hologram.looks());
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
-        const auto tell = [&](double fraction) {
+        const auto report = [&](double fraction) {
             return !progress || progress((static_cast<double>(look) + fraction) / looks);
         };
-        focus_all({hologram, look, options}, cameras, tell, [&](std::size_t i, const Focused& focused) {
+        focus_all({hologram, look, options}, cameras, report, [&](std::size_t i, const Focused& focused) {
             expose(focused, cameras[i], Rectangle(hologram.grid().plane), 1 / looks, images[i]);
         });
     }

@@ -27,12 +27,12 @@ constexpr std::size_t window_counts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
 double margin(const FieldGrid& hologram, const Camera& camera) {
     const Grid& plane = hologram.plane;
     const ViewGeometry geometry(camera.eye, hologram.wavelength);
-    double farthest = 0;
+    double max_distance = 0;
     for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
         for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2})
-            farthest = std::max(farthest, geometry.distance(x, y));
+            max_distance = std::max(max_distance, geometry.distance(x, y));
     // A step of the sines is r/cos² θ wide on the plane.
-    const double cosine = camera.eye.z / farthest, metres = farthest / (cosine * cosine);
+    const double cosine = camera.eye.z / max_distance, metres = max_distance / (cosine * cosine);
     return metres * (margin_cells * hologram.wavelength / camera.pupil + 0.5 * defocus_blur(camera));
 }
 

@@ -64,9 +64,9 @@ SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, doubl
     grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(geometry, plane);
     // Light out of focus spreads by the blur, light in focus by some resolution cells of four samples each. The margin
     // keeps both from wrapping around to the other side.
-    constexpr double room = 64;
+    constexpr double margin = 64;
     const auto choose = [&](const Range& range, std::size_t& size, double& first) {
-        const double wanted = (range.high - range.low + blur) / grid.step + room;
+        const double wanted = (range.high - range.low + blur) / grid.step + margin;
         size = math::good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
         // Rows at distances of large powers of two map to the same cache sets, which is ten times slower.
         while (size % 128 == 0) size = math::good_fft_size(size + 1);

@@ -118,7 +118,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const std::size_t row_blocks = blocks_of(plane.height, together), all_blocks = row_blocks + blocks_of(columns);
     std::mutex reporting;
     std::size_t done = 0;
-    const auto tell = [&] {
+    const auto report = [&] {
         const std::lock_guard lock(reporting);
         progress.report(static_cast<double>(++done) / static_cast<double>(all_blocks));
     };
@@ -136,7 +136,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             take_frequencies(line.data(), window.width, first_column, columns, kept);
             narrow_band::multiply(kept, centre_x.data(), std::span(kept, columns));
         }
-        tell();
+        report();
     });
 
     // Transforms the columns and keeps the band's rows.
@@ -151,7 +151,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             const std::size_t at = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
             for (std::size_t i = 0; i < width; ++i) result.samples.view()(r, x0 + i) = times(lines(i, at), centre_y[r]);
         }
-        tell();
+        report();
     });
     return result;
 }

@@ -311,9 +311,9 @@ TEST(BandBetween, holds_every_direction_tightly) {
     Band seen{1e99, -1e99, 1e99, -1e99};
     for (int i = 0; i < 6 * 6 * 6 * 6; ++i) {
         const auto part = [&](int k, double low, double high) { return low + (high - low) * k / 5; };
-        const Vec3 way{part(i % 6, to.left, to.right) - part(i / 6 % 6, from.left, from.right),
-                       part(i / 36 % 6, to.bottom, to.top) - part(i / 216, from.bottom, from.top), z};
-        const Vec3 f = way / (length(way) * wavelength);
+        const Vec3 direction{part(i % 6, to.left, to.right) - part(i / 6 % 6, from.left, from.right),
+                             part(i / 36 % 6, to.bottom, to.top) - part(i / 216, from.bottom, from.top), z};
+        const Vec3 f = direction / (length(direction) * wavelength);
         seen = {std::min(seen.low_x, f.x), std::max(seen.high_x, f.x), std::min(seen.low_y, f.y),
                 std::max(seen.high_y, f.y)};
     }

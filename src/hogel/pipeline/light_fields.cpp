@@ -15,7 +15,7 @@ namespace hogel {
 namespace {
 
 // Light fields up to this size, in bytes, are kept in memory instead of being rendered each time they are read.
-constexpr double max_kept_bytes = 2e9;
+constexpr double max_buffered_bytes = 2e9;
 // Maximum bytes of cached tiles for larger light fields.
 constexpr double max_cached_tile_bytes = 1e9;
 
@@ -92,14 +92,14 @@ LightField prepare_for_reading(const LightField& light_field, std::size_t times,
                                const Progress& progress) {
     const core::StopScope scope(progress);
     const double values = light_field.samples() * (with_depth ? 4.0 / 3 : 1);
-    if (times <= 1 || values * sizeof(float) > max_kept_bytes)
+    if (times <= 1 || values * sizeof(float) > max_buffered_bytes)
         return cached_tiles(light_field, max_cached_tile_bytes, with_depth);
     std::size_t done = 0;
     return light_field.wrapped([&](const LightField::Source& face) {
-        auto kept = std::make_shared<LightFieldBuffer>(face->grid(), with_depth);
-        copy(*face, *kept, progress.part(done, light_field.faces().size()));
+        auto buffer = std::make_shared<LightFieldBuffer>(face->grid(), with_depth);
+        copy(*face, *buffer, progress.part(done, light_field.faces().size()));
         ++done;
-        return LightField::Source(std::move(kept));
+        return LightField::Source(std::move(buffer));
     });
 }
 

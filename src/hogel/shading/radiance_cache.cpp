@@ -52,7 +52,7 @@ RadianceCache::RadianceCache(const ShadedScene& scene, std::span<const float> sp
         const double words = (rows + 1) * (columns + 1) * static_cast<double>(words_of(size));
         if (!(rows < max_cells && columns < max_cells && bytes() + words * sizeof(std::uint32_t) <= max_bytes &&
               words < 0x1p31)) {
-            ++without_room_;
+            ++uncached_triangles_;
             continue;
         }
         LightGrid& grid = grids_[i];

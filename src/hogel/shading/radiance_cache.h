@@ -106,7 +106,7 @@ class RadianceCache {
     /// The size of the cache when all points of its grids have been used.
     double bytes() const { return static_cast<double>(words_) * sizeof(std::uint32_t); }
     /// Number of triangles whose grids did not fit, so that their light is evaluated for each ray.
-    std::size_t triangles_without_room() const { return without_room_; }
+    std::size_t uncached_triangles() const { return uncached_triangles_; }
     /// Number of points computed so far; points filled by several threads count more than once.
     std::size_t points_filled() const { return points_filled_; }
 
@@ -126,7 +126,7 @@ class RadianceCache {
     std::vector<LightGrid> grids_;
     std::unique_ptr<std::uint32_t, Free> points_;  // from calloc: zero at first, and untouched pages take no memory
     std::uint64_t words_ = 0;
-    std::size_t without_room_ = 0;
+    std::size_t uncached_triangles_ = 0;
     mutable std::atomic<std::size_t> points_filled_ = 0;
 };
 

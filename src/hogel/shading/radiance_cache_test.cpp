@@ -115,12 +115,12 @@ TEST(RadianceCache, evaluates_light_for_each_ray_where_a_triangle_has_no_grid) {
     std::vector<float> spacing(scene.triangles.size(), 0.1f);
     add_radiance_cache(scene, spacing);
     const double all = scene.radiance_cache->bytes();
-    EXPECT_EQ(scene.radiance_cache->triangles_without_room(), 0u);
+    EXPECT_EQ(scene.radiance_cache->uncached_triangles(), 0u);
     spacing[1] = 0;  // no grid requested
     spacing[2] = 1e-30f;
     add_radiance_cache(scene, spacing, 0.75 * all);
     EXPECT_LE(scene.radiance_cache->bytes(), 0.75 * all);
-    EXPECT_GE(scene.radiance_cache->triangles_without_room(), 1u);
+    EXPECT_GE(scene.radiance_cache->uncached_triangles(), 1u);
     for (const std::size_t index : {1, 2}) {
         const Rgb seen = radiance_at(scene, index, 0.2f, 0.7f, 0.1f);
         EXPECT_EQ(seen, radiance_at(plain, index, 0.2f, 0.7f, 0.1f));

@@ -25,7 +25,7 @@ void require_normals(const Scene& scene) {
                         "mesh '" + mesh.name + "': no normals; expected one a vertex (see add_missing_normals)");
 }
 
-void require_room(const Scene& scene, const ShadingOptions& options, double bytes) {
+void require_memory(const Scene& scene, const ShadingOptions& options, double bytes) {
     if (options.shadow_map < 1 || options.shadow_map > max_texels)
         throw Error(ErrorCode::usage,
                     fmt::format("shadow maps of {} texels a side; expected 1 to {}", options.shadow_map, max_texels));
@@ -108,7 +108,7 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
     const ShadingInfo& model = shading_models().find(options.model);
     validate(scene);
     require_normals(scene);
-    if (model.shadow_map_bytes) require_room(scene, options, model.shadow_map_bytes(scene, options));
+    if (model.shadow_map_bytes) require_memory(scene, options, model.shadow_map_bytes(scene, options));
     shaded.radiance_cache = nullptr;
     set_geometry(scene, options.filter_textures, shaded);
     shaded.lighting = model.make(scene, options, shaded, progress);

@@ -27,8 +27,8 @@ Pyramid::Pyramid(std::vector<std::size_t> shape, std::vector<AxisGroup> groups)
     std::size_t elements = 1;
     for (std::size_t extent : shape_) {
         if (extent == 0) throw Error(ErrorCode::usage, "pyramid: an array without elements cannot be transformed");
-        constexpr std::size_t most = std::size_t{1} << 40;
-        if (extent > most / elements)
+        constexpr std::size_t max_elements = std::size_t{1} << 40;
+        if (extent > max_elements / elements)
             throw Error(ErrorCode::usage, "pyramid: the array has more than 2^40 elements; expected smaller tiles");
         elements *= extent;
     }

@@ -25,9 +25,9 @@ std::vector<float> noise(std::size_t count) {
 }
 
 double max_difference(std::span<const float> a, std::span<const float> b) {
-    double most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) most = std::max<double>(most, std::abs(a[i] - b[i]));
-    return most;
+    double max_found = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) max_found = std::max<double>(max_found, std::abs(a[i] - b[i]));
+    return max_found;
 }
 
 // The coefficients of one level and of all levels of a line by the plain twin, each multiplied by the measured norm of

@@ -127,18 +127,18 @@ class ClassicCoder : public TileCoder {
         if (content_ == Content::amplitude)
             for (float& value : tile.radiance.elements()) value *= value;
     }
-    // Cuts embedded codes by equal fractions, so that they take `most` bytes including their lengths.
-    static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t most) {
+    // Cuts embedded codes by equal fractions, so that they take `max_bytes` bytes including their lengths.
+    static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t max_bytes) {
         std::size_t all = 0;
         for (const auto& code : codes) all += code.size();
         const std::size_t lengths = 4 * codes.size();
-        if (most == no_limit || all + lengths <= most) return;
-        std::size_t room = most > lengths ? most - lengths : 0;
+        if (max_bytes == no_limit || all + lengths <= max_bytes) return;
+        std::size_t budget = max_bytes > lengths ? max_bytes - lengths : 0;
         for (auto& code : codes) {
-            const std::size_t size = code.size(), kept = all > 0 ? room * size / all : 0;
+            const std::size_t size = code.size(), kept = all > 0 ? budget * size / all : 0;
             code.resize(kept);
             all -= size;
-            room -= kept;
+            budget -= kept;
         }
     }
 

@@ -59,7 +59,7 @@ class DecodedStream {
         // A whole tile of the stream is decoded directly into the caller's tile.
         const std::size_t first = r.t0 / size.nt * tiling.across() + r.s0 / size.ns;
         const bool whole = tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
-        if (tiling[first] == r && whole && recent_.kept() < tiling.count()) return decode({part, first}, tile);
+        if (tiling[first] == r && whole && recent_.capacity() < tiling.count()) return decode({part, first}, tile);
         for (std::size_t t = r.t0 / size.nt; t * size.nt < r.t0 + r.nt; ++t)
             for (std::size_t s = r.s0 / size.ns; s * size.ns < r.s0 + r.ns; ++s)
                 read_common({part, t * tiling.across() + s}, place, tile);

@@ -86,7 +86,7 @@ class Analysis {
         }
     }
 
-    void try_intra(const BlockSamples& target, float bits, float least, Block& block) {
+    void try_intra(const BlockSamples& target, float bits, float min_cost, Block& block) {
         for (int predictor = 0; predictor < intra_predictors; ++predictor) {
             predict_intra(picture_[0], x_, y_, predictor, other_.prediction);
             float cost = squared_difference(other_.prediction, target);
@@ -97,8 +97,8 @@ class Analysis {
                 cost = other_.cost;
             }
             cost += rate_weight_ * (bits + bits_of_predictor(predictor));
-            if (cost < least) {
-                least = cost;
+            if (cost < min_cost) {
+                min_cost = cost;
                 block.mode = mode_intra;
                 block.intra_predictor = static_cast<std::uint8_t>(predictor);
             }
@@ -118,7 +118,7 @@ class Analysis {
             partitions_.begin(target, candidates, rate_weight_);
             offer_partitions();
         }
-        if (channel_.cost > search_.worth_looking() && block.mode != mode_intra && search_.look_around()) {
+        if (channel_.cost > search_.wide_search_cost() && block.mode != mode_intra && search_.look_around()) {
             Block whole;
             whole.mode = best.mode;
             whole.disparity = best.disparity;

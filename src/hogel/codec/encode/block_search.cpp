@@ -20,12 +20,12 @@ constexpr float best_of_all_sides = 0.3f, one_side = 7;
 // hogel is predicted. A prediction that costs less than the first ends the search; one that costs more than the second
 // justifies a wider search.
 constexpr float good_enough = 1.5f, good_enough_last = 2;
-constexpr float worth_looking_most = 12, worth_looking_last = 16;
+constexpr float costly = 12, costly_last = 16;
 // A lower bound on the error that a prediction is likely to have.
 constexpr float min_error = 1;
 constexpr int max_slope_steps = 2;
 constexpr std::size_t max_nearby = 3;
-constexpr int farthest_look = 4;  // units of disparity
+constexpr int max_look_distance = 4;  // units of disparity
 
 }  // namespace
 
@@ -42,7 +42,7 @@ BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel,
     const bool last = hogel.layer + 1 == setup.order.layers();
     rate_weight_ = lambda * step * step;
     good_enough_ = (last ? good_enough_last : good_enough) * step * step;
-    worth_looking_ = (last ? worth_looking_last : worth_looking_most) * step * step;
+    wide_search_cost_ = (last ? costly_last : costly) * step * step;
     min_error_ = min_error * step * step;
 }
 
@@ -59,7 +59,7 @@ void BlockSearch::try_any_side(int disparity, float bits) {
     if (std::abs(disparity) > max_disparity || !may_win(bits + best_of_all_sides)) return;
     const auto& choice = weights_.choose(disparity, ReferenceWeights::Side::any);
     if (choice.count == 0) return;
-    BlockSamples& spare = kept_[best_.prediction == &kept_[0] ? 1 : 0];
+    BlockSamples& spare = predictions_[best_.prediction == &predictions_[0] ? 1 : 0];
     const BlockSamples& first = warped_.get(disparity, choice.reference[0], choice.shift[0]);
     if (choice.count == 2) {
         const BlockSamples& second = warped_.get(disparity, choice.reference[1], choice.shift[1]);
@@ -79,8 +79,8 @@ void BlockSearch::try_single_sides(int disparity, float bits) {
         if (choice.count == 0) continue;
         const BlockSamples& view = warped_.get(disparity, choice.reference[0], choice.shift[0]);
         const float error = squared_difference(view, *target_);
-        if (!take_if_better(kept_[0], error, bits + one_side, side, disparity)) continue;
-        kept_[0] = view;
+        if (!take_if_better(predictions_[0], error, bits + one_side, side, disparity)) continue;
+        predictions_[0] = view;
     }
 }
 
@@ -122,7 +122,7 @@ void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
     std::array<int, Candidates{}.disparity.size() + max_nearby> tried;
     std::copy_n(candidates.disparity.begin(), candidates.count, tried.begin());
     std::size_t count = candidates.count;
-    const auto enough = [&] { return count == candidates.count + max_nearby || !(best_.cost > worth_looking_); };
+    const auto enough = [&] { return count == candidates.count + max_nearby || !(best_.cost > wide_search_cost_); };
     const auto try_one = [&](int disparity) {
         for (std::size_t n = 0; n < count; ++n)
             if (std::abs(tried[n] - disparity) <= unit_) return;
@@ -159,7 +159,7 @@ void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
 
 bool BlockSearch::look_around() {
     const float before = best_.cost;
-    for (int part = farthest_look * unit_; part >= unit_ && !good(); part /= 2)
+    for (int part = max_look_distance * unit_; part >= unit_ && !good(); part /= 2)
         for (const int middle = (best_.disparity - first_candidate_) / unit_ * unit_; const int sign : {-1, 1}) {
             const int disparity = first_candidate_ + middle + sign * part;
             if (!good()) try_any_side(disparity, new_disparity);

@@ -40,8 +40,8 @@ class BlockSearch {
     bool look_around();
     // Whether the best prediction is good enough to stop.
     bool good() const { return best_.cost < good_enough_; }
-    // For blocks that finally cost more than this, look_around() is worth its time.
-    float worth_looking() const { return worth_looking_; }
+    // The cost above which a block is searched by look_around().
+    float wide_search_cost() const { return wide_search_cost_; }
 
   private:
     bool may_win(float bits) const { return min_error_ + rate_weight_ * bits < best_.cost; }
@@ -59,7 +59,7 @@ class BlockSearch {
     WarpedBlocks& warped_;
     format::ReferenceWeights& weights_;
     KnownDisparities known_;
-    float rate_weight_, good_enough_, worth_looking_, min_error_;
+    float rate_weight_, good_enough_, wide_search_cost_, min_error_;
     int unit_;
 
     // The current block:
@@ -67,7 +67,7 @@ class BlockSearch {
     const format::BlockSamples* target_ = nullptr;
     int first_candidate_ = 0;
     Found best_;
-    std::array<format::BlockSamples, 2> kept_;  // the best prediction, and scratch for the next one
+    std::array<format::BlockSamples, 2> predictions_;  // the best prediction, and scratch for the next one
     bool slopes_known_ = false;
     format::Slopes slopes_;
 };

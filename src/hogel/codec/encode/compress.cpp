@@ -46,19 +46,19 @@ std::vector<std::size_t> some_tiles(std::size_t count) {
 }
 
 // The step of a prediction that makes tiles smallest, found by halving and doubling a likely step.
-double smallest_step(const TileCompression& compression, const CompressionTarget& target) {
-    constexpr int most = 8;
+double step_of_min_bytes(const TileCompression& compression, const CompressionTarget& target) {
+    constexpr int max_power = 8;
     const bool lossless = std::holds_alternative<Lossless>(target);
     double start = likely_step(target, lossless ? compression.try_middle(1).second : 0);
     if (!(start > 0)) start = 1;
     const auto bytes = [&](int power) { return compression.try_middle(std::ldexp(start, power)).first; };
     int best = 0;
-    double least = bytes(0);
+    double min_bytes = bytes(0);
     for (const int direction : {1, -1}) {
-        for (int power = direction; std::abs(power) < most; power += direction) {
+        for (int power = direction; std::abs(power) < max_power; power += direction) {
             const double here = bytes(power);
-            if (here >= least) break;
-            least = here;
+            if (here >= min_bytes) break;
+            min_bytes = here;
             best = power;
         }
         if (best != 0) break;
@@ -124,15 +124,15 @@ struct Found {
 
 // Cuts embedded codes or adds filler, after all tiles have been written, so that the file has the requested number of
 // bytes.
-// @param room   maximum number of bytes without filler
-void meet_rate(const PixelsPerBit& target, double bytes, double room, StepFound where, TileCompression& compression,
+// @param budget   maximum number of bytes without filler
+void meet_rate(const PixelsPerBit& target, double bytes, double budget, StepFound where, TileCompression& compression,
                const StreamWriter& writer, Found& found) {
     if (compression.embedded() && static_cast<double>(writer.size()) > bytes) {
         const std::vector<std::size_t> all = all_tiles(compression.tiles());
         found.outcome = compression.code(all, found.step, true, compression.cut(bytes));
         ++found.passes;
     }
-    if (where == StepFound::only_below || static_cast<double>(writer.size()) > room)
+    if (where == StepFound::only_below || static_cast<double>(writer.size()) > budget)
         refuse_rate(target, bytes, writer.size());
     found.filler = std::min(static_cast<std::uint64_t>(bytes) - writer.size(), std::uint64_t{max_filler});
 }
@@ -152,9 +152,9 @@ Found search_step(const CompressionTarget& target, double rays, const std::strin
     });
     const double bytes = rate ? bytes_of_rate(*rate, rays, compression.samples()) : 0;
     const bool embedded = compression.embedded();
-    const double room = std::max(bytes - (embedded ? 0 : static_cast<double>(min_filler)), 1.0);
+    const double budget = std::max(bytes - (embedded ? 0 : static_cast<double>(min_filler)), 1.0);
     const auto band = [&](double tolerance) {
-        return rate ? band_of_bytes(room, tolerance, embedded) : band_of_sqnr(std::get<Sqnr>(target).decibels);
+        return rate ? band_of_bytes(budget, tolerance, embedded) : band_of_sqnr(std::get<Sqnr>(target).decibels);
     };
     if (some.size() < all.size())
         search.run(band(first_tolerance), [&](double step) { return compression.code(some, step, false); });
@@ -163,7 +163,7 @@ Found search_step(const CompressionTarget& target, double rays, const std::strin
     const StepFound where = search.run(band(tolerance), [&](double step) { return compression.code(all, step, true); });
     Found found{search.outcome(), search.step(), search.passes()};
     if (!embedded || !rate) check_quality(target, found.outcome, found.step, coder);
-    if (rate) meet_rate(*rate, bytes, room, where, compression, writer, found);
+    if (rate) meet_rate(*rate, bytes, budget, where, compression, writer, found);
     return found;
 }
 
@@ -172,7 +172,7 @@ Found code_to_target(const CompressionTarget& target, double rays, const std::st
     const auto* const fixed = std::get_if<Step>(&target);
     if (!fixed && !is_exact(target)) return search_step(target, rays, coder, compression, writer);
     Found found;
-    found.step = fixed ? fixed->radiance : smallest_step(compression, target);
+    found.step = fixed ? fixed->radiance : step_of_min_bytes(compression, target);
     found.outcome = compression.code(all_tiles(compression.tiles()), found.step, true);
     if (fixed) check_quality(target, found.outcome, found.step, coder);
     return found;

@@ -46,8 +46,8 @@ class Estimation {
         for (std::size_t k = 0; k < setup_.grid.count(); ++k) {
             search_block(k, estimate.disparities, well_known);
             estimate.disparities[k] = static_cast<std::int16_t>(best_);
-            if (least_ < not_shared)
-                estimate.shared += (1 - least_ / not_shared) / static_cast<float>(estimate.disparities.size());
+            if (min_cost_ < not_shared)
+                estimate.shared += (1 - min_cost_ / not_shared) / static_cast<float>(estimate.disparities.size());
         }
         return estimate;
     }
@@ -78,8 +78,8 @@ class Estimation {
     }
 
     // The sum of the errors of the better half of the neighbours along each axis, because a surface that is hidden on
-    // one side may be visible on the other. A sum of `most` or more need not be exact.
-    float cost(int disparity, bool whole_directions, float most) const {
+    // one side may be visible on the other. A sum of `max_cost` or more need not be exact.
+    float cost(int disparity, bool whole_directions, float max_cost) const {
         float sum = 0;
         for (const auto& axis : neighbours_) {
             std::array<float, 6> smallest;  // errors in rising order
@@ -91,9 +91,9 @@ class Estimation {
                 smallest[at] = here;
                 // Each of the remaining neighbours may replace one of the smallest errors.
                 const std::size_t left = axis.size() - 1 - n;
-                float at_least = sum;
-                for (std::size_t i = 0; i + left < better; ++i) at_least += smallest[i];
-                if (!(at_least < most)) return at_least;
+                float lower_bound = sum;
+                for (std::size_t i = 0; i + left < better; ++i) lower_bound += smallest[i];
+                if (!(lower_bound < max_cost)) return lower_bound;
             }
             for (std::size_t i = 0; i < better; ++i) sum += smallest[i];
         }
@@ -101,9 +101,9 @@ class Estimation {
     }
 
     void try_one(int disparity, bool whole_directions) {
-        const float here = cost(disparity, whole_directions, std::min(least_, bound_));
-        if (here < least_) {
-            least_ = here;
+        const float here = cost(disparity, whole_directions, std::min(min_cost_, bound_));
+        if (here < min_cost_) {
+            min_cost_ = here;
             best_ = disparity;
         }
     }
@@ -114,12 +114,12 @@ class Estimation {
         y_ = static_cast<int>(row * block_side);
         block_ = block_of(picture_[0], column * block_side, row * block_side);
         best_ = 0;
-        least_ = bound_ = unknown;
+        min_cost_ = bound_ = unknown;
         // Most blocks continue the surface of the block to their left or above them.
         if (column > 0) try_one(known[k - 1], false);
-        if (row > 0 && !(least_ < well_known)) try_one(known[k - setup_.grid.columns], false);
+        if (row > 0 && !(min_cost_ < well_known)) try_one(known[k - setup_.grid.columns], false);
         int part = 4;
-        if (!(least_ < well_known)) {
+        if (!(min_cost_ < well_known)) {
             search_all();
             part = 16;
         }
@@ -130,20 +130,20 @@ class Estimation {
     // Tries disparities in steps of a quarter direction up to four directions, in whole directions up to 16.
     void search_all() {
         const int continued = best_;
-        const float of_continued = least_;
+        const float of_continued = min_cost_;
         const int quarter = shift_unit / 4, unit = std::abs(best_) <= 4 * shift_unit ? quarter : shift_unit;
         const int nearest = (best_ + unit / 2) / unit * unit;
         if (std::abs(nearest) <= 16 * shift_unit) bound_ = std::nextafter(cost(nearest, true, unknown), unknown);
         best_ = 0;
-        least_ = cost(0, true, bound_);
+        min_cost_ = cost(0, true, bound_);
         for (int disparity = quarter; disparity <= 4 * shift_unit; disparity += quarter)
             for (const int sign : {-1, 1}) try_one(sign * disparity, true);
         for (int disparity = 5 * shift_unit; disparity <= 16 * shift_unit; disparity += shift_unit)
             for (const int sign : {-1, 1}) try_one(sign * disparity, true);
         bound_ = unknown;
-        least_ = cost(best_, false, unknown);
-        if (of_continued < least_) {
-            least_ = of_continued;
+        min_cost_ = cost(best_, false, unknown);
+        if (of_continued < min_cost_) {
+            min_cost_ = of_continued;
             best_ = continued;
         }
     }
@@ -154,9 +154,9 @@ class Estimation {
     // The current block:
     int x_ = 0, y_ = 0;
     BlockSamples block_;
-    int best_ = 0;           // disparity
-    float least_ = unknown;  // its cost
-    float bound_ = unknown;  // an upper bound on the final cost; higher costs need not be exact
+    int best_ = 0;              // disparity
+    float min_cost_ = unknown;  // its cost
+    float bound_ = unknown;     // an upper bound on the final cost; higher costs need not be exact
 };
 
 }  // namespace

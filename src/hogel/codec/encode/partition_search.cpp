@@ -18,11 +18,12 @@ constexpr float best_of_all_sides = 1, one_side = 2.5f;
 std::size_t cheapest_edge(const BestPerEdge& main, const BestPerEdge& second) {
     PerEdge cost;
     for (std::size_t edge = 0; edge < block_edges; ++edge) cost[edge] = main.cost[edge] + second.cost[edge];
-    std::array<float, 8> least;
-    std::copy_n(cost.begin(), least.size(), least.begin());
-    for (std::size_t edge = least.size(); edge < block_edges; edge += least.size())
-        for (std::size_t n = 0; n < least.size(); ++n) least[n] = cost[edge + n] < least[n] ? cost[edge + n] : least[n];
-    return static_cast<std::size_t>(std::ranges::find(cost, std::ranges::min(least)) - cost.begin());
+    std::array<float, 8> min_cost;
+    std::copy_n(cost.begin(), min_cost.size(), min_cost.begin());
+    for (std::size_t edge = min_cost.size(); edge < block_edges; edge += min_cost.size())
+        for (std::size_t n = 0; n < min_cost.size(); ++n)
+            min_cost[n] = cost[edge + n] < min_cost[n] ? cost[edge + n] : min_cost[n];
+    return static_cast<std::size_t>(std::ranges::find(cost, std::ranges::min(min_cost)) - cost.begin());
 }
 
 }  // namespace

@@ -59,17 +59,17 @@ void quantise(const BlockSamples& truth, float error, float step, bool intra, fl
     if (error <= rate_weight * (coded_block + level_of_cosines)) return;
     BlockSamples residual;
     mix_blocks(truth, channel.prediction, 1, -1, residual);
-    float most = 0;
+    float max_gain = 0;
     for (std::size_t basis = 0; basis < bases.size(); ++basis) {
         Levels levels;
         const float gain = gain_of_levels(residual, step, rounding, reconstruction_offset, bases[basis], levels);
-        if (!(gain > most)) continue;
-        most = gain;
+        if (!(gain > max_gain)) continue;
+        max_gain = gain;
         channel.any_levels = true;
         channel.basis = static_cast<std::uint8_t>(basis);
         channel.levels = levels;
     }
-    channel.cost = error - most * step * step;
+    channel.cost = error - max_gain * step * step;
 }
 
 }  // namespace hogel::codec::encode

@@ -30,9 +30,9 @@ void CodingOutcome::add(const CodingOutcome& other) {
 StepBand band_of_sqnr(double sqnr) { return {sqnr, sqnr + sqnr_tolerance, true, -5.5}; }
 
 StepBand band_of_bytes(double bytes, double tolerance, bool embedded) {
-    const double most = std::log2(bytes);
-    if (embedded) return {most, most + std::log2(1 + tolerance), true, -0.9};
-    return {most + std::log2(1 - tolerance), most, false, -0.9};
+    const double max_size = std::log2(bytes);
+    if (embedded) return {max_size, max_size + std::log2(1 + tolerance), true, -0.9};
+    return {max_size + std::log2(1 - tolerance), max_size, false, -0.9};
 }
 
 double StepSearch::step() const { return std::exp2(place_); }

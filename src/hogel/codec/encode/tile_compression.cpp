@@ -17,18 +17,18 @@ using namespace format;
 
 namespace {
 
-// Sizes with a sum of `room` bytes: each is `least` plus the same fraction of what exceeded `least`.
-std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::size_t least, double room) {
-    std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) - least * sizes.size();
-    auto bytes = static_cast<std::size_t>(std::max(room - static_cast<double>(least * sizes.size()), 0.0));
+// Sizes with a sum of `budget` bytes: each is `min_size` plus the same fraction of what exceeded `min_size`.
+std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::size_t min_size, double budget) {
+    std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) - min_size * sizes.size();
+    auto bytes = static_cast<std::size_t>(std::max(budget - static_cast<double>(min_size * sizes.size()), 0.0));
     std::vector<std::size_t> result;
     for (const std::size_t size : sizes) {
-        const std::size_t more = size - least;
+        const std::size_t more = size - min_size;
         const double kept =
             left > 0 ? static_cast<double>(bytes) * static_cast<double>(more) / static_cast<double>(left) : 0;
-        result.push_back(least + static_cast<std::size_t>(kept));
+        result.push_back(min_size + static_cast<std::size_t>(kept));
         left -= more;
-        bytes -= result.back() - least;
+        bytes -= result.back() - min_size;
     }
     return result;
 }
@@ -108,8 +108,8 @@ std::pair<double, double> TileCompression::try_middle(double step) const {
 }
 
 std::vector<std::size_t> TileCompression::cut(double file) const {
-    const double room = file - static_cast<double>(writer_.overhead(sizes_.size()));
-    return cut_sizes(sizes_, *parts_.front().coder->min_bytes(parts_.front().source->grid()), room);
+    const double budget = file - static_cast<double>(writer_.overhead(sizes_.size()));
+    return cut_sizes(sizes_, *parts_.front().coder->min_bytes(parts_.front().source->grid()), budget);
 }
 
 std::size_t TileCompression::in_flight() const {

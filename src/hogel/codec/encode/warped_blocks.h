@@ -10,7 +10,7 @@ namespace hogel::codec::encode {
 class WarpedBlocks {
   public:
     WarpedBlocks(const format::HogelOrder::Hogel& hogel, const std::vector<format::Picture>& pictures)
-        : hogel_(hogel), pictures_(pictures), kept_(new Kept[kept_blocks]) {}
+        : hogel_(hogel), pictures_(pictures), cache_(new Cached[cached_blocks]) {}
 
     // Starts with the block at (x, y), which empties the cache.
     void go_to(std::size_t x, std::size_t y) {
@@ -22,14 +22,14 @@ class WarpedBlocks {
     // another disparity is requested.
     const format::BlockSamples& get(int disparity, std::uint32_t reference, format::Shift shift) {
         // The references of one disparity have neighbouring entries, so that they do not evict each other.
-        Kept& kept = kept_[(static_cast<std::uint32_t>(disparity) * 13 + reference) % kept_blocks];
-        if (kept.block != block_ || kept.disparity != disparity || kept.reference != reference) {
-            kept.block = block_;
-            kept.disparity = disparity;
-            kept.reference = reference;
-            format::fetch_warped(pictures_[hogel_.references[reference].hogel][0], x_, y_, shift, kept.samples);
+        Cached& cached = cache_[(static_cast<std::uint32_t>(disparity) * 13 + reference) % cached_blocks];
+        if (cached.block != block_ || cached.disparity != disparity || cached.reference != reference) {
+            cached.block = block_;
+            cached.disparity = disparity;
+            cached.reference = reference;
+            format::fetch_warped(pictures_[hogel_.references[reference].hogel][0], x_, y_, shift, cached.samples);
         }
-        return kept.samples;
+        return cached.samples;
     }
     // The prediction from a choice of references: either an entry of the cache or `scratch`.
     const format::BlockSamples& predict(int disparity, const format::ReferenceWeights::Choice& choice,
@@ -42,18 +42,18 @@ class WarpedBlocks {
     }
 
   private:
-    struct Kept {
+    struct Cached {
         std::uint32_t block = 0, reference = 0;
         int disparity = 0;
         format::BlockSamples samples;
     };
-    static constexpr std::size_t kept_blocks = 64;
+    static constexpr std::size_t cached_blocks = 64;
 
     const format::HogelOrder::Hogel& hogel_;
     const std::vector<format::Picture>& pictures_;
     int x_ = 0, y_ = 0;
     std::uint32_t block_ = 0;
-    std::unique_ptr<Kept[]> kept_;
+    std::unique_ptr<Cached[]> cache_;
 };
 
 }  // namespace hogel::codec::encode

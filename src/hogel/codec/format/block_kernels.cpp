@@ -90,10 +90,10 @@ AlongSlope along_slope_plain(const BlockSamples& a, const BlockSamples& b, const
             sum_in_columns([&](std::size_t k) { return slope[k] * slope[k]; })};
 }
 
-std::uint64_t large_samples_plain(const BlockSamples& block, float least) {
+std::uint64_t large_samples_plain(const BlockSamples& block, float min_magnitude) {
     std::uint64_t large = 0;
     for (std::size_t k = 0; k < block_samples; ++k)
-        if (std::abs(block[k]) >= least) large |= std::uint64_t{1} << k;
+        if (std::abs(block[k]) >= min_magnitude) large |= std::uint64_t{1} << k;
     return large;
 }
 

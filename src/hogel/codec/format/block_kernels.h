@@ -53,9 +53,9 @@ struct AlongSlope {
 AlongSlope along_slope(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope);
 AlongSlope along_slope_plain(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope);
 
-// A bit for each sample of magnitude `least` or more.
-std::uint64_t large_samples(const BlockSamples& block, float least);
-std::uint64_t large_samples_plain(const BlockSamples& block, float least);
+// A bit for each sample of magnitude `min_magnitude` or more.
+std::uint64_t large_samples(const BlockSamples& block, float min_magnitude);
+std::uint64_t large_samples_plain(const BlockSamples& block, float min_magnitude);
 
 // Σ a², in partial sums as above.
 double sum_of_squares(const float* a, std::size_t count);

@@ -171,9 +171,9 @@ double SumOfSquaresOf(const float* a, std::size_t count) {
         [&](std::size_t k) { return static_cast<double>(a[k]); });
 }
 
-std::uint64_t LargeSamples(const BlockSamples& block, float least) {
+std::uint64_t LargeSamples(const BlockSamples& block, float min_magnitude) {
     const Row d;
-    const auto bound = hn::Set(d, least);
+    const auto bound = hn::Set(d, min_magnitude);
     std::uint64_t large = 0;
     for (std::size_t k = 0; k < block_samples; k += hn::Lanes(d)) {
         std::uint8_t bits[8] = {};
@@ -345,8 +345,8 @@ double squared_difference_of_rows(const float* a, const float* b, std::size_t co
 
 double sum_of_squares(const float* a, std::size_t count) { return HWY_DYNAMIC_DISPATCH(SumOfSquaresOf)(a, count); }
 
-std::uint64_t large_samples(const BlockSamples& block, float least) {
-    return HWY_DYNAMIC_DISPATCH(LargeSamples)(block, least);
+std::uint64_t large_samples(const BlockSamples& block, float min_magnitude) {
+    return HWY_DYNAMIC_DISPATCH(LargeSamples)(block, min_magnitude);
 }
 
 AlongSlope along_slope(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope) {

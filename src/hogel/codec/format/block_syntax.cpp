@@ -134,9 +134,10 @@ void code_residual(Coder& coder, typename Coder::Models& models, std::size_t cha
 }  // namespace
 
 std::size_t Candidates::spread() const {
-    int most = 0;
-    for (std::size_t k = 1; k < count; ++k) most = std::max(most, std::abs(disparity[k] - disparity[0]));
-    return most == 0 ? 0 : most <= 2 ? 1 : most <= one_surface ? 2 : 3;
+    int max_difference = 0;
+    for (std::size_t k = 1; k < count; ++k)
+        max_difference = std::max(max_difference, std::abs(disparity[k] - disparity[0]));
+    return max_difference == 0 ? 0 : max_difference <= 2 ? 1 : max_difference <= one_surface ? 2 : 3;
 }
 
 int disparity_unit(const HogelOrder::Hogel& hogel) {

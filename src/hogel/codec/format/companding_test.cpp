@@ -156,11 +156,11 @@ class WatchedSource final : public LightFieldSource {
     HogelRange preferred_tile() const override { return {0, 0, 3, 2}; }
     void read(LightFieldTile& tile) const override {
         const std::lock_guard lock(mutex_);
-        most = std::max(most, tile.radiance.size());
+        max_samples = std::max(max_samples, tile.radiance.size());
         all += tile.radiance.size();
         field_.read(tile);
     }
-    mutable std::size_t most = 0, all = 0;
+    mutable std::size_t max_samples = 0, all = 0;
 
   private:
     const LightFieldBuffer& field_;
@@ -175,7 +175,7 @@ TEST(Companding, histogram_does_not_depend_on_threads_and_reads_each_tile_once) 
         const WatchedSource watched(field);
         const LuminanceHistogram histogram = luminance_histogram(borrow(watched));
         EXPECT_TRUE(std::ranges::equal(histogram.counts(), expected.counts()));
-        EXPECT_EQ(watched.most, field.radiance.size() / 56 * 6);
+        EXPECT_EQ(watched.max_samples, field.radiance.size() / 56 * 6);
         EXPECT_EQ(watched.all, field.radiance.size());
     }
 }

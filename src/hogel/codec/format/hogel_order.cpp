@@ -37,13 +37,13 @@ std::vector<HogelOrder::Reference> nearest(std::vector<HogelOrder::Reference> re
     };
     std::array<std::vector<int>, 4> distances;
     for (const HogelOrder::Reference& r : references) distances[side(r)].push_back(std::abs(r.ds + r.dt));
-    std::array<int, 4> farthest;
+    std::array<int, 4> max_distance;
     for (std::size_t k = 0; k < 4; ++k) {
         std::ranges::sort(distances[k]);
-        farthest[k] = distances[k].empty() ? 0 : distances[k][std::min(per_side, distances[k].size()) - 1];
+        max_distance[k] = distances[k].empty() ? 0 : distances[k][std::min(per_side, distances[k].size()) - 1];
     }
     std::erase_if(references,
-                  [&](const HogelOrder::Reference& r) { return std::abs(r.ds + r.dt) > farthest[side(r)]; });
+                  [&](const HogelOrder::Reference& r) { return std::abs(r.ds + r.dt) > max_distance[side(r)]; });
     return references;
 }
 

@@ -117,8 +117,8 @@ BlockRange fetched_blocks(std::size_t columns, std::size_t rows, std::size_t col
 }
 
 ReferenceWeights::ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect)
-    : hogel_(hogel), aspect_(aspect), kept_(new Kept[kept_choices]) {
-    for (std::size_t n = 0; n < kept_choices; ++n) kept_[n].disparity = -max_disparity - 1;
+    : hogel_(hogel), aspect_(aspect), cache_(new Cached[cached_choices]) {
+    for (std::size_t n = 0; n < cached_choices; ++n) cache_[n].disparity = -max_disparity - 1;
     for (const HogelOrder::Reference& reference : hogel.references) {
         const auto distance = static_cast<float>(reference.ds * reference.ds + reference.dt * reference.dt);
         fixed_.push_back({noise_weight * noise[reference.hogel] + distance_weight * distance, side_of(reference)});
@@ -126,20 +126,20 @@ ReferenceWeights::ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<con
 }
 
 const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
-    Kept& kept = kept_[static_cast<std::size_t>(disparity + max_disparity) % kept_choices];
-    if (kept.disparity == disparity) return kept.choices;
-    kept.disparity = disparity;
-    for (Choice& choice : kept.choices) choice.count = 0;
+    Cached& cached = cache_[static_cast<std::size_t>(disparity + max_disparity) % cached_choices];
+    if (cached.disparity == disparity) return cached.choices;
+    cached.disparity = disparity;
+    for (Choice& choice : cached.choices) choice.count = 0;
     std::array<std::array<float, 2>, sides> cost;
     for (std::uint32_t k = 0; k < fixed_.size(); ++k) {
         const Shift shift = shift_of(disparity, hogel_.references[k], aspect_);
         const float here = fixed_[k].cost + alias.of[fraction_of(shift.u)] + alias.of[fraction_of(shift.v)];
-        // Keeps the `most` references of a side with the least noise; among equal ones the earlier.
-        const auto offer = [&](Side side, std::uint32_t most) {
+        // Keeps the `max_count` references of a side with the least noise; among equal ones the earlier.
+        const auto offer = [&](Side side, std::uint32_t max_count) {
             auto& costs = cost[static_cast<std::size_t>(side)];
-            Choice& choice = kept.choices[static_cast<std::size_t>(side)];
+            Choice& choice = cached.choices[static_cast<std::size_t>(side)];
             std::uint32_t at = choice.count;
-            if (at == most) {
+            if (at == max_count) {
                 if (!(here < costs[at - 1])) return;
                 --at;
             } else {
@@ -158,14 +158,14 @@ const ReferenceWeights::Choices& ReferenceWeights::choices_for(int disparity) {
         offer(fixed_[k].side, 1);
     }
     for (std::size_t side = 0; side < sides; ++side) {
-        Choice& choice = kept.choices[side];
+        Choice& choice = cached.choices[side];
         choice.weight[0] = 1;
         if (choice.count < 2) continue;
         // Weights are inversely proportional to the expected noise.
         choice.weight[0] = cost[side][1] / (cost[side][0] + cost[side][1]);
         choice.weight[1] = 1 - choice.weight[0];
     }
-    return kept.choices;
+    return cached.choices;
 }
 
 }  // namespace hogel::codec::format

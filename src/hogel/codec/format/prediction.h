@@ -118,7 +118,7 @@ class ReferenceWeights {
 
   private:
     using Choices = std::array<Choice, sides>;
-    struct Kept {
+    struct Cached {
         int disparity;
         Choices choices;
     };
@@ -133,8 +133,8 @@ class ReferenceWeights {
     std::vector<Fixed> fixed_;  // one per reference
     float aspect_;
     // A cache, because neighbouring blocks often have the same disparity.
-    static constexpr std::size_t kept_choices = 64;
-    std::unique_ptr<Kept[]> kept_;
+    static constexpr std::size_t cached_choices = 64;
+    std::unique_ptr<Cached[]> cache_;
 };
 
 }  // namespace hogel::codec::format

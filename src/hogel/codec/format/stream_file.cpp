@@ -22,10 +22,10 @@ constexpr std::uint32_t max_header = 1 << 24;
 
 bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
     if (tile.ns == 0 || tile.nt == 0 || tile.ns > grid.hogels_s || tile.nt > grid.hogels_t) return false;
-    std::size_t room = max_tile_samples;
+    std::size_t budget = max_tile_samples;
     for (const std::size_t extent : {grid.channels, tile.ns, tile.nt, grid.directions_u, grid.directions_v})
-        room /= extent;
-    return room > 0;
+        budget /= extent;
+    return budget > 0;
 }
 
 // Whether two streams have the same rays. Their channels may differ.
@@ -128,10 +128,10 @@ void StreamWriter::finish(std::uint64_t filler) {
     };
     for (const StreamEntry& entry : entries) copy(spooled_, entry.offset, entry.bytes);
     if (info_.depth.bytes > 0) {
-        constexpr std::uint64_t most = std::uint64_t{1} << 24;
+        constexpr std::uint64_t max_chunk = std::uint64_t{1} << 24;
         const core::RawFile depth(depth_, core::RawFile::Mode::read, depth_);
-        for (std::uint64_t done = 0; done < info_.depth.bytes; done += most)
-            copy(depth, done, std::min(most, info_.depth.bytes - done));
+        for (std::uint64_t done = 0; done < info_.depth.bytes; done += max_chunk)
+            copy(depth, done, std::min(max_chunk, info_.depth.bytes - done));
     }
     file.close();
     output_.commit();
@@ -191,8 +191,9 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
 }
 
 void StreamReader::read_index(std::uint64_t header) {
-    const std::uint64_t most = end_ - header, layers = info_.layer_ends.size();
-    if (most < checksum_bytes || tiling_->count() > (most - checksum_bytes) / entry_bytes / parts_.size() / layers)
+    const std::uint64_t max_bytes = end_ - header, layers = info_.layer_ends.size();
+    if (max_bytes < checksum_bytes ||
+        tiling_->count() > (max_bytes - checksum_bytes) / entry_bytes / parts_.size() / layers)
         damaged("it is truncated");
     Bytes index(tiles() * layers * entry_bytes + checksum_bytes);
     file_.read(header, index.data(), index.size());

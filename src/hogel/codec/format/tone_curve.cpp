@@ -8,12 +8,12 @@
 namespace hogel::codec::format {
 
 ToneCurve::ToneCurve(std::uint32_t first, std::vector<float> values) : first_(first), values_(std::move(values)) {
-    constexpr std::uint32_t smallest = 1 << (23 - low_bits), end = 0xFF << (23 - low_bits);  // of normal numbers
+    constexpr std::uint32_t min_normal = 1 << (23 - low_bits), end = 0xFF << (23 - low_bits);  // of normal numbers
     constexpr float max_factor = 0x1p64f;
     const auto refuse = [](const char* why) { throw Error(ErrorCode::bad_input, why); };
     const std::size_t count = values_.size();
     if (count < 2 || count > max_points) refuse("a tone curve with an impossible number of points");
-    if (first_ < smallest || first_ > end - count) refuse("a tone curve whose points are not normal numbers");
+    if (first_ < min_normal || first_ > end - count) refuse("a tone curve whose points are not normal numbers");
     for (std::size_t i = 0; i < count; ++i) {
         const float factor = values_[i] / point(i);
         if (!std::isnormal(values_[i]) || !(factor >= 1 / max_factor && factor <= max_factor))

@@ -95,7 +95,7 @@ TEST(ToneCurve, is_inverted) {
         for (const double decades : {0.3, 2.0}) {
             const ToneCurve curve = encode::tone_curve_of(histogram, decades).value();
             const std::vector<double> slope = slopes(curve);
-            const double most = 1e-6 / *std::ranges::min_element(slope);
+            const double max_error = 1e-6 / *std::ranges::min_element(slope);
             std::vector<float> values{0.0f, 1e-38f, 1e-44f, 1e30f};
             for (std::uint32_t i = 0; i < 2000; ++i)
                 values.push_back(static_cast<float>(curve.point(0) * std::pow(10, 8 * uniform(i, 2) - 1)));
@@ -108,7 +108,7 @@ TEST(ToneCurve, is_inverted) {
                 before = mapped;
                 EXPECT_EQ(-value * curve.factor(-value), -mapped);
                 if (value < 1e-37f) continue;  // subnormal numbers have fewer digits
-                EXPECT_NEAR(mapped * curve.inverse_factor(mapped), value, most * value);
+                EXPECT_NEAR(mapped * curve.inverse_factor(mapped), value, max_error * value);
             }
         }
 }

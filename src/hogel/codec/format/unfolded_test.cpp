@@ -21,10 +21,10 @@ std::vector<LightFieldBuffer> smooth_hemicube(std::size_t hogels, std::size_t di
             for (std::size_t i = 0; i < hogels; ++i)
                 for (std::size_t l = 0; l < face.directions_v; ++l)
                     for (std::size_t k = 0; k < face.directions_u; ++k) {
-                        const Vec3 way = normalize(face.direction_of(face.u(double(k)), face.v(double(l))));
+                        const Vec3 direction = normalize(face.direction_of(face.u(double(k)), face.v(double(l))));
                         field.radiance(0, j, i, l, k) =
-                            static_cast<float>(1 + 0.4 * std::sin(3 * way.x + 0.5 * double(i)) +
-                                               0.3 * std::cos(2 * way.y - way.z + double(j)));
+                            static_cast<float>(1 + 0.4 * std::sin(3 * direction.x + 0.5 * double(i)) +
+                                               0.3 * std::cos(2 * direction.y - direction.z + double(j)));
                     }
     }
     return faces;

@@ -77,8 +77,8 @@ WindowBrightness::WindowBrightness(const LightFieldGrid& rays, const FieldGrid& 
     const double depth_step = 1.25 * extent * extent / grid.wavelength / (steps - 1);
     steps_a_metre_ = 1 / depth_step;
     const double widest = std::max(rays.half_u(), rays.half_v());
-    const double farthest = widest * depth_step * (steps - 1) / pitch;
-    const math::Fft2 spectrum(1, math::good_fft_size(4 * window.size() + 4 * static_cast<std::size_t>(farthest)));
+    const double max_shift = widest * depth_step * (steps - 1) / pitch;
+    const math::Fft2 spectrum(1, math::good_fft_size(4 * window.size() + 4 * static_cast<std::size_t>(max_shift)));
     const Line line{window, hop, pitch, grid.wavelength};
     const auto slant = [](double other) { return std::sqrt(1 + other * other); };
     const Fan across{rays.center_u(), rays.half_u(), slant(rays.center_v())},

@@ -74,18 +74,18 @@ class OverlapAddHologram final : public FieldSource {
         validate(region, grid_, out.shape());
         const auto [s0, ns] = windows_over(region.x0, region.width, light_field_.grid().hogels_s);
         const auto [t0, nt] = windows_over(region.y0, region.height, light_field_.grid().hogels_t);
-        auto room = rooms_.take();
+        auto scratch = scratch_pool_.take();
         if (batches_)
-            add_batches({s0, t0, ns, nt}, region, look, *room, out);
+            add_batches({s0, t0, ns, nt}, region, look, *scratch, out);
         else
-            add_one_by_one({s0, t0, ns, nt}, region, look, *room, out);
+            add_one_by_one({s0, t0, ns, nt}, region, look, *scratch, out);
     }
 
   private:
     static constexpr std::size_t band_rays = std::size_t{1} << 18;
 
     // Buffers for one region.
-    struct Room {
+    struct Scratch {
         LightFieldTile tile;
         std::optional<WindowBatch> batch;
         WindowBatch::Sum sum;
@@ -106,13 +106,13 @@ class OverlapAddHologram final : public FieldSource {
     }
 
     // The plain version. Windows are added to a sample in the same order for every region.
-    void add_one_by_one(const HogelRange& hogels, const Region& region, std::size_t look, Room& room,
+    void add_one_by_one(const HogelRange& hogels, const Region& region, std::size_t look, Scratch& scratch,
                         View<Complex, 2> out) const {
         std::fill(out.data(), out.data() + out.size(), Complex(0));
         Array<Complex, 2> window({side_, side_});
         std::optional<PointCycles> points;
         if (phases_ == PointPhases::random) points.emplace(cycle_series(look), hogels);
-        for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
+        for_each_band(hogels, scratch.tile, [&](const LightFieldTile& tile) {
             const HogelRange& range = tile.range;
             for (std::size_t j = 0; j < range.nt; ++j)
                 for (std::size_t i = 0; i < range.ns; ++i) {
@@ -125,23 +125,23 @@ class OverlapAddHologram final : public FieldSource {
     }
 
     // Batches begin at the same hogels for every region, so that windows are added to a sample in the same order.
-    void add_batches(HogelRange hogels, const Region& region, std::size_t look, Room& room,
+    void add_batches(HogelRange hogels, const Region& region, std::size_t look, Scratch& scratch,
                      View<Complex, 2> out) const {
         constexpr std::size_t together = WindowBatch::hogels;
         const std::size_t end =
             std::min(light_field_.grid().hogels_s, (hogels.s0 + hogels.ns + together - 1) / together * together);
         hogels.s0 = hogels.s0 / together * together;
         hogels.ns = end - hogels.s0;
-        if (!room.batch) {
+        if (!scratch.batch) {
             WindowBatch::Shared shared{side_, hop_, &directions_, &brightness_.values(), &window_};
             shared.steps_a_metre = brightness_.steps_a_metre();
             shared.hogels_a_metre = hogels_a_metre_;
             shared.waves_a_metre = waves_a_metre_;
             shared.pitch = light_field_.grid().pitch;
-            room.batch.emplace(shared);
+            scratch.batch.emplace(shared);
         }
         const std::size_t before = (side_ - hop_) / 2;
-        WindowBatch::Sum& sum = room.sum;
+        WindowBatch::Sum& sum = scratch.sum;
         sum.first_x = hogels.s0 * hop_;
         sum.first_y = region.y0 + before;
         sum.height = region.height;
@@ -155,10 +155,10 @@ class OverlapAddHologram final : public FieldSource {
         }
         std::optional<PointCycles> points;
         if (phases_ == PointPhases::random) points.emplace(cycle_series(look), hogels);
-        for_each_band(hogels, room.tile, [&](const LightFieldTile& tile) {
+        for_each_band(hogels, scratch.tile, [&](const LightFieldTile& tile) {
             for (std::size_t j = 0; j < tile.range.nt; ++j)
                 for (std::size_t i = 0; i < tile.range.ns; i += together)
-                    add_batch(tile, i, j, look, points ? &*points : nullptr, room);
+                    add_batch(tile, i, j, look, points ? &*points : nullptr, scratch);
         });
         for (std::size_t y = 0; y < region.height; ++y)
             for (std::size_t x = 0; x < region.width; ++x) {
@@ -169,7 +169,7 @@ class OverlapAddHologram final : public FieldSource {
     }
 
     void add_batch(const LightFieldTile& tile, std::size_t i, std::size_t j, std::size_t look,
-                   const PointCycles* points, Room& room) const {
+                   const PointCycles* points, Scratch& scratch) const {
         const std::size_t s = tile.range.s0 + i, t = tile.range.t0 + j;
         WindowBatch::PointCycles cycles_of_points;
         if (points)
@@ -181,9 +181,9 @@ class OverlapAddHologram final : public FieldSource {
         const CycleSeries cycles = cycle_series(look);
         const WindowBatch::At at{s, t, cycles.series, cycles.key};
         const std::size_t count = std::min(WindowBatch::hogels, tile.range.ns - i);
-        if (room.batch->fill(at, &tile.radiance(options_.channel.index, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
-                             light_field_.grid().directions(), cycles_of_points))
-            room.batch->add(at, room.sum);
+        if (scratch.batch->fill(at, &tile.radiance(options_.channel.index, j, i, 0, 0), &tile.depth(j, i, 0, 0), count,
+                                light_field_.grid().directions(), cycles_of_points))
+            scratch.batch->add(at, scratch.sum);
     }
 
     void list_directions() {
@@ -305,7 +305,7 @@ class OverlapAddHologram final : public FieldSource {
     // Reciprocals, so that rays need no divisions.
     double hogels_a_metre_ = 0, waves_a_metre_ = 0;
     bool batches_ = false;  // whether windows are computed in batches of hogels
-    mutable core::ObjectPool<Room> rooms_;
+    mutable core::ObjectPool<Scratch> scratch_pool_;
 };
 
 }  // namespace

@@ -253,8 +253,8 @@ TEST_F(ExternalFields, of_pictures_are_phases_amplitudes_or_real_and_imaginary_p
     const auto phases = all_of(*open_external_field(directory_ / "p.png", known(Values::phase)));
     const auto amplitudes = all_of(*open_external_field(directory_ / "p.png", known(Values::amplitude)));
     for (std::size_t i = 0; i < 6; ++i) {
-        const auto turn = static_cast<float>(2 * std::numbers::pi * 50.0 * double(i) / 256);
-        EXPECT_LT(std::abs(phases.data()[i] - std::polar(1.0f, turn)), 1e-6f) << i;
+        const auto angle = static_cast<float>(2 * std::numbers::pi * 50.0 * double(i) / 256);
+        EXPECT_LT(std::abs(phases.data()[i] - std::polar(1.0f, angle)), 1e-6f) << i;
         EXPECT_EQ(amplitudes.data()[i], Complex(50 * float(i))) << i;
     }
     Image real(2, 3, 1), imaginary(2, 3, 1);

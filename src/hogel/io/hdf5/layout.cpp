@@ -72,10 +72,10 @@ std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const
     {
         // HDF5 does not recover from a failure to close a file, so a full disk and limits on the size of files are
         // detected first.
-        core::RawFile room(path, core::RawFile::Mode::create, target);
-        room.reserve(header_bytes);
-        room.resize(total_bytes(datasets));
-        room.resize(0);
+        core::RawFile reserved(path, core::RawFile::Mode::create, target);
+        reserved.reserve(header_bytes);
+        reserved.resize(total_bytes(datasets));
+        reserved.resize(0);
     }
     const Session session;
     const Writer writer(target);

@@ -42,7 +42,7 @@ class Simplex3dRenderer final : public Renderer {
                 for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                     simplices.clear();
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
-                        if (line.sees_front || !scene_->fronts_only)
+                        if (line.front_visible || !scene_->fronts_only)
                             append_projected_volume(part, line, grid_, tile.range, simplices, min_forward_);
                     clip_to_view(simplices, grid_);
                     for (const Simplex<3>& simplex : simplices) scan_convert(index, simplex, t, tile.range, buffer);

@@ -62,7 +62,7 @@ RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGri
 /// As RegionSides for one row of hogels: one or two lines of camera points.
 struct CameraLine {
     CameraPoint first, last;
-    bool sees_front = false;
+    bool front_visible = false;
 };
 std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std::size_t row,
                                                const LightFieldGrid& grid, const HogelRange& range);

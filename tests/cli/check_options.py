@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks that a wrong value of an option is refused with status 2 and one line that names the option, also where it is
+the library that finds out.
+
+usage: check_options.py     in a folder with the files that options.txt makes; hogel in the PATH
+"""
+import subprocess
+
+SMALL = "--hogels 6x4 --directions 8x6 --size 1mm"
+PHOTO = "--eye 0,0,40mm --resolution 8"
+MODULATOR = "--pixels 256x192 --pixel-pitch 6.4um"
+
+# A command line, and wrong options that may end it, one at a time.
+TABLE = [
+    ("render sphere -o w.h5",
+     """--algorithm=magic --shading=phong --shadow-map=0 --cache-spacing=17 --cache-spacing=nan --hogels=0
+     --hogels=99999999 --directions=4x --samples=65 --size=0mm --size=1e300m --size=16 --fov=180deg --fov=20 --toward=89deg
+     --front=2 --region=0 --frequencies=-1nm --frequencies=633nm --sqnr=30 --threads=-1 --seed=x"""),
+    ("render sphere -o w.h5 --hogels 4", "--directions=16777216"),
+    ("render sphere -o w.h5 --hemicube", "--directions=5 --fov=20deg"),
+    ("render sphere -o w.h5 --shading shadowed", "--shadow-map=16777216"),
+    ("render sphere -o w.hgl --hogels 4 --directions 4", "--sqnr=0 --sqnr=inf --resume --float"),
+    ("bake sphere -o w.glb", "--rays=0 --bounces=x --tessellate=0 --size=-1mm"),
+    (f"hologram sphere -o w.h5 {SMALL}",
+     """--wavelength=0nm --wavelength=rbg --pitch=0um --pitch=3um --fov=40deg --line-pitch=-1um --line-pitch=10um
+     --method=magic --phase=none --lobes=none --basis=wavy --tolerance=2 --spacing=0um --planes=0"""),
+    ("hologram sphere -o w.h5 --hogels 4", "--directions=16777216"),
+    (f"hologram sphere -o w.h5 {SMALL} --hemicube", "--method=olas --method=basis --method=phase-added"),
+    (f"hologram sphere -o w.h5 {SMALL} --method points", "--resume --cull-back-faces"),
+    (f"slm s.h5 -o w.png {MODULATOR} --encoding bipolar", "--reference=-10deg --clip=2 --clip=nan --window=0 --iterations=x"),
+    (f"slm s.h5 -o w.png {MODULATOR}", "--encoding=magic --levels=1 --levels=257 --device=leto"),
+    (f"slm s.h5 -o w.png {MODULATOR} --encoding gerchberg-saxton", "--window=1"),
+    ("slm s.h5 -o w.png", "--device=zeus --device=pluto --pixels=8x8 --pixel-pitch=8um"),
+    ("slm s.h5 -o w.png --pixels 8x8", "--pixel-pitch=0um --pixel-pitch=5um"),
+    ("slm s.h5 -o w.png --pixel-pitch 6.4um", "--pixels=0 --pixels=99999x1"),
+    ("photo f.h5 -o w.png",
+     """--eye=0,0,0mm --eye=0,0 --eye=90,0,10mm --gaze=0,0,1m --focus=-1m --focus=1e300m --focus-tilt=90deg --pupil=0mm
+     --pupil=1e-300m --f-number=0 --focal-length=0mm --angle-of-view=180deg --resolution=0
+     --resolution=16777216x16777216 --to-eye=0,0,-1mm --to-focus=1mm --frames=0 --frames=2 --frame-rate=0 --looks=0
+     --exposure=0 --exposure=inf --display=none --display=phase --camera=none --film-distance=1mm --pupil-samples=0
+     --geometric --pitch=1um --values=phase --variable=a --conjugate"""),
+    ("photo f.h5 -o w.png --camera full", "--film-distance=-1mm --film-distance=1um"),
+    ("photo x.h5 -o w.png", "--focus-tilt=10deg --camera=full"),
+    (f"photo sphere -o w.png {PHOTO} {SMALL}", "--pupil=20mm --pitch=3um --eye=30,0,40mm"),
+    ("propagate f.h5 -o w.h5 --distance 1mm", "--imaginary=b.exr --variable=a --conjugate --pitch=1um --pitch=0um"),
+    ("propagate f.h5 -o w.png", "--distance=1 --distance=1e300m"),
+    ("propagate f.h5 -o w.png --distance 1mm", "--display=none"),
+    ("make sphere -o w",
+     """--eye-distance=0mm --eye-distance=50mm --pupil=0mm --resolution=0 --looks=x --pupil-samples=0 --pitch=3um
+     --fov=60deg"""),
+    ("compress x.h5 -o w.hgl",
+     """--sqnr=0 --sqnr=130 --ppb=0 --ppb=0.001 --step=-1 --max-error=0 --coder=zip --transform=wavy
+     --transform=haar --table=jpeg --hemicube=none --depth-error=0m --depth-error=1e-300m
+     --tone=none-such --tone-decades=1 --chrominance=2000 --tile=x"""),
+    ("compress x.h5 -o w.hgl --tone histogram", "--tone-decades=30"),
+    ("compress x.h5 -o w.hgl --lossless", "--tone=histogram --chrominance=2"),
+    ("compress x.h5 -o w.hgl --coder ezw", "--lossless --max-error=1"),
+    ("compress x.h5 -o w.hgl --no-depth", "--depth-error=1mm"),
+    ("decompress x.hgl -o w.h5", "--layers=0 --layers=99"),
+    ("print x.h5 -o w", "--exposure=0 --exposure=nan --order=none"),
+    ("compare x.h5 x.hgl", "--min-psnr=x --min-sqnr=nan"),
+]
+
+for line, options in TABLE:
+    for option in options.split():
+        name = option.split("=")[0]
+        done = subprocess.run(["hogel", *line.split(), option], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                              timeout=120)
+        said = done.stderr.splitlines()
+        # What is said of progress may come before.
+        if done.returncode != 2 or not said or not said[-1].startswith("hogel: ") or name not in said[-1] or done.stdout:
+            print(f"hogel {line} {option}\n  status {done.returncode}: {done.stderr}{done.stdout}")
+print(sum(len(options.split()) for _, options in TABLE), "options")
