@@ -23,8 +23,8 @@ struct Provenance {
     friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
-/// The entries of a value made from another one: `now`, followed by all of `before`. If a key of `before` is already
-/// present with another text, "source " is put in front of it, repeatedly if necessary to make it unique.
+/// The entries of a value made from another: `now`, then `before`, where "source " precedes the names of the earlier
+/// command and its options, and any name that is taken with another text.
 HOGEL_API Metadata with_history(Metadata now, const Metadata& before);
 
 /// Converts a provenance to the metadata of a file and back: its entries and, if it has a camera, one entry "camera".

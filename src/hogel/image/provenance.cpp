@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
 #include "hogel/error.h"
 
@@ -17,11 +18,19 @@ auto find_key(auto& metadata, const std::string& key) {
     return std::ranges::find(metadata, key, [](const auto& entry) { return entry.first; });
 }
 
+// Whether an entry belongs to a command that made something now or earlier: its name, its options, the program's
+// version.
+bool is_of_command(std::string_view key) {
+    while (key.starts_with("source ")) key.remove_prefix(7);
+    return key == "software" || key == "command" || key.starts_with("option ");
+}
+
 }  // namespace
 
 Metadata with_history(Metadata now, const Metadata& before) {
+    const bool two_commands = find_key(now, "command") != now.end() && find_key(before, "command") != before.end();
     for (const auto& [key, text] : before) {
-        std::string free = key;
+        std::string free = two_commands && is_of_command(key) && key != "software" ? "source " + key : key;
         auto same = find_key(now, free);
         while (same != now.end() && same->second != text) same = find_key(now, free.insert(0, "source "));
         if (same == now.end()) now.emplace_back(free, text);
