@@ -25,7 +25,7 @@ class Pipeline : public ::testing::Test {
     }
     ~Pipeline() override { std::filesystem::remove_all(folder_); }
 
-    LightField rendered() const { return render_light_field(load_scene("ball", request_), request_); }
+    LightField rendered() const { return render_light_field(load_scene("sphere", request_), request_); }
 
     std::filesystem::path folder_;
     LightFieldRequest request_;
@@ -41,7 +41,7 @@ std::string entry(const Provenance& provenance, const std::string& key) {
 // From a scene to a picture file, with a file after each step.
 TEST_F(Pipeline, provenance_travels_through_all_files) {
     const LightField light_field = rendered();
-    EXPECT_EQ(entry(light_field.provenance(), "scene"), "ball");
+    EXPECT_EQ(entry(light_field.provenance(), "scene"), "sphere");
     EXPECT_EQ(entry(light_field.provenance(), "renderer"), "epi");
 
     const auto radiance = folder_ / "a.h5", stream = folder_ / "a.hgl", fields = folder_ / "b.h5";
@@ -62,7 +62,7 @@ TEST_F(Pipeline, provenance_travels_through_all_files) {
         EXPECT_EQ(entry(provenance, "source command"), "third") << name;
         EXPECT_EQ(entry(provenance, "source source command"), "second") << name;
         EXPECT_EQ(entry(provenance, "source source source command"), "first") << name;
-        EXPECT_EQ(entry(provenance, "scene"), "ball") << name;
+        EXPECT_EQ(entry(provenance, "scene"), "sphere") << name;
     }
 }
 
