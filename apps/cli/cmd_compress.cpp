@@ -68,7 +68,6 @@ int compress_file(Options options, const Session& session) {
     compression.with_depth = light_field.has_depth() && !options.no_depth;
     if (compression.depth_error > 0 && !compression.with_depth)
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
-    require_resources(plan_compression(light_field, compression), "compressing", options.output);
     Stage stage(session, "compressing");
     const CompressionResult result =
         with_options({{"tiles", "--tile"},
@@ -80,7 +79,10 @@ int compress_file(Options options, const Session& session) {
                       {"SQNR", "--sqnr"},
                       {"rate", "--ppb"},
                       {"step", "--step"}},
-                     [&] { return compress(light_field, options.output, compression, stage.progress()); });
+                     [&] {
+                         require_resources(plan_compression(light_field, compression), "compressing", options.output);
+                         return compress(light_field, options.output, compression, stage.progress());
+                     });
     report_compressed(session, options.output, result);
     return 0;
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <variant>
 
 #include "hogel/error.h"
 #include "hogel/optics/photograph_plan.h"
@@ -144,7 +145,12 @@ double compressed_bytes(const LightField& light_field, const CompressionTarget& 
 
 Plan plan_compression(const LightField& light_field, const CompressionOptions& options) {
     const LightFieldGrid& grid = light_field.grid();
-    const auto coder = coders().find(options.method.coder).make(options.method, grid, {});
+    const bool exact =
+        std::holds_alternative<MaxError>(options.target) || std::holds_alternative<Lossless>(options.target);
+    CodingMethod method = exact ? CodingMethod() : options.method;
+    const CoderInfo& info = coders().find(method.coder);
+    if (method.transform.empty()) method.transform = info.transform;
+    const auto coder = info.make(method, grid, {});
     HogelRange tile = options.tile.value_or(coder->preferred_tile(grid));
     tile.ns = std::min(tile.ns, grid.hogels_s);
     tile.nt = std::min(tile.nt, grid.hogels_t);
