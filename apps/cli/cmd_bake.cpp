@@ -21,7 +21,7 @@ int bake(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_baked_scene_name(options.output);
-    require_writable(options.output);
+    require_writable(options.output, {&options.scene, 1});
     RenderOptions place;
     place.size = options.size;
     BakeOptions bake_options = options.bake;

@@ -40,7 +40,7 @@ void copy_together(const LightField& light_field, const std::vector<std::unique_
 int decompress_file(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field || !is_stream(options.input))
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
-    require_writable(options.output);
+    require_writable(options.output, {&options.input, 1});
     const LightField light_field =
         with_options({{"", "--layers"}}, [&] { return open_stream(options.input, {.layers = options.layers}); });
     LightFieldFileOptions file;

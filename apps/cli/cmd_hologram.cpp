@@ -41,7 +41,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
     if (options.render.fronts_only)
         throw Error(ErrorCode::usage, fmt::format("--cull-back-faces: method {} cannot", method.name));
-    require_writable(options.output);
+    require_writable(options.output, {&options.input, 1});
     const double width = options.render.size;
     const double height =
         width * static_cast<double>(options.render.hogels.rows) / static_cast<double>(options.render.hogels.columns);
@@ -84,7 +84,7 @@ int hologram(Options options, const Session& session) {
     if (kind == InputKind::hologram)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
-    require_writable(options.output);
+    require_writable(options.output, {&options.input, 1});
     HologramFileOptions file = options.file(session);
     HologramRequest request = options.hologram.request(session, 1);
     const LightField light_field = [&] {

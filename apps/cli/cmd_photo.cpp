@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "camera_options.h"
 #include "commands.h"
@@ -82,6 +83,11 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
     if (std::ranges::all_of(pictures, black))
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is empty; no light comes from it to the eye", options.input));
+    const auto finite = [](const Image& picture) {
+        return std::ranges::all_of(picture.pixels.elements(), [](float value) { return std::isfinite(value); });
+    };
+    if (!std::ranges::all_of(pictures, finite))
+        throw Error(ErrorCode::bad_input, fmt::format("{}: holds samples that are not finite", options.input));
     return pictures;
 }
 
@@ -164,7 +170,7 @@ int photo(const Options& options, const Session& session) {
         with_options({{"", "--frames"}}, [&] { require_movie(options.output); });
     else
         require_picture_name(options.output);
-    require_writable(options.output);
+    require_writable(options.output, {&options.input, 1});
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     require_sense(options, kind, geometric);
     std::vector<Image> pictures = kind == InputKind::hologram

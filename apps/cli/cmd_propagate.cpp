@@ -65,7 +65,7 @@ void report(const Options& options, OutputKind kind, std::span<const FieldGrid> 
 
 int propagate_fields(const Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output);
-    require_writable(options.output);
+    require_writable(options.output, {&options.input, 1});
     const Fields fields =
         open_fields(options.input, options.field, *session.command, options.pitch, options.wavelengths);
     if (kind == OutputKind::array) require_one_wavelength(fields, options.output);

@@ -105,7 +105,7 @@ int render(Options options, const Session& session) {
         throw Error(
             ErrorCode::usage,
             fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
-    require_writable(options.output);
+    require_writable(options.output, {&options.scene, 1});
     options.file.type = options.single ? SampleType::single : SampleType::half;
     static_cast<void>(options.render.request());  // throws before a scene is made
     const Scene scene = load_scene(session, options.scene, options.render);

@@ -54,7 +54,7 @@ int slm(const Options& options, const Session& session) {
     pattern_options.modulator = modulator_of(options);
     pattern_options.seed = session.seed;
     require_raw_pixels_name(options.output);
-    require_writable(options.output);
+    require_writable(options.output, {&options.input, 1});
     if (input_kind(options.input) != InputKind::hologram)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
     const Fields fields = open_hologram(options.input);

@@ -174,9 +174,8 @@ void check_holograms(std::span<const LightFieldGrid> faces, const HologramReques
                      std::span<const Camera> cameras) {
     if (faces.size() > 1 && !std::holds_alternative<Fourier>(request.method) &&
         !std::holds_alternative<Lines>(request.method))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("--method: a hemicube of {} faces takes fourier or lines", faces.size()));
+        throw Error(ErrorCode::usage,
+                    fmt::format("--method: a hemicube of {} faces takes fourier or lines", faces.size()));
     with_options({{"pupil", "--pupil, --pitch"},
                   {"the eye", "--eye, --pitch"},
                   {"horizontal parallax", "--method"},
@@ -288,7 +287,7 @@ void require_memory(const LightField& rendered, const RenderOptions& options, co
 }
 
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options) {
-    if (input_kind(name) == InputKind::light_field) return open_light_field(name);
+    if (input_kind(name) == InputKind::light_field) return require_finite(open_light_field(name), name);
     const Scene scene = load_scene(session, name, options);
     const LightField rendered = render_light_field(session, scene, options);
     require_memory(rendered, options, scene);

@@ -39,7 +39,12 @@ struct Interrupts::Impl {
 Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) {
     impl_->stop = std::move(stop);
     sigemptyset(&impl_->signals);
-    for (const int signal : {SIGINT, SIGTERM}) {
+    // A pipe that nobody reads any more is an error of writing, not the end of the program.
+    ::signal(SIGPIPE, SIG_IGN);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction inherited {};
+        if (signal == SIGHUP && sigaction(SIGHUP, nullptr, &inherited) == 0 && inherited.sa_handler == SIG_IGN)
+            continue;  // nohup
         sigaddset(&impl_->signals, signal);
         // Shells start background programs with SIGINT ignored, and ignored signals may not be delivered to sigwait().
         ::signal(signal, SIG_DFL);

@@ -6,8 +6,9 @@
 
 namespace hogel::cli {
 
-/// Ctrl-C and SIGTERM request the work to stop. A second signal more than a second later ends the program at once; the
-/// delay is needed because wrappers such as timeout(1) send the first signal twice, to the program and to its group.
+/// Ctrl-C, SIGTERM and SIGHUP request the work to stop. A second signal more than a second later ends the program at
+/// once; the delay is needed because wrappers such as timeout(1) send the first signal twice, to the program and to its
+/// group.
 ///
 /// The signals are blocked in the thread that creates this object, and so in all threads started later; a separate
 /// thread waits for them. Must be created before any other thread.

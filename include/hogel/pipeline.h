@@ -132,6 +132,10 @@ HOGEL_API LightField render_light_field(const Scene& scene, const LightFieldRequ
 HOGEL_API LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
                                          const Progress& progress = {});
 
+/// The same light field for stages that would spread a single radiance that is not finite over whole pictures: reading
+/// one throws Error(bad_input), with `name`, the hogel and the direction.
+HOGEL_API LightField require_finite(const LightField& light_field, const std::string& name);
+
 /// Writes all faces of a light field into one HDF5 file, tile by tile on all threads. Throws as create_light_field().
 HOGEL_API void write_light_field(const std::filesystem::path& path, const LightField& light_field,
                                  const LightFieldFileOptions& options, const Progress& progress = {});
@@ -194,9 +198,9 @@ HOGEL_API std::vector<std::filesystem::path> write_printer_images(const std::fil
                                                                   const PrinterImageOptions& options,
                                                                   const Progress& progress = {});
 
-/// Checks an output before long work. Throws Error(cannot_write) if its folder is missing or not writable, or if it
-/// exists and is not a regular file.
-HOGEL_API void require_writable(const std::filesystem::path& file);
+/// Checks an output before work begins. Throws Error(cannot_write) if its folder is missing or not writable or if it is
+/// not a regular file, and Error(usage) if it is one of the inputs: files, or names of scenes.
+HOGEL_API void require_writable(const std::filesystem::path& file, std::span<const std::string> inputs = {});
 
 /// Writes a text file, which appears under its name when it is complete. Throws Error(cannot_write).
 HOGEL_API void write_text(const std::filesystem::path& file, const std::string& text);

@@ -32,9 +32,9 @@ HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Pr
 /// colours and base-colour textures, glTF's metallic-roughness materials, with all node transforms applied, in the
 /// file's own units and axes. The colour of an unlit material becomes given radiance. Missing normals are added. Files
 /// outside the mesh's own folder are not opened. The scene has no lights: see add_default_lights(). assimp works in a
-/// child process whose memory and time are limited in proportion to the files (docs/files.md, "Meshes"), so that a damaged
-/// file cannot harm this one. Throws Error(bad_input) with one line: the file, and what is missing, damaged or out of
-/// range; Error(cancelled).
+/// child process whose memory and time are limited in proportion to the files (docs/files.md, "Meshes"), so that a
+/// damaged file cannot harm this one. Throws Error(bad_input) with one line: the file, and what is missing, damaged or
+/// out of range; Error(cancelled).
 HOGEL_API Scene import_scene(const std::filesystem::path& path, const Progress& progress = {});
 
 /// The size and position of a scene that fit_scene() fits to a hologram.

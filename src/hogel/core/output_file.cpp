@@ -3,10 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
+#include <limits>
 #include <string>
 #include <system_error>
 
@@ -21,30 +24,84 @@ namespace {
 
 std::string message(int error) { return std::generic_category().message(error); }
 
-}  // namespace
+// Locks one byte far behind the end of a file, which no other lock of the file covers. Returns whether that worked; the
+// lock ends with the descriptor.
+bool lock(int descriptor) {
+    struct flock range {};
+    range.l_type = F_WRLCK;
+    range.l_whence = SEEK_SET;
+    range.l_start = std::numeric_limits<off_t>::max() - 1;
+    range.l_len = 1;
+    return ::fcntl(descriptor, F_OFD_SETLK, &range) == 0;
+}
 
-OutputFile::OutputFile(const std::filesystem::path& target, Unfinished unfinished)
-    : target_(target), final_name_(target), unfinished_(unfinished) {
-    static std::atomic<unsigned> count{0};
+// Removes the temporaries of processes that were killed while they wrote the file of this name.
+void remove_stale_temporaries(const std::filesystem::path& directory, const std::string& name) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
+        const std::string file = entry.path().filename().string();
+        int pid = 0, parsed = 0;
+        unsigned number = 0;
+        const std::string begin = fmt::format(".{}.", name);
+        if (!file.starts_with(begin) ||
+            std::sscanf(file.c_str() + begin.size(), "%d.%u.tmp%n", &pid, &number, &parsed) != 2 ||
+            static_cast<std::size_t>(parsed) != file.size() - begin.size() || pid <= 0)
+            continue;
+        if (::kill(pid, 0) == 0 || errno != ESRCH) continue;
+        const int descriptor = ::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+        if (descriptor < 0) continue;
+        // A process of another machine that shares the folder may hold the lock.
+        if (lock(descriptor)) std::filesystem::remove(entry.path(), none);
+        ::close(descriptor);
+    }
+}
+
+std::filesystem::path directory_of(const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+// The file that a target names, behind a link, which can be written as far as its kind and its directory's tell.
+std::filesystem::path final_name_of(const std::filesystem::path& target) {
     if (target.filename().empty()) fail(target, "it has no file name");
     std::error_code status;
-    if (std::filesystem::is_symlink(std::filesystem::symlink_status(target, status)))
-        final_name_ = std::filesystem::weakly_canonical(target, status);
-    const std::filesystem::file_status there = std::filesystem::status(final_name_, status);
+    const bool link = std::filesystem::is_symlink(std::filesystem::symlink_status(target, status));
+    const std::filesystem::path file = link ? std::filesystem::weakly_canonical(target, status) : target;
+    const std::filesystem::file_status there = std::filesystem::status(file, status);
     if (std::filesystem::is_directory(there)) fail(target, "it is a directory");
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
         fail(target, "it is not a plain file");
-    const std::filesystem::path directory = final_name_.has_parent_path() ? final_name_.parent_path() : ".";
+    const std::filesystem::path directory = directory_of(file);
     if (!std::filesystem::is_directory(directory, status))
         fail(target, fmt::format("there is no directory '{}'", directory.string()));
+    return file;
+}
+
+}  // namespace
+
+void require_target(const std::filesystem::path& target) {
+    if (::access(directory_of(final_name_of(target)).c_str(), W_OK) != 0) fail(target, "its directory is not writable");
+}
+
+OutputFile::OutputFile(const std::filesystem::path& target, Unfinished unfinished)
+    : target_(target), final_name_(final_name_of(target)), unfinished_(unfinished) {
+    static std::atomic<unsigned> count{0};
+    const std::filesystem::path directory = directory_of(final_name_);
     const std::string name = final_name_.filename().string();
-    temporary_ = directory / (unfinished == Unfinished::kept ? fmt::format("{}.part", name)
-                                                             : fmt::format(".{}.{}.{}.tmp", name, ::getpid(), count++));
+    if (unfinished == Unfinished::kept) {
+        temporary_ = directory / fmt::format("{}.part", name);
+        return;
+    }
+    remove_stale_temporaries(directory, name);
+    temporary_ = directory / fmt::format(".{}.{}.{}.tmp", name, ::getpid(), count++);
+    lock_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (lock_ < 0) fail(target, message(errno));
+    lock(lock_);  // where a file system has no locks, the process number alone tells
 }
 
 OutputFile::~OutputFile() {
     std::error_code ignored;
     if (!committed_ && unfinished_ == Unfinished::removed) std::filesystem::remove(temporary_, ignored);
+    if (lock_ >= 0) ::close(lock_);
 }
 
 void OutputFile::commit() {

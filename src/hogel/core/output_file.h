@@ -9,12 +9,14 @@ namespace hogel::core {
 
 /// A file that appears under its name only when it is complete. It is written as a temporary file in the target's
 /// folder, which commit() renames and the destructor removes. A symbolic link is followed, so that its target is
-/// replaced.
+/// replaced. A process that is killed leaves its temporary; the next one that writes the same file removes it, which it
+/// knows by a lock that the kernel drops with the process.
 class OutputFile {
   public:
     /// Whether a file that is not committed is removed, or kept under the target's name with ".part" appended.
     enum class Unfinished { removed, kept };
-    /// Throws Error(cannot_write) if the directory does not exist, or if the target exists and is not a regular file.
+    /// Creates the temporary. Throws Error(cannot_write) if that fails, or if the target exists and is not a regular
+    /// file.
     explicit OutputFile(const std::filesystem::path& target, Unfinished unfinished = Unfinished::removed);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -29,7 +31,12 @@ class OutputFile {
     std::filesystem::path target_, final_name_, temporary_;
     Unfinished unfinished_;
     bool committed_ = false;
+    int lock_ = -1;  // a descriptor of the temporary that holds the lock
 };
+
+/// Throws Error(cannot_write) where an OutputFile of this target could not be created, as far as that shows without
+/// creating one: it has no name, its directory is missing or not writable, or it exists and is not a regular file.
+void require_target(const std::filesystem::path& target);
 
 /// Writes a file, which appears under its name when it is complete. Throws Error(cannot_write).
 void write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);

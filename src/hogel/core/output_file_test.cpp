@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/core/output_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -79,6 +80,32 @@ TEST_F(OutputFileTest, errors_say_what_is_in_the_way) {
     EXPECT_NE(refusal("/dev/null").find("not a plain file"), std::string::npos);
     EXPECT_NE(refusal(directory_ / "a" / "").find("no file name"), std::string::npos);
     EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(OutputFileTest, temporaries_of_killed_processes_are_removed_by_the_next) {
+    const fs::path target = directory_ / "a.bin";
+    const pid_t child = fork();
+    if (child == 0) {
+        const OutputFile file(target);
+        kill(getpid(), SIGKILL);
+    }
+    waitpid(child, nullptr, 0);
+    EXPECT_EQ(files(), 1u);
+    std::ofstream(directory_ / fmt::format(".a.bin.{}.7.tmp.txt", child)) << "another's";
+    std::ofstream(directory_ / fmt::format(".b.bin.{}.7.tmp", child)) << "of another target";
+    {
+        const OutputFile other(directory_ / "c.bin");
+        EXPECT_EQ(files(), 4u);
+        const OutputFile file(target);
+        EXPECT_EQ(files(), 4u);
+        EXPECT_TRUE(fs::exists(other.temporary()));
+        EXPECT_TRUE(fs::exists(file.temporary()));
+        // Of two that are written at the same time neither is stale.
+        const OutputFile twin(target);
+        EXPECT_TRUE(fs::exists(file.temporary()));
+        EXPECT_NE(twin.temporary(), file.temporary());
+    }
+    EXPECT_EQ(files(), 2u);
 }
 
 TEST_F(OutputFileTest, a_full_disk_leaves_the_old_file) {

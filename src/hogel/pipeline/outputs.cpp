@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Outputs other than light fields and holograms, and checks of outputs before work begins.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 
@@ -59,10 +58,14 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
     return names;
 }
 
-void require_writable(const std::filesystem::path& file) {
-    const core::OutputFile output(file);  // throws for a missing folder, or if the file is a folder
-    if (access(output.temporary().parent_path().c_str(), W_OK) != 0)
-        throw Error(ErrorCode::cannot_write, fmt::format("{}: the folder is not writable", file.string()));
+void require_writable(const std::filesystem::path& file, std::span<const std::string> inputs) {
+    core::require_target(file);
+    std::error_code none;
+    for (const std::string& input : inputs)
+        if (std::filesystem::equivalent(file, input, none))
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("{}: is an input, which the output would replace; expected another name", file.string()));
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
