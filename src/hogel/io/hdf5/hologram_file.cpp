@@ -8,6 +8,7 @@
 #include "hogel/error.h"
 #include "hogel/files.h"
 #include "hogel/io/hdf5/grids.h"
+#include "hogel/io/hdf5/rehearsal.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -170,15 +171,16 @@ using namespace io;
 using namespace io::hdf5;
 
 Fields open_hologram(const std::filesystem::path& path) {
-    const hdf5::Session session;
-    const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
-    const hdf5::Handle file = hdf5::open_file(path);
-    const Provenance provenance = to_provenance(hdf5::read_metadata(file.id(), path));
-    Fields fields;
-    for (const FieldGrid& grid : read_hologram_grids(file.id(), path))
-        fields.push_back(
-            std::make_shared<FieldReader>(grid, provenance, samples_of_field(file.id(), fields.size(), grid, raw)));
-    return fields;
+    return with_rehearsal(path, [&] {
+        const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
+        const hdf5::Handle file = hdf5::open_file(path);
+        const Provenance provenance = to_provenance(hdf5::read_metadata(file.id(), path));
+        Fields fields;
+        for (const FieldGrid& grid : read_hologram_grids(file.id(), path))
+            fields.push_back(
+                std::make_shared<FieldReader>(grid, provenance, samples_of_field(file.id(), fields.size(), grid, raw)));
+        return fields;
+    });
 }
 
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,

@@ -8,6 +8,7 @@
 #include "hogel/io/hdf5/dataset.h"
 #include "hogel/io/hdf5/files.h"
 #include "hogel/io/hdf5/grids.h"
+#include "hogel/io/hdf5/rehearsal.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -180,13 +181,14 @@ DatasetReader radiance_of_front(hid_t file, const LightFieldGrid& grid,
 }
 
 LightField open_light_field(const std::filesystem::path& path) {
-    std::vector<LightField::Source> faces;
-    const hdf5::Session session;
-    const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
-    const hdf5::Handle file = hdf5::open_file(path);
-    for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
-        faces.push_back(std::make_shared<LightFieldReader>(file.id(), grid, path, raw));
-    return LightField(std::move(faces), to_provenance(read_metadata(file.id(), path)));
+    return with_rehearsal(path, [&] {
+        std::vector<LightField::Source> faces;
+        const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
+        const hdf5::Handle file = hdf5::open_file(path);
+        for (const LightFieldGrid& grid : read_light_field_grids(file.id(), path))
+            faces.push_back(std::make_shared<LightFieldReader>(file.id(), grid, path, raw));
+        return LightField(std::move(faces), to_provenance(read_metadata(file.id(), path)));
+    });
 }
 
 }  // namespace hogel::io::hdf5

@@ -3,6 +3,7 @@
 
 #include "hogel/io/hdf5/files.h"
 #include "hogel/io/hdf5/grids.h"
+#include "hogel/io/hdf5/rehearsal.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -29,24 +30,28 @@ void summarize_hologram(hid_t file, const std::filesystem::path& path, FileSumma
 }  // namespace
 
 FileKind kind_of(const std::filesystem::path& path) {
-    const Session session;
-    const Handle file = open_file(path);
-    if (!has_attribute(file.id(), "format", path)) return FileKind::unknown;
-    const std::string format = read_text(file.id(), "format", path);
-    if (format == light_field_format) return FileKind::light_field;
-    return format == hologram_format ? FileKind::hologram : FileKind::unknown;
+    return with_rehearsal(path, [&] {
+        const Handle file = open_file(path);
+        if (!has_attribute(file.id(), "format", path)) return FileKind::unknown;
+        const std::string format = read_text(file.id(), "format", path);
+        if (format == light_field_format) return FileKind::light_field;
+        return format == hologram_format ? FileKind::hologram : FileKind::unknown;
+    });
 }
 
 void summarize(const std::filesystem::path& path, FileSummary& summary) {
-    const Session session;
-    const Handle file = open_file(path);
-    summary.text.emplace_back("format", read_text(file.id(), "format", path));
-    summary.numbers.emplace_back("format_version", static_cast<double>(read_count(file.id(), "format_version", path)));
-    if (summary.kind == FileKind::light_field)
-        summarize_light_field(file.id(), path, summary);
-    else
-        summarize_hologram(file.id(), path, summary);
-    for (auto& word : read_metadata(file.id(), path)) summary.text.push_back(std::move(word));
+    summary = with_rehearsal(path, [&, facts = summary] {
+        FileSummary all = facts;
+        const Handle file = open_file(path);
+        all.text.emplace_back("format", read_text(file.id(), "format", path));
+        all.numbers.emplace_back("format_version", static_cast<double>(read_count(file.id(), "format_version", path)));
+        if (all.kind == FileKind::light_field)
+            summarize_light_field(file.id(), path, all);
+        else
+            summarize_hologram(file.id(), path, all);
+        for (auto& word : read_metadata(file.id(), path)) all.text.push_back(std::move(word));
+        return all;
+    });
 }
 
 }  // namespace hogel::io::hdf5
