@@ -171,7 +171,7 @@ using namespace io;
 using namespace io::hdf5;
 
 Fields open_hologram(const std::filesystem::path& path) {
-    return with_rehearsal(path, [&] {
+    return with_rehearsal(path, "hologram", [&] {
         const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
         const hdf5::Handle file = hdf5::open_file(path);
         const Provenance provenance = to_provenance(hdf5::read_metadata(file.id(), path));

@@ -181,7 +181,7 @@ DatasetReader radiance_of_front(hid_t file, const LightFieldGrid& grid,
 }
 
 LightField open_light_field(const std::filesystem::path& path) {
-    return with_rehearsal(path, [&] {
+    return with_rehearsal(path, "light field", [&] {
         std::vector<LightField::Source> faces;
         const auto raw = std::make_shared<core::RawFile>(path, core::RawFile::Mode::read, path);
         const hdf5::Handle file = hdf5::open_file(path);

@@ -10,16 +10,17 @@
 namespace hogel::io::hdf5 {
 
 /// Does `work`, which reads the structure of a file with HDF5, in a child process, because the library crashes on some
-/// damaged files whose checksums are right. What it throws there does not matter. Throws Error(bad_input) if the child
-/// crashed, hung or took too much memory; Error(cancelled).
-/// The caller holds a Session: then no other thread is inside HDF5 when the child is made.
-void rehearse(const std::filesystem::path& path, const std::function<void()>& work);
+/// damaged files whose checksums are right. What it throws there does not matter. The work is told by a name: where the
+/// same was done on the same, unchanged file before, nothing is done. Throws Error(bad_input) if the child crashed,
+/// hung or took too much memory; Error(cancelled). The caller holds a Session: then no other thread is inside HDF5 when
+/// the child is made.
+void rehearse(const std::filesystem::path& path, const char* name, const std::function<void()>& work);
 
 /// Result of `work` in a session, after a rehearsal.
 template <class Work>
-auto with_rehearsal(const std::filesystem::path& path, const Work& work) {
+auto with_rehearsal(const std::filesystem::path& path, const char* name, const Work& work) {
     const Session session;
-    rehearse(path, [&] { static_cast<void>(work()); });
+    rehearse(path, name, [&] { static_cast<void>(work()); });
     return work();
 }
 

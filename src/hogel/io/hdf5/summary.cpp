@@ -30,7 +30,7 @@ void summarize_hologram(hid_t file, const std::filesystem::path& path, FileSumma
 }  // namespace
 
 FileKind kind_of(const std::filesystem::path& path) {
-    return with_rehearsal(path, [&] {
+    return with_rehearsal(path, "kind", [&] {
         const Handle file = open_file(path);
         if (!has_attribute(file.id(), "format", path)) return FileKind::unknown;
         const std::string format = read_text(file.id(), "format", path);
@@ -40,7 +40,7 @@ FileKind kind_of(const std::filesystem::path& path) {
 }
 
 void summarize(const std::filesystem::path& path, FileSummary& summary) {
-    summary = with_rehearsal(path, [&, facts = summary] {
+    summary = with_rehearsal(path, "summary", [&, facts = summary] {
         FileSummary all = facts;
         const Handle file = open_file(path);
         all.text.emplace_back("format", read_text(file.id(), "format", path));
