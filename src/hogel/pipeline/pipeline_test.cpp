@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "hogel/error.h"
 #include "hogel/units.h"
@@ -103,6 +104,26 @@ TEST_F(Pipeline, photographs_go_into_the_callers_pictures) {
         EXPECT_TRUE(std::ranges::equal(pictures[i].pixels.elements(), waves[i].pixels.elements())) << i;
     EXPECT_THROW(photograph_into(light_field, cameras, {}, {pictures.data(), 1}), Error);
     EXPECT_THROW(photograph_into(*hologram, cameras, {}, {pictures.data(), 1}), Error);
+}
+
+TEST_F(Pipeline, radiance_that_is_not_finite_is_refused_by_place) {
+    for (const float value : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        LightFieldBuffer rays({5, 4, 64_um, 8, 6, Perspective{0.1, 0.1}, 3});
+        rays.radiance(1, 3, 2, 4, 5) = value;
+        LightFieldFileOptions file;
+        file.type = SampleType::single;
+        write_light_field(folder_ / "a.h5", borrow(rays), file);
+        HologramRequest request;
+        const LightField light_field = open_for_holograms(folder_ / "a.h5", request, false);
+        try {
+            photograph(light_field, std::vector{camera_for(0.3e-3, 0.3e-3, 8)});
+            ADD_FAILURE() << "took " << value;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+            EXPECT_NE(std::string(error.what()).find("hogel (2, 3) in direction (5, 4), channel 1"), std::string::npos)
+                << error.what();
+        }
+    }
 }
 
 // Apart from its samples a file has a few kilobytes.

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <system_error>
 
 #include "hogel/error.h"
@@ -17,10 +18,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "samples are written as they are in memory");
 
-std::recursive_mutex& process_mutex() {
-    static std::recursive_mutex mutex;
+// A thread may begin a session inside another. Not a recursive mutex: in a child process (rehearsal.h) that would not
+// know the thread that made the child as its owner.
+std::mutex& process_mutex() {
+    static std::mutex mutex;
     return mutex;
 }
+thread_local int sessions = 0;  // of this thread, one inside the other
 
 std::uint64_t little_endian(const unsigned char* bytes, int n) {
     std::uint64_t value = 0;
@@ -56,7 +60,8 @@ void check_superblock(const std::filesystem::path& path) {
 
 }  // namespace
 
-Session::Session() : lock_(process_mutex()) {
+Session::Session() {
+    if (sessions++ == 0) process_mutex().lock();
     // Disables HDF5's shutdown at exit, because after a wrong checksum HDF5 1.10 fails there and prints errors. Every
     // file is closed by its Handle, so nothing is lost.
     static const herr_t first_call = H5dont_atexit();
@@ -65,7 +70,10 @@ Session::Session() : lock_(process_mutex()) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Session::~Session() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+Session::~Session() {
+    H5Eset_auto2(H5E_DEFAULT, print_, print_data_);
+    if (--sessions == 0) process_mutex().unlock();
+}
 
 std::string reason() {
     std::string text = "HDF5 gave no reason";

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,7 +25,6 @@ class Session {
     Session& operator=(const Session&) = delete;
 
   private:
-    std::lock_guard<std::recursive_mutex> lock_;
     H5E_auto2_t print_ = nullptr;
     void* print_data_ = nullptr;
 };

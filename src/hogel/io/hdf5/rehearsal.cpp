@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <set>
 #include <string>
 #include <tuple>
@@ -26,10 +27,16 @@ Identity identity_of(const std::filesystem::path& path, const char* work) {
         work, s.st_dev, s.st_ino, s.st_size, s.st_mtim.tv_sec, s.st_mtim.tv_nsec, s.st_ctim.tv_sec, s.st_ctim.tv_nsec};
 }
 
+std::atomic<int> off = 0;
+
 }  // namespace
+
+NoRehearsal::NoRehearsal() { ++off; }
+NoRehearsal::~NoRehearsal() { --off; }
 
 void rehearse(const std::filesystem::path& path, const char* name, const std::function<void()>& work) {
     static std::set<Identity> survived;  // guarded by the caller's session
+    if (off > 0) return;
     const Identity identity = identity_of(path, name);
     if (survived.contains(identity)) return;
     for (int attempt = 1;; ++attempt) {

@@ -16,6 +16,15 @@ namespace hogel::io::hdf5 {
 /// the child is made.
 void rehearse(const std::filesystem::path& path, const char* name, const std::function<void()>& work);
 
+/// While it exists, rehearse() does nothing: for tests that read thousands of files whose damage HDF5 itself detects.
+class NoRehearsal {
+  public:
+    NoRehearsal();
+    ~NoRehearsal();
+    NoRehearsal(const NoRehearsal&) = delete;
+    NoRehearsal& operator=(const NoRehearsal&) = delete;
+};
+
 /// Result of `work` in a session, after a rehearsal.
 template <class Work>
 auto with_rehearsal(const std::filesystem::path& path, const char* name, const Work& work) {
