@@ -76,8 +76,8 @@ struct Pattern {
     /// squares of `window` pixels. This is the measure for light fields, where the phases between directions are
     /// arbitrary.
     double light_field_efficiency = 0;
-    /// Of the reference wave, radians; 0 without one. The order that shows the hologram leaves at the opposite angle,
-    /// also where successive columns make it.
+    /// Angle of the reference wave, radians; 0 without one. The order that shows the hologram leaves at the opposite
+    /// angle, also where successive columns make it.
     double reference_angle = 0;
 };
 

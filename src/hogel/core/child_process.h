@@ -70,4 +70,20 @@ class ChildProcess {
     int pipe_ = -1;
 };
 
+/// The result of use(child) for a child that does `work`. A child that is stuck has met a lock of another thread of
+/// this process, which is rare: the work is tried once more. Throws ChildFailure as ChildProcess::read() does.
+template <class Use>
+auto with_child(const ChildLimits& limits, const std::function<void(int pipe)>& work, const Use& use) {
+    const auto attempt = [&] {
+        ChildProcess child(limits, work);
+        return use(child);
+    };
+    try {
+        return attempt();
+    } catch (const ChildFailure& failure) {
+        if (failure.kind() != ChildFailure::Kind::stuck) throw;
+    }
+    return attempt();
+}
+
 }  // namespace hogel::core

@@ -100,7 +100,7 @@ TEST_F(OutputFileTest, temporaries_of_killed_processes_are_removed_by_the_next) 
         EXPECT_EQ(files(), 4u);
         EXPECT_TRUE(fs::exists(other.temporary()));
         EXPECT_TRUE(fs::exists(file.temporary()));
-        // Of two that are written at the same time neither is stale.
+        // Two that are written at the same time are not stale.
         const OutputFile twin(target);
         EXPECT_TRUE(fs::exists(file.temporary()));
         EXPECT_NE(twin.temporary(), file.temporary());

@@ -185,8 +185,8 @@ std::vector<const Block*> warped_blocks(const HogelOrder::Hogel& hogel, const st
             if (column >= grid.columns || row >= grid.rows) continue;
             const std::int64_t du = u % side - half, dv = v % side - half;
             const std::int64_t here = du * du + dv * dv + apart * shift_unit * shift_unit / 2;
-            // Of several blocks warped to the same place, the nearer surface hides the farther one; on one surface the
-            // block nearest to the middle is taken.
+            // If several blocks are warped to the same place, the nearer surface hides the farther one; on one surface
+            // the block nearest to the middle is taken.
             const Block*& kept = warped[row * grid.columns + column];
             std::int64_t& kept_distance = distance[row * grid.columns + column];
             if (!kept || disparity > kept->disparity + one_surface ||

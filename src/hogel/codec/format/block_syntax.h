@@ -21,7 +21,7 @@ struct Block {
     std::array<std::uint8_t, 3> basis{};  // per channel, an index of `bases`
     std::int16_t disparity = 0;           // main disparity
     bool not_first = false;               // the main disparity is not the first predictor candidate
-    // Of a partitioned block:
+    // Partitioned blocks only:
     std::uint8_t edge = 0;
     std::int16_t second_disparity = 0;
     std::array<std::uint8_t, 2> side{};  // sides from which the main and the second partition are predicted

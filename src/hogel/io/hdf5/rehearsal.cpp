@@ -39,25 +39,22 @@ void rehearse(const std::filesystem::path& path, const char* name, const std::fu
     if (off > 0) return;
     const Identity identity = identity_of(path, name);
     if (survived.contains(identity)) return;
-    for (int attempt = 1;; ++attempt) {
-        core::ChildProcess child(limits, [&](int pipe) {
-            try {
-                work();
-            } catch (...) {  // the same comes in this process, where it can be reported
-            }
-            core::ChildProcess::write(pipe, "y", 1);
-        });
+    const auto work_and_tell = [&](int pipe) {
         try {
+            work();
+        } catch (...) {  // the same comes in this process, where it can be reported
+        }
+        core::ChildProcess::write(pipe, "y", 1);
+    };
+    try {
+        core::with_child(limits, work_and_tell, [](core::ChildProcess& child) {
             char done = 0;
             child.read(&done, 1);
-            if (survived.size() < 1000) survived.insert(identity);
-            return;
-        } catch (const core::ChildFailure& failure) {
-            // A lock of another thread, of the allocator or a stream, see ChildProcess; it is rare.
-            if (failure.kind() == core::ChildFailure::Kind::stuck && attempt == 1) continue;
-            fail(path, fmt::format("the HDF5 library {} on it", failure.what()));
-        }
+        });
+    } catch (const core::ChildFailure& failure) {
+        fail(path, fmt::format("the HDF5 library {} on it", failure.what()));
     }
+    if (survived.size() < 1000) survived.insert(identity);
 }
 
 }  // namespace hogel::io::hdf5

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <type_traits>
 
 #include "hogel/io/hdf5/hdf5.h"
 

@@ -28,16 +28,12 @@ constexpr double crease = 60 * std::numbers::pi / 180;  // missing normals are s
 /// What assimp makes of the file, in a child process: it crashes on damaged files of many formats.
 Imported import_in_child(const std::filesystem::path& path, const std::string& file, std::string_view contents) {
     const std::uint64_t bytes = std::filesystem::file_size(path);
-    for (int attempt = 1;; ++attempt) {
-        core::ChildProcess child(child_limits(bytes),
-                                 [&](int pipe) { import_with_assimp(path, file, contents, pipe); });
-        try {
-            return receive(child, path.parent_path(), file);
-        } catch (const core::ChildFailure& failure) {
-            // A lock of another thread of this process, see ChildProcess; the next child hardly meets it again.
-            if (failure.kind() == core::ChildFailure::Kind::stuck && attempt == 1) continue;
-            reject_file(file, fmt::format("the mesh reader {}", failure.what()), "an undamaged mesh file");
-        }
+    try {
+        return core::with_child(
+            child_limits(bytes), [&](int pipe) { import_with_assimp(path, file, contents, pipe); },
+            [&](core::ChildProcess& child) { return receive(child, path.parent_path(), file); });
+    } catch (const core::ChildFailure& failure) {
+        reject_file(file, fmt::format("the mesh reader {}", failure.what()), "an undamaged mesh file");
     }
 }
 
