@@ -87,6 +87,28 @@ function(hogel_library)
   add_dependencies(hogel check_includes)
 endfunction()
 
+# For what runs for moments or only in tests: compiling it takes longer than -O3 would ever save. The library's own objects,
+# which the tests are about, are optimised as ever.
+function(hogel_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# Compiles gtest and the larger standard headers once, and TARGET's sources with the result.
+function(hogel_precompiled_tests target)
+  if(NOT TARGET hogel_tests_precompiled)
+    # A program, as the tests are: code for programs and for libraries is compiled with different options.
+    file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/tests_precompiled.cpp CONTENT "int main() {}\n")
+    add_executable(hogel_tests_precompiled EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/tests_precompiled.cpp)
+    hogel_compile_options(hogel_tests_precompiled)
+    hogel_compile_quickly(hogel_tests_precompiled)
+    target_link_libraries(hogel_tests_precompiled PRIVATE GTest::gtest)
+    target_precompile_headers(hogel_tests_precompiled PRIVATE <gtest/gtest.h> <algorithm> <cmath> <complex> <filesystem>
+                              <fstream> <functional> <map> <optional> <random> <span> <sstream> <string> <variant> <vector>)
+  endif()
+  hogel_compile_quickly(${target})
+  target_precompile_headers(${target} REUSE_FROM hogel_tests_precompiled)
+endfunction()
+
 # A program of the project's own that may use every header: a benchmark, or a test of what crosses modules.
 function(hogel_internal_program name)
   add_executable(${name} ${ARGN})
@@ -105,6 +127,7 @@ function(hogel_module_tests)
       add_executable(${module}_tests ${tests})
       hogel_compile_options(${module}_tests)
       hogel_private_includes(${module}_tests)
+      hogel_precompiled_tests(${module}_tests)
       get_property(other GLOBAL PROPERTY HOGEL_TESTED_WITH_${module})
       if(other)
         target_link_libraries(${module}_tests PRIVATE hogel_${other}_archive)
