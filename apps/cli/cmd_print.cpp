@@ -18,7 +18,7 @@ struct Options {
 int print(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
-    const LightField light_field = require_finite(open_light_field(options.input), options.input);
+    const LightField light_field = open_light_field(options.input);
     const OutputFolder folder(options.output, options.force);
     Stage stage(session, "pictures");
     const auto names = write_printer_images(folder.path(), light_field,

@@ -287,7 +287,7 @@ void require_memory(const LightField& rendered, const RenderOptions& options, co
 }
 
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options) {
-    if (input_kind(name) == InputKind::light_field) return require_finite(open_light_field(name), name);
+    if (input_kind(name) == InputKind::light_field) return open_light_field(name);
     const Scene scene = load_scene(session, name, options);
     const LightField rendered = render_light_field(session, scene, options);
     require_memory(rendered, options, scene);

@@ -27,7 +27,7 @@ enum class SampleType { half, single };
 /// metres) for each face. The sampling is in attributes of "radiance"; docs/files.md names them all. Opening reads only
 /// the header. Contiguous datasets, as hogel writes them, are read by all threads at once, chunked or compressed ones
 /// by one thread at a time. Throws Error(bad_input) for a file that is missing, damaged, truncated, inconsistent or of
-/// another kind.
+/// another kind; and reading a radiance that is not finite throws it, with the file, the hogel and the direction.
 HOGEL_API LightField open_light_field(const std::filesystem::path& path);
 
 /// Options of create_light_field().

@@ -132,10 +132,6 @@ HOGEL_API LightField render_light_field(const Scene& scene, const LightFieldRequ
 HOGEL_API LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,
                                          const Progress& progress = {});
 
-/// The same light field for stages that would spread a single radiance that is not finite over whole pictures: reading
-/// one throws Error(bad_input), with `name`, the hogel and the direction.
-HOGEL_API LightField require_finite(const LightField& light_field, const std::string& name);
-
 /// Writes all faces of a light field into one HDF5 file, tile by tile on all threads. Throws as create_light_field().
 HOGEL_API void write_light_field(const std::filesystem::path& path, const LightField& light_field,
                                  const LightFieldFileOptions& options, const Progress& progress = {});

@@ -33,8 +33,9 @@ inline float float_of(std::uint16_t half) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(bits) | (std::uint32_t{half} & 0x8000u) << 16);
 }
 
-/// half_of() and float_of() of n values of an array.
+/// half_of() of n values of an array.
 void to_half(const float* from, std::uint16_t* to, std::size_t n);
-void to_float(const std::uint16_t* from, float* to, std::size_t n);
+/// float_of() of n values of an array. Returns whether none of them is infinite or NaN.
+bool to_float(const std::uint16_t* from, float* to, std::size_t n);
 
 }  // namespace hogel::core

@@ -26,15 +26,29 @@ void ToHalf(const float* from, std::uint16_t* to, std::size_t n) {
     for (; i < n; ++i) to[i] = half_of(from[i]);
 }
 
-void ToFloat(const std::uint16_t* from, float* to, std::size_t n) {
+// A half is infinite or NaN if all bits of its exponent are set, so that adding 1 to it carries into the place of the
+// sign: one addition finds out for all numbers of a vector, whose carries are gathered.
+bool ToFloat(const std::uint16_t* from, float* to, std::size_t n) {
     std::size_t i = 0;
+    bool finite = true;
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
     const hn::ScalableTag<float> d;
     const hn::Rebind<hwy::float16_t, decltype(d)> halves;
-    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d))
-        hn::StoreU(hn::PromoteTo(d, hn::LoadU(halves, reinterpret_cast<const hwy::float16_t*>(from + i))), d, to + i);
+    const hn::Rebind<std::uint16_t, decltype(d)> bits;
+    auto carries = hn::Zero(bits);
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d)) {
+        const auto half = hn::LoadU(bits, from + i);
+        carries = hn::Or(carries, hn::Add(hn::And(half, hn::Set(bits, 0x7fff)), hn::Set(bits, 0x0400)));
+        hn::StoreU(hn::PromoteTo(d, hn::BitCast(halves, half)), d, to + i);
+    }
+    finite = hn::AllTrue(bits, hn::Eq(hn::And(carries, hn::Set(bits, 0x8000)), hn::Zero(bits)));
 #endif
-    for (; i < n; ++i) to[i] = float_of(from[i]);
+    std::uint16_t rest = 0;
+    for (; i < n; ++i) {
+        rest = static_cast<std::uint16_t>(rest | ((from[i] & 0x7fff) + 0x0400));
+        to[i] = float_of(from[i]);
+    }
+    return finite && (rest & 0x8000) == 0;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -48,7 +62,9 @@ HWY_EXPORT(ToHalf);
 HWY_EXPORT(ToFloat);
 
 void to_half(const float* from, std::uint16_t* to, std::size_t n) { HWY_DYNAMIC_DISPATCH(ToHalf)(from, to, n); }
-void to_float(const std::uint16_t* from, float* to, std::size_t n) { HWY_DYNAMIC_DISPATCH(ToFloat)(from, to, n); }
+bool to_float(const std::uint16_t* from, float* to, std::size_t n) {
+    return HWY_DYNAMIC_DISPATCH(ToFloat)(from, to, n);
+}
 
 }  // namespace hogel::core
 #endif

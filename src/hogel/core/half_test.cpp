@@ -42,6 +42,20 @@ TEST_P(Half, all_65536_values_are_those_of_IEEE_754_and_convert_back) {
     }
 }
 
+TEST_P(Half, a_number_that_is_not_finite_is_found_anywhere) {
+    for (std::size_t n = 1; n < 70; ++n) {
+        std::vector<std::uint16_t> halves(n, 0xfbff);  // the lowest finite number
+        std::vector<float> values(n);
+        ASSERT_TRUE(to_float(halves.data(), values.data(), n)) << n;
+        for (std::size_t i = 0; i < n; ++i)
+            for (const std::uint16_t bad : {0x7c00, 0xfc00, 0x7c01, 0xffff}) {
+                halves[i] = bad;
+                ASSERT_FALSE(to_float(halves.data(), values.data(), n)) << n << ' ' << i << ' ' << bad;
+                halves[i] = 0xfbff;
+            }
+    }
+}
+
 TEST(Half, rounds_to_nearest_and_ties_to_even) {
     for (unsigned h = 0; h < 0x7c00; ++h) {
         // The half after the largest would be 65536, so from the midpoint 65520 on the result is infinite.

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "hogel/compress.h"
+#include "hogel/io/finite.h"
 #include "hogel/io/hdf5/files.h"
 #include "hogel/io/summary.h"
 
@@ -91,7 +92,7 @@ FileSummary summarize(const std::filesystem::path& path) {
 }
 
 LightField open_light_field(const std::filesystem::path& path) {
-    return is_stream(path) ? open_stream(path) : io::hdf5::open_light_field(path);
+    return is_stream(path) ? io::require_finite(open_stream(path), path) : io::hdf5::open_light_field(path);
 }
 
 }  // namespace hogel

@@ -107,11 +107,15 @@ TEST_F(Pipeline, photographs_go_into_the_callers_pictures) {
 }
 
 TEST_F(Pipeline, radiance_that_is_not_finite_is_refused_by_place) {
-    for (const float value : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    for (const auto& [value, type] : {std::pair{infinity, SampleType::single},
+                                      {nan, SampleType::single},
+                                      {infinity, SampleType::half},
+                                      {nan, SampleType::half}}) {
         LightFieldBuffer rays({5, 4, 64_um, 8, 6, Perspective{0.1, 0.1}, 3});
         rays.radiance(1, 3, 2, 4, 5) = value;
         LightFieldFileOptions file;
-        file.type = SampleType::single;
+        file.type = type;
         write_light_field(folder_ / "a.h5", borrow(rays), file);
         HologramRequest request;
         const LightField light_field = open_for_holograms(folder_ / "a.h5", request, false);

@@ -7,6 +7,7 @@
 
 #include "hogel/core/half.h"
 #include "hogel/error.h"
+#include "hogel/io/finite.h"
 #include "hogel/io/hdf5/dataset.h"
 
 namespace hogel::io::hdf5 {
@@ -147,28 +148,32 @@ void DatasetReader::read_by_hdf5(const Box& box, void* to) const {
         fail("cannot be read: " + hdf5::reason());
 }
 
-void DatasetReader::read(const Box& box, float* to) const {
+bool DatasetReader::read(const Box& box, float* to) const {
     const bool half = element_ == Element::half;
+    bool finite = true;
     if (dataset_.valid() && half) {
         std::vector<std::uint16_t> halves(samples_of(box.extent));
         read_by_hdf5(box, halves.data());
-        core::to_float(halves.data(), to, halves.size());
+        finite = core::to_float(halves.data(), to, halves.size());
     } else if (dataset_.valid()) {
         read_by_hdf5(box, to);
+        finite = all_finite({to, samples_of(box.extent)});
     } else if (half) {
         std::vector<std::uint16_t> halves(std::min(halves_at_once, samples_of(box.extent)));
         for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
             for (std::size_t done = 0, some = 0; done < n; done += some) {
                 some = std::min(halves.size(), n - done);
                 raw_->read(offset_ + 2 * (there + done), halves.data(), 2 * some);
-                core::to_float(halves.data(), to + here + done, some);
+                finite = core::to_float(halves.data(), to + here + done, some) && finite;
             }
         });
     } else {
         for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
             raw_->read(offset_ + sizeof(float) * there, to + here, sizeof(float) * n);
+            finite = all_finite({to + here, n}) && finite;
         });
     }
+    return finite;
 }
 
 void DatasetReader::read(const Box& box, std::complex<float>* to) const {

@@ -33,7 +33,8 @@ class DatasetReader {
     DatasetReader(DatasetReader&&) = default;
     DatasetReader& operator=(DatasetReader&&) = delete;
 
-    void read(const Box& box, float* to) const;
+    /// Returns whether all numbers are finite.
+    bool read(const Box& box, float* to) const;
     void read(const Box& box, std::complex<float>* to) const;
     hdf5::Element element() const { return element_; }
     std::size_t axes() const { return shape_.size(); }

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "hogel/error.h"
+#include "hogel/io/finite.h"
 #include "hogel/io/hdf5/dataset.h"
 #include "hogel/io/hdf5/files.h"
 #include "hogel/io/hdf5/grids.h"
@@ -32,7 +33,7 @@ class LightFieldReader final : public LightFieldSource {
   public:
     LightFieldReader(hid_t file, const LightFieldGrid& grid, const std::filesystem::path& path,
                      const std::shared_ptr<const core::RawFile>& raw)
-        : grid_(grid) {
+        : grid_(grid), path_(path) {
         const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
         radiance_.emplace(file, dataset_name(grid.face(), "radiance").c_str(), radiance_box(grid, all).extent, false,
                           raw);
@@ -45,12 +46,13 @@ class LightFieldReader final : public LightFieldSource {
     bool has_depth() const override { return depth_.has_value(); }
     void read(LightFieldTile& tile) const override {
         validate(tile, grid_);
-        radiance_->read(radiance_box(grid_, tile.range), tile.radiance.data());
+        if (!radiance_->read(radiance_box(grid_, tile.range), tile.radiance.data())) throw_not_finite(tile, path_);
         if (depth_ && tile.depth.size() > 0) depth_->read(depth_box(grid_, tile.range), tile.depth.data());
     }
 
   private:
     LightFieldGrid grid_;
+    std::filesystem::path path_;
     std::optional<DatasetReader> radiance_, depth_;
 };
 
