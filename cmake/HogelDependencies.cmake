@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Finds every third-party library that the library links. Each is included by one folder of src/hogel and by no public
 # header, so a program that uses a shared hogel needs none of them. A static hogel passes them on: its package
 # (hogelConfig.cmake) includes this file too.

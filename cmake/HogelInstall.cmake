@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake --install: the library, its public headers, the command line, and a package that find_package(hogel) finds.
 # cpack makes a Debian package of the same.
 include(GNUInstallDirs)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # hogel_module(NAME [FOLDER path] [USES module...] [PUBLIC header...] [LINKS target...] [TESTED_WITH module])
 #   Compiles FOLDER (src/hogel/NAME) and the folders in it, tests aside, into an object library, and records which modules
 #   it may include and which public headers (include/hogel/HEADER.h) it implements. Its tests are linked with the modules

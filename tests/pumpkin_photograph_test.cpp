@@ -93,7 +93,7 @@ TEST_F(PumpkinPhotograph, is_as_bright_as_geometric_optics_says_everywhere) {
     }
 }
 
-// The mask of the picture against the dark background: where it is brighter than a tenth of display white after
+// The mask of the picture against the dark background: where it is brighter than a twentieth of display white after
 // smoothing over 5 pixels.
 std::vector<bool> silhouette(const Image& image, double exposure) {
     std::vector<bool> inside;

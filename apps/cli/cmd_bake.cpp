@@ -27,6 +27,8 @@ int bake(const Options& options, const Session& session) {
     BakeOptions bake_options = options.bake;
     bake_options.seed = session.seed;
     const Scene scene = load_scene(session, options.scene, place);
+    with_options({{"memory", "--tessellate"}},
+                 [&] { state_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
     Stage stage(session, "baking");
     const Scene baked =
         with_options({{"", "--tessellate"}}, [&] { return hogel::bake_scene(scene, bake_options, stage.progress()); });

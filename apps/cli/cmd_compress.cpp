@@ -80,7 +80,7 @@ int compress_file(Options options, const Session& session) {
                       {"rate", "--ppb"},
                       {"step", "--step"}},
                      [&] {
-                         require_resources(plan_compression(light_field, compression), "compressing", options.output);
+                         state_plan(session, plan_compression(light_field, compression), "compressing", options.output);
                          return compress(light_field, options.output, compression, stage.progress());
                      });
     report_compressed(session, options.output, result);

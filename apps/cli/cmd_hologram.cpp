@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 #include "commands.h"
 #include "concerns.h"
@@ -87,24 +88,25 @@ int hologram(Options options, const Session& session) {
     require_writable(options.output, {&options.input, 1});
     HologramFileOptions file = options.file(session);
     HologramRequest request = options.hologram.request(session, 1);
+    const auto check = [&](std::span<const LightFieldGrid> faces) {
+        check_holograms(faces, request, kind == InputKind::scene);
+        state_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);
+    };
     const LightField light_field = [&] {
         if (kind == InputKind::light_field) {
             if (options.resume) file.resume = describe_input(options.input);
-            return open_for_holograms(options.input, request, options.hologram.basis.empty());
+            LightField opened = open_for_holograms(options.input, request, options.hologram.basis.empty());
+            check(opened.grids());
+            return opened;
         }
-        check_holograms(options.render.request().grids(), request, true);
+        check(options.render.request().grids());
         const Scene scene = load_scene(session, options.input, options.render);
         if (options.resume) file.resume = describe_input(options.input, scene);
         const LightField rendered = render_light_field(session, scene, options.render);
-        require_memory(rendered, options.render, scene);
+        require_memory(session, rendered, options.render, scene);
         return prepare_for_reading(session, rendered, request.channels.size(), needs_depth(request.method));
     }();
-    check_holograms(light_field.grids(), request, kind == InputKind::scene);
     if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
-    const Plan plan = plan_holograms(light_field.grids(), request, file);
-    require_resources(plan, "synthesising the hologram", options.output);
-    session.detail(fmt::format("the hologram takes {} of memory, {} of disk, about {:.0f} s", format_bytes(plan.memory),
-                               format_bytes(plan.disk), plan.seconds));
     const auto holograms = make_holograms(light_field, request);
     {
         Stage stage(session, "hologram");

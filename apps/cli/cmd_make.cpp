@@ -100,8 +100,7 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
 void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
                 const Session& session) {
     const Plan plan = plan_photographs(std::span(&grid, 1), request, cameras);
-    require_resources(plan, "photographing the hologram");
-    session.detail(fmt::format("photographs take {}; about {:.0f} s", format_bytes(plan.memory), plan.seconds));
+    state_plan(session, plan, "photographing the hologram");
 }
 
 // The most important facts of report.json.
@@ -152,7 +151,7 @@ int make(const Options& options, const Session& session) {
 
     timed(session, report, "light field", [&](Stage& stage) {
         const LightField rendered = render_light_field(session, scene, options.render);
-        require_memory(rendered, options.render, scene);
+        require_memory(session, rendered, options.render, scene);
         write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
     });
     report.light_field_bytes = std::filesystem::file_size(light_field_file);

@@ -104,6 +104,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     }
     const HologramRequest request = options.hologram.request(session, options.looks);
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
+    state_plan(session, plan_photographs(light_field.grids(), request, cameras), "photographing the hologram");
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
     const auto holograms = make_holograms(light_field, request);

@@ -79,7 +79,7 @@ int propagate_fields(const Options& options, const Session& session) {
     Result exposed;
     std::vector<FieldGrid> grids;
     for (const auto& field : fields) grids.push_back(field->grid());
-    require_resources(plan_propagation(grids, {.scratch = scratch}), "propagation", options.output);
+    state_plan(session, plan_propagation(grids, {.scratch = scratch}), "propagation", options.output);
     Stage stage(session, "propagation");
     const auto colour = [&](std::size_t c, FieldSink& sink) {
         hogel::propagate(*fields[c], options.distance, sink, {0, scratch}, stage.progress(c, grids.size()));

@@ -50,15 +50,12 @@ void state_plan(const Options& options, const LightField& rendered, std::size_t 
     const LightFieldGrid& grid = rendered.grid();
     const std::size_t regions =
         ((grid.hogels_s + region.ns - 1) / region.ns) * ((grid.hogels_t + region.nt - 1) / region.nt);
-    const std::string what = fmt::format("{}: rendering regions of {}x{} hogels, {} at once,", options.render.algorithm,
-                                         region.ns, region.nt, std::min(thread_count(), regions));
-    with_options({{"", options.region.columns > 0 ? "--region" : "--hogels, --directions"}},
-                 [&] { require_resources(plan, what, options.compressed() ? "" : options.output); });
-    const std::string text = fmt::format("{} takes {}; about {:.0f} s", what, format_bytes(plan.memory), plan.seconds);
-    if (options.region.columns > 0)
-        session.say(text);
-    else
-        session.detail(text);
+    const std::string what =
+        fmt::format("rendering by {} in regions of {}x{} hogels, {} at once,", options.render.algorithm, region.ns,
+                    region.nt, std::min(thread_count(), regions));
+    const bool chosen = options.region.columns > 0;
+    with_options({{"", chosen ? "--region" : "--hogels, --directions"}},
+                 [&] { state_plan(session, plan, what, options.compressed() ? "" : options.output, chosen); });
 }
 
 // Compresses the light field while it is rendered, without an intermediate file.

@@ -107,8 +107,8 @@ int slm(const Options& options, const Session& session) {
 void add_slm(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
     command.examples(
-        "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um "
-        "--fov 2.5deg --wavelength 532nm\n"
+        "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um \\\n"
+        "    --fov 2.5deg --wavelength 532nm\n"
         "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase");
     command.positional("input", options->input, "F.h5", "Hologram");
     command.text("-o,--output", options->output, "FILE", "Pattern to write: .png, .bmp or .tif, 8 bits as they are")

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <vector>
@@ -34,6 +36,40 @@ std::string explain_unknown_option(const CLI::App& app, const std::string& word)
     const std::string nearest = name == std::string::npos ? "" : nearest_word(option.substr(name), known);
     return fmt::format("{} has no option {}{}", app.get_name(), option,
                        nearest.empty() ? "" : fmt::format(" (did you mean --{}?)", nearest));
+}
+
+// Columns for help: those of a terminal, within what is easy to read, or 100 in a file or a pipe.
+std::size_t help_columns() {
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 100;
+    return std::clamp<std::size_t>(size.ws_col, 60, 120);
+}
+
+// Breaks a line at spaces so that it and what follows fit into `columns`; `indent` goes before what follows. A word
+// that is longer stays whole.
+std::string wrap_line(std::string_view line, std::size_t columns, std::string_view indent) {
+    std::string text;
+    std::size_t room = columns;
+    while (line.size() > room) {
+        std::size_t space = line.rfind(' ', room);
+        if (space == std::string_view::npos || space == 0) space = line.find(' ');
+        if (space == std::string_view::npos) break;
+        text += fmt::format("{}\n{}", line.substr(0, space), indent);
+        line.remove_prefix(space + 1);
+        room = columns - indent.size();
+    }
+    return text + std::string(line);
+}
+
+// The lines of a description; those after the first are choices, whose continuations are indented.
+std::string wrap(std::string_view text, std::size_t columns) {
+    std::string wrapped;
+    for (bool first = true;; first = false) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        wrapped += (first ? "" : "\n") + wrap_line(text.substr(0, end), columns, first ? "" : "  ");
+        if (end == text.size()) return wrapped;
+        text.remove_prefix(end + 1);
+    }
 }
 
 }  // namespace
@@ -69,7 +105,10 @@ std::string HelpFormatter::make_positionals(const CLI::App* app) const {
         if (!option->get_positional()) continue;
         std::string type = option->get_type_name();
         if (type.size() >= width) type += "\n" + std::string(width + 2, ' ');
-        text += fmt::format("  {:<{}}{}\n", type, width, option->get_description());
+        std::string words = wrap(option->get_description(), help_columns() - width - 2);
+        for (std::size_t at = 0; (at = words.find('\n', at)) != std::string::npos; at += width + 3)
+            words.insert(at + 1, width + 2, ' ');
+        text += fmt::format("  {:<{}}{}\n", type, width, words);
     }
     return text.empty() ? text : "\n" + text;
 }
@@ -81,10 +120,9 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
     const std::string shown = option->get_default_str();
     std::string words = option->get_description();
-    if (shown.empty()) return words;
     // The default is appended to the first line; the following lines explain the choices.
-    const std::size_t line = std::min(words.find('\n'), words.size());
-    return fmt::format("{} [{}]{}", words.substr(0, line), shown, words.substr(line));
+    if (!shown.empty()) words.insert(std::min(words.find('\n'), words.size()), fmt::format(" [{}]", shown));
+    return wrap(words, help_columns() - get_column_width());
 }
 
 std::string explain_unknown_command(const CLI::App& app, const std::string& word) {

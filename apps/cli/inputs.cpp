@@ -13,6 +13,7 @@
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
+#include "outputs.h"
 
 namespace hogel::cli {
 namespace {
@@ -194,15 +195,15 @@ void add_render_options(Command& command, RenderOptions& options) {
     std::string shadings;
     for (const ShadingInfo& shading : shading_models().rows())
         shadings += fmt::format("\n{}: {}", shading.name, shading.text);
-    command.text("--shading", options.shading, "NAME", "Where light is worked out:" + shadings);
+    command.text("--shading", options.shading, "NAME", "Where light is computed:" + shadings);
     command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map");
     command
         .number("--cache-spacing", options.cache_spacing, "F",
-                "Of the points of a surface at which light is worked out, in parts of the width of a ray "
+                "Spacing of the points of a surface at which light is computed, in widths of a ray "
                 "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
         .range(0, 16);
     command.flag("--cull-back-faces", options.fronts_only,
-                 "Show triangles from their front alone, where their corners go round counterclockwise");
+                 "Show only the front of triangles, the side from which their corners are counterclockwise");
     command.counts("--hogels", options.hogels, "Hogels across and down");
     command.counts("--directions", options.directions, "Directions across and down in each hogel");
     command.counts("--samples", options.samples,
@@ -280,17 +281,18 @@ LightField render_light_field(const Session& session, const Scene& scene, const 
                         [&] { return hogel::render_light_field(lit, options.request()); });
 }
 
-void require_memory(const LightField& rendered, const RenderOptions& options, const Scene& scene) {
+void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,
+                    const Scene& scene) {
     const Plan plan = plan_light_field(rendered, options.request(), triangle_count(scene));
     with_options({{"", "--hogels, --directions"}},
-                 [&] { require_resources(plan, "rendering by " + options.algorithm); });
+                 [&] { state_plan(session, plan, "rendering by " + options.algorithm); });
 }
 
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
     const Scene scene = load_scene(session, name, options);
     const LightField rendered = render_light_field(session, scene, options);
-    require_memory(rendered, options, scene);
+    require_memory(session, rendered, options, scene);
     return rendered;
 }
 

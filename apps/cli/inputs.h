@@ -77,7 +77,8 @@ std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Sce
 LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options);
 
 /// Throws Error(usage) where rendering would take more memory than there is.
-void require_memory(const LightField& rendered, const RenderOptions& options, const Scene& scene);
+void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,
+                    const Scene& scene);
 
 /// The light field of a file, or of a scene, which is rendered when it is read.
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options);

@@ -46,6 +46,18 @@ ResultValue value_of(double number) {
 
 }  // namespace
 
+void state_plan(const Session& session, const Plan& plan, const std::string& what, const fs::path& file, bool always) {
+    require_resources(plan, what, file);
+    const std::string needs = fmt::format("{} takes about {} and {} of memory", what, format_duration(plan.seconds),
+                                          format_bytes(plan.memory));
+    if (constexpr double long_work = 3600; plan.seconds > long_work)
+        session.say(needs + "; Ctrl-C ends it");
+    else if (always)
+        session.say(needs);
+    else
+        session.detail(needs);
+}
+
 void add_force_flag(Command& command, bool& force) {
     command.flag("--force", force, "Write into a folder that holds the outputs of another run, over them");
 }

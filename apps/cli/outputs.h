@@ -11,6 +11,11 @@
 
 namespace hogel::cli {
 
+/// Throws, with the numbers, if `what` needs more memory or disk space than there is; says so in a line if it takes
+/// more than an hour, and with --verbose or `always` in any case.
+void state_plan(const Session& session, const Plan& plan, const std::string& what,
+                const std::filesystem::path& file = {}, bool always = false);
+
 /// --force, for folders that may hold the outputs of another run.
 void add_force_flag(Command& command, bool& force);
 

@@ -231,6 +231,9 @@ HOGEL_API Plan plan_compression(const LightField& light_field, const Compression
 /// Resources to propagate fields one after the other and write them to a file.
 HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options = {});
 
+/// Resources to light a scene for good and write it as a mesh.
+HOGEL_API Plan plan_bake(const Scene& scene, const BakeOptions& options = {});
+
 /// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than
 /// is free at `file`.
 HOGEL_API void require_resources(const Plan& plan, const std::string& what, const std::filesystem::path& file = {});

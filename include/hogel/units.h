@@ -39,4 +39,7 @@ HOGEL_API std::string format_length(double metres);
 /// A number of bytes with the decimal unit that reads best, two or three digits: "983 MB", "1.4 GB".
 HOGEL_API std::string format_bytes(double bytes);
 
+/// A time with the unit that reads best, from seconds to years, two or three digits: "0.5 s", "12 minutes", "3 days".
+HOGEL_API std::string format_duration(double seconds);
+
 }  // namespace hogel

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs the build into a fresh prefix, then configures, builds and runs the project beside this file against it, and
 # builds the examples, which are run as tests of their own.
 function(run)

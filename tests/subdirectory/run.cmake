@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Configures the project beside this file. With HOGEL_BUILD_SUBDIRECTORY=1 in the environment, as in `./dev ci`, it is
 # also built, without optimisation, and run, which compiles the whole library again.
 function(run)

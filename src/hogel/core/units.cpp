@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -67,6 +68,20 @@ std::string format_bytes(double bytes) {
     }
     if (i == 0) return fmt::format("{:.0f} {}", bytes, names[i]);
     return bytes < 9.95 ? fmt::format("{:.1f} {}", bytes, names[i]) : fmt::format("{:.0f} {}", bytes, names[i]);
+}
+
+std::string format_duration(double seconds) {
+    struct Unit {
+        const char* name;
+        double seconds;
+    };
+    // Each from two of it on, so that no digit is lost and no number is 1.
+    constexpr std::array<Unit, 5> units{
+        {{"years", 365.25 * 86400}, {"days", 86400}, {"hours", 3600}, {"minutes", 60}, {"s", 1}}};
+    const auto* unit = std::ranges::find_if(units, [&](const Unit& each) { return seconds >= 1.995 * each.seconds; });
+    if (unit == units.end()) --unit;
+    const double value = seconds / unit->seconds;
+    return value < 9.95 ? fmt::format("{:.1f} {}", value, unit->name) : fmt::format("{:.0f} {}", value, unit->name);
 }
 
 }  // namespace hogel

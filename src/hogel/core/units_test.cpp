@@ -36,5 +36,20 @@ TEST(Units, written_lengths_read_back) {
         EXPECT_NEAR(parse_length(format_length(length), "x"), length, 1e-6 * std::abs(length));
 }
 
+TEST(Units, durations_have_the_unit_that_reads_best) {
+    const std::pair<double, const char*> durations[] = {{0, "0.0 s"},
+                                                        {0.25, "0.2 s"},
+                                                        {12.4, "12 s"},
+                                                        {119, "119 s"},
+                                                        {120, "2.0 minutes"},
+                                                        {3600, "60 minutes"},
+                                                        {7200, "2.0 hours"},
+                                                        {47.6 * 3600, "48 hours"},
+                                                        {172800, "2.0 days"},
+                                                        {86400 * 700, "700 days"},
+                                                        {86400 * 366 * 30., "30 years"}};
+    for (const auto& [seconds, text] : durations) EXPECT_EQ(format_duration(seconds), text);
+}
+
 }  // namespace
 }  // namespace hogel

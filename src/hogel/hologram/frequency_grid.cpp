@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/hologram/frequency_grid.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "hogel/error.h"
 #include "hogel/hologram/lobes.h"
 
 namespace hogel::hologram {
@@ -27,11 +30,11 @@ struct LobeWeights {
 
 // The weights of samples 0..count−1 in the mean over [low, high] of the piecewise linear function through them. The end
 // samples extend to the ends of their cells; beyond them the function is zero.
-LobeWeights average_of_lines(double low, double high, std::size_t count) {
+void average_of_lines(double low, double high, std::size_t count, LobeWeights& result) {
     const double begin = -0.5, end = static_cast<double>(count) - 0.5;
     const double inside_low = std::max(low, begin), inside_high = std::min(high, end);
-    LobeWeights result;
-    if (!(inside_low < inside_high)) return result;
+    result.weights.clear();
+    if (!(inside_low < inside_high)) return;
     const double last = static_cast<double>(count) - 1;
     const double first = std::clamp(std::floor(inside_low), 0.0, last),
                  final = std::clamp(std::ceil(inside_high), 0.0, last);
@@ -48,21 +51,19 @@ LobeWeights average_of_lines(double low, double high, std::size_t count) {
         }
         result.weights.push_back(static_cast<float>(weight / (high - low)));
     }
-    return result;
 }
 
 // The weights of samples in the mean over [low, high] of the function that is constant over each sample's cell.
-LobeWeights average_of_pieces(double low, double high, std::size_t count) {
+void average_of_pieces(double low, double high, std::size_t count, LobeWeights& result) {
     const double begin = std::max(low, -0.5), end = std::min(high, static_cast<double>(count) - 0.5);
-    LobeWeights result;
-    if (!(begin < end)) return result;
+    result.weights.clear();
+    if (!(begin < end)) return;
     const double first = std::floor(begin + 0.5),
                  final = std::min(std::floor(end + 0.5), static_cast<double>(count) - 1);
     result.first = static_cast<std::size_t>(first);
     for (double k = first; k <= final; ++k)
         result.weights.push_back(
             static_cast<float>((std::min(end, k + 0.5) - std::max(begin, k - 0.5)) / (high - low)));
-    return result;
 }
 
 // Pads with zeros to the same number of weights in every lobe, because processors predict a loop of constant length.
@@ -106,49 +107,57 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     const auto mean = between == Interpolation::constant || is_frequency_grid(light_field, wavelength)
                           ? average_of_pieces
                           : average_of_lines;
-    struct Averages {
-        LobeWeights u, v;
-        std::uint32_t coefficient;
-        float scale;
+    LobeWeights u, v;
+    // Calls use(coefficient, scale) for each frequency that carries light, with its weights in u and v.
+    const auto for_each_lobe = [&](const auto& use) {
+        // The frequency −n/2 of an even grid would be its own mirror image, so it is left out.
+        const std::ptrdiff_t reach_x = (width - 1) / 2, reach_y = (height - 1) / 2;
+        for (std::ptrdiff_t jy = -reach_y; jy <= reach_y; ++jy)
+            for (std::ptrdiff_t jx = -reach_x; jx <= reach_x; ++jx) {
+                const double sx = step * static_cast<double>(jx), sy = step * static_cast<double>(jy);
+                const double cos2 = 1 - sx * sx - sy * sy;
+                if (cos2 <= 0) continue;
+                const double cosine = std::sqrt(cos2);
+                const double U = -sx / (sines ? 1 : cosine), V = -sy / (sines ? 1 : cosine);
+                // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
+                const double wu = 0.5 * step * (sines ? 1 : (1 + U * U) / cosine);
+                const double wv = 0.5 * step * (sines ? 1 : (1 + V * V) / cosine);
+                mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u, u);
+                // A line uses the one row of directions for all vertical angles.
+                if (rows == 1)
+                    v = {0, {1.0f}};
+                else
+                    mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v, v);
+                if (u.weights.empty() || v.weights.empty()) continue;
+                // Rows are counted downwards but y upwards, so a row of the DFT is −j_y.
+                const auto row = static_cast<std::size_t>((height - jy) % height),
+                           column = static_cast<std::size_t>((width + jx) % width);
+                use(static_cast<std::uint32_t>(row * columns + column), static_cast<float>(step * step_up / cosine));
+            }
     };
-    std::vector<Averages> all;
-    std::size_t max_u = 0, max_v = 0;
-    // The frequency −n/2 of an even grid would be its own mirror image, so it is left out.
-    const std::ptrdiff_t reach_x = (width - 1) / 2, reach_y = (height - 1) / 2;
-    for (std::ptrdiff_t jy = -reach_y; jy <= reach_y; ++jy)
-        for (std::ptrdiff_t jx = -reach_x; jx <= reach_x; ++jx) {
-            const double sx = step * static_cast<double>(jx), sy = step * static_cast<double>(jy);
-            const double cos2 = 1 - sx * sx - sy * sy;
-            if (cos2 <= 0) continue;
-            const double cosine = std::sqrt(cos2);
-            const double U = -sx / (sines ? 1 : cosine), V = -sy / (sines ? 1 : cosine);
-            // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
-            const double wu = 0.5 * step * (sines ? 1 : (1 + U * U) / cosine);
-            const double wv = 0.5 * step * (sines ? 1 : (1 + V * V) / cosine);
-            const LobeWeights u =
-                mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u);
-            // A line uses the one row of directions for all vertical angles.
-            const LobeWeights v =
-                rows == 1 ? LobeWeights{0, {1.0f}}
-                          : mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v);
-            if (u.weights.empty() || v.weights.empty()) continue;
-            // Rows are counted downwards but y upwards, so a row of the DFT is −j_y.
-            const auto row = static_cast<std::size_t>((height - jy) % height),
-                       column = static_cast<std::size_t>((width + jx) % width);
-            max_u = std::max(max_u, u.weights.size());
-            max_v = std::max(max_v, v.weights.size());
-            all.push_back({u, v, static_cast<std::uint32_t>(row * columns + column),
-                           static_cast<float>(step * step_up / cosine)});
-        }
-    for (Averages& lobe : all) {
-        widen(lobe.u, max_u, light_field.directions_u);
-        widen(lobe.v, max_v, rows == 1 ? 1 : light_field.directions_v);
-        lobes_.push_back({lobe.coefficient, static_cast<std::uint32_t>(lobe.u.first),
-                          static_cast<std::uint32_t>(lobe.v.first), static_cast<std::uint32_t>(max_u),
-                          static_cast<std::uint32_t>(max_v), static_cast<std::uint32_t>(weights_.size()), lobe.scale});
-        weights_.insert(weights_.end(), lobe.u.weights.begin(), lobe.u.weights.end());
-        weights_.insert(weights_.end(), lobe.v.weights.begin(), lobe.v.weights.end());
-    }
+    // Twice, because a hogel may have a hundred million lobes: their number of weights is known before any is stored.
+    std::size_t lobes = 0, max_u = 0, max_v = 0;
+    for_each_lobe([&](std::uint32_t, float) {
+        ++lobes;
+        max_u = std::max(max_u, u.weights.size());
+        max_v = std::max(max_v, v.weights.size());
+    });
+    if (lobes > UINT32_MAX / std::max<std::size_t>(max_u + max_v, 1))
+        throw Error(ErrorCode::usage,
+                    fmt::format("hogels of {}x{} samples have {} frequencies with light, too many for one transform; "
+                                "smaller hogels would do",
+                                columns, rows, lobes));
+    lobes_.reserve(lobes);
+    weights_.reserve(lobes * (max_u + max_v));
+    for_each_lobe([&](std::uint32_t coefficient, float scale) {
+        widen(u, max_u, light_field.directions_u);
+        widen(v, max_v, rows == 1 ? 1 : light_field.directions_v);
+        lobes_.push_back({coefficient, static_cast<std::uint32_t>(u.first), static_cast<std::uint32_t>(v.first),
+                          static_cast<std::uint32_t>(max_u), static_cast<std::uint32_t>(max_v),
+                          static_cast<std::uint32_t>(weights_.size()), scale});
+        weights_.insert(weights_.end(), u.weights.begin(), u.weights.end());
+        weights_.insert(weights_.end(), v.weights.begin(), v.weights.end());
+    });
     list_bands();
     list_runs();
 }

@@ -70,7 +70,8 @@ class Stereogram final : public FieldSource {
         const View<const float, 5> whole = rays_in_memory(hogels);
         // A few hogels at a time, so that their values stay in the processor's cache.
         const std::size_t values = synthesis_->prepared_size();
-        if (scratch->prepared.size() == 0) scratch->prepared = Array<float, 2>({hogels_together, values});
+        const std::size_t together = std::min(hogels_together, hogels.hogels());
+        if (scratch->prepared.size() < together * values) scratch->prepared = Array<float, 2>({together, values});
         for_each_band(hogels, [&](const HogelRange& band) {
             if (whole.size() == 0) read_rays(band, scratch->rays);
             for (std::size_t first = 0; first < band.hogels(); first += hogels_together) {

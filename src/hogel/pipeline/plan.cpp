@@ -33,6 +33,10 @@ constexpr double seconds_a_coded_sample = 190e-9;
 // Seconds per sample of a propagated field, in a window 2.5 times as large along each side; of 2560 x 2560 samples.
 constexpr double seconds_a_propagated_sample = 160e-9;
 
+// Seconds per ray that gathers reflected light, and bytes per triangle of the result, while it is computed and in a
+// file.
+constexpr double seconds_a_gathered_ray = 300e-9, bytes_a_baked_triangle = 310, file_bytes_a_baked_triangle = 31;
+
 double on_all_threads(double processor_seconds) {
     return processor_seconds / static_cast<double>(std::max<std::size_t>(thread_count(), 1));
 }
@@ -103,11 +107,14 @@ Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest
     Plan plan;
     plan.disk = samples * (file.type == SampleType::half ? 4 : 8);
     plan.seconds = on_all_threads(samples * seconds_a_sample);
-    // Tiles of complex samples that are in progress, with their rays.
-    const std::size_t hogel = hologram_grid(faces, request.options(request.channels.front())).plane.samples() /
-                              std::max<std::size_t>(faces.front().hogels(), 1);
-    plan.memory = static_cast<double>(4 * thread_count()) *
-                  (static_cast<double>(std::size_t{1} << 24) + 16 * static_cast<double>(hogel));
+    // Tiles of complex samples that are in progress, with their rays; for each frequency of a hogel its directions and
+    // their weights; and on every thread a hogel's moduli, its transform and its samples.
+    constexpr double tiles = 4 * double{1 << 24}, table = 52, transform = 28;
+    const auto hogels = static_cast<double>(std::max<std::size_t>(faces.front().hogels(), 1));
+    const double hogel =
+        static_cast<double>(hologram_grid(faces, request.options(request.channels.front())).plane.samples()) / hogels;
+    const auto threads = static_cast<double>(thread_count());
+    plan.memory = threads * tiles + hogel * (table + std::min(threads, hogels) * transform);
     return plan;
 }
 
@@ -181,6 +188,19 @@ Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions&
         plan.disk += result + (bytes - kept);
         plan.seconds += on_all_threads(static_cast<double>(plane.samples()) * seconds_a_propagated_sample);
     }
+    return plan;
+}
+
+Plan plan_bake(const Scene& scene, const BakeOptions& options) {
+    const double triangles = static_cast<double>(triangle_count(scene)) * static_cast<double>(options.tessellation) *
+                             static_cast<double>(options.tessellation);
+    double vertices = 0;
+    for (const Mesh& mesh : scene.meshes) vertices += static_cast<double>(mesh.positions.size());
+    Plan plan;
+    plan.memory = triangles * bytes_a_baked_triangle;
+    plan.disk = triangles * file_bytes_a_baked_triangle;
+    plan.seconds = on_all_threads(vertices * static_cast<double>(options.rays) *
+                                  (1 + static_cast<double>(options.bounces) / 8) * seconds_a_gathered_ray);
     return plan;
 }
 

@@ -17,6 +17,7 @@ using hdf5::Element;
 using hdf5::Handle;
 
 constexpr std::size_t halves_at_once = 32768;  // half floats that are converted together, few enough for the caches
+constexpr std::size_t max_halves = std::size_t{1} << 24;  // of a box that is converted as a whole
 constexpr std::size_t max_chunk = std::size_t{256} << 20;
 
 // Calls run(index in the array, index in the box, samples) for each contiguous run of samples of a box of a row-major
@@ -258,9 +259,21 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) 
     if (datasets_[dataset].element != Element::half) return write_bytes(dataset, box, from);
     const std::size_t samples = samples_of(box.extent);
     auto halves = halves_.take();
-    if (halves->size() < samples) halves->resize(samples);
-    core::to_half(from, halves->data(), samples);
-    write_bytes(dataset, box, halves->data());
+    // Converted outside the lock, unless the halves would be a large part of the memory that the work takes.
+    const std::size_t at_once = std::min(samples, max_halves);
+    if (halves->size() < at_once) halves->resize(at_once);
+    if (samples <= max_halves) {
+        core::to_half(from, halves->data(), samples);
+        return write_bytes(dataset, box, halves->data());
+    }
+    const std::lock_guard lock(writing_);
+    for_each_run(datasets_[dataset].shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
+        for (std::size_t done = 0, some = 0; done < n; done += some) {
+            some = std::min(at_once, n - done);
+            core::to_half(from + here + done, halves->data(), some);
+            raw_->write(offsets_[dataset] + 2 * (there + done), halves->data(), 2 * some);
+        }
+    });
 }
 
 void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<float>* from) {

@@ -149,10 +149,14 @@ class ZbufferRenderer final : public Renderer {
 }  // namespace
 
 RendererInfo zbuffer_renderer() {
-    return {.name = "zbuffer",
-            .text = "an ordinary depth buffer for each hogel in turn",
-            .make = [](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
-                return std::make_unique<ZbufferRenderer>(std::move(scene), grid);
+    return {
+        .name = "zbuffer",
+        .text = "an ordinary depth buffer for each hogel in turn",
+        .make = [](std::shared_ptr<const ShadedScene> scene,
+                   const LightFieldGrid& grid) { return std::make_unique<ZbufferRenderer>(std::move(scene), grid); },
+        .depth_buffer_bytes =
+            [](const LightFieldGrid& grid, const HogelRange&) {
+                return static_cast<double>(sizeof(VisiblePoint)) * static_cast<double>(grid.directions());
             }};
 }
 
