@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes a few small valid files for each fuzz target to begin with.
+
+usage: make_seeds.py HOGEL FOLDER      HOGEL: the program; seeds go to FOLDER/<target>/
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SMALL = "--hogels 3x2 --directions 4x3 -q".split()
+MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx"]  # as in mesh_fuzz.cpp
+PICTURE_EXTENSIONS = [".png", ".exr", ".tif", ".bmp", ".jpg"]  # as in picture_fuzz.cpp
+
+TRIANGLE = {
+    ".obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    ".off": b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    ".ply": b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            b"element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    ".stl": b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+            b"endsolid a\n",
+    ".gltf": b'{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":'
+             b'[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",'
+             b'"min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":'
+             b'"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}',
+}
+
+
+def make(hogel, corpus):
+    def run(*words):
+        subprocess.run([hogel, *words], check=True, cwd=corpus, stdout=subprocess.DEVNULL)
+
+    def put(target, name, data):
+        (corpus / target).mkdir(parents=True, exist_ok=True)
+        (corpus / target / name).write_bytes(data)
+
+    with tempfile.TemporaryDirectory() as folder:
+        made = pathlib.Path(folder)
+        run("render", "sphere", "-o", made / "a.h5", "--fov", "1deg", "--size", "0.3mm", *SMALL)
+        run("hologram", made / "a.h5", "-o", made / "b.h5", "--wavelength", "532nm", "-q", "--pitch", "20um")
+        for name in ("a.h5", "b.h5"):
+            put("hdf5_fuzz", name, (made / name).read_bytes())
+        for coder in ("hogel", "threepass", "jpeg4d"):
+            run("compress", made / "a.h5", "-o", made / "a.hgl", "--coder", coder, "-q")
+            put("stream_fuzz", coder, (made / "a.hgl").read_bytes())
+        run("propagate", made / "b.h5", "-o", made / "b.npy", "--distance", "1mm", "-q")
+        put("external_field_fuzz", "npy", b"\0" + (made / "b.npy").read_bytes())
+        (made / "a.off").write_bytes(TRIANGLE[".off"])
+        run("bake", made / "a.off", "-o", made / "a.glb", "--rays", "1", "-q")
+        put("mesh_fuzz", "glb", bytes([MESH_EXTENSIONS.index(".glb")]) + (made / "a.glb").read_bytes())
+        for extension, data in TRIANGLE.items():
+            put("mesh_fuzz", extension[1:], bytes([MESH_EXTENSIONS.index(extension)]) + data)
+        for i, extension in enumerate(PICTURE_EXTENSIONS[:3]):
+            run("photo", made / "a.h5", "-o", made / ("p" + extension), "--resolution", "8", "-q")
+            put("picture_fuzz", extension[1:], bytes([i]) + (made / ("p" + extension)).read_bytes())
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    folder = pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    make(pathlib.Path(sys.argv[1]).absolute(), folder.absolute())
