@@ -122,8 +122,16 @@ std::vector<double> label_rows(const Axes& axes, const std::vector<Curve>& curve
     return rows;
 }
 
-std::string curve_svg(const Axes& axes, const Curve& curve, const char* colour, double label_row) {
+// How curves with the same colour differ.
+std::string dashes_of(const Curve& curve, std::size_t number) {
+    constexpr std::array patterns{"", "2 3", "10 3 2 3"};
+    const char* pattern = curve.dashed ? "6 4" : patterns[number / colours.size() % patterns.size()];
+    return *pattern == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", pattern);
+}
+
+std::string curve_svg(const Axes& axes, const Curve& curve, std::size_t number, double label_row) {
     if (curve.points.empty()) return "";
+    const char* colour = colours[number % colours.size()];
     std::string line, dots;
     for (const auto& [x, y] : curve.points) {
         line += fmt::format("{:.1f},{:.1f} ", axes.column(x), axes.row(y));
@@ -133,7 +141,7 @@ std::string curve_svg(const Axes& axes, const Curve& curve, const char* colour, 
     line.pop_back();
     std::string svg = fmt::format(
         "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-linejoin=\"round\"{}/>\n{}",
-        line, colour, curve.dashed ? " stroke-dasharray=\"6 4\"" : "", dots);
+        line, colour, dashes_of(curve, number), dots);
     const double end_x = axes.column(curve.points.back().first), end_y = axes.row(curve.points.back().second);
     svg += fmt::format(
         "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"0.7\" "
@@ -175,7 +183,7 @@ std::string plot_svg(const PlotText& text, const std::vector<Curve>& curves) {
                    fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle));
     const std::vector<double> rows = label_rows(axes, curves);
     for (std::size_t i = 0; i < curves.size(); ++i)
-        svg += curve_svg(axes, curves[i], colours[i % colours.size()], rows[i]);
+        svg += curve_svg(axes, curves[i], i, rows[i]);
     return svg + "</svg>\n";
 }
 

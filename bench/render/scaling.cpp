@@ -142,7 +142,7 @@ void measure_scaling(const RenderOptions& options, const Session& session) {
         const LightFieldGrid grid = light_field.grid();
         const auto scene = bench_scene(session, name, light_field);
         const std::vector<Curve> curves = measure(session, algorithm, name, scene, light_field, options.rounds);
-        const std::string title = fmt::format("What `{}` takes for larger light fields: {}", algorithm, name);
+        const std::string title = fmt::format("What {} takes for larger light fields: {}", algorithm, name);
         const std::string subtitle = fmt::format("from {}x{} hogels of {}x{} directions and the scene as it is",
                                                  grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v);
         fmt::print("{}; {}.\nProcessor time against the first, median of {} rounds.\n\n{}\n", title, subtitle,
