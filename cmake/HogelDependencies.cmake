@@ -11,7 +11,20 @@ find_package(fmt REQUIRED)
 # libfftw3f is GPL; any library with the same interface can be put in its place here (see math/fft.cpp).
 pkg_check_modules(fftw3f REQUIRED IMPORTED_TARGET fftw3f)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
-# By pkg-config, because Debian's CMake files of OpenImageIO require its programs (and so Qt), and CMake's own search
-# for HDF5 needs a C compiler and links HDF5's dependencies (curl, ssl).
-pkg_check_modules(openimageio REQUIRED IMPORTED_TARGET OpenImageIO)
+# Pictures. By pkg-config, which names the libraries alone that are needed.
+pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
+# OpenEXR's -pthread is an option of the compiler alone, which keeps tests from using their precompiled header.
+set_property(TARGET PkgConfig::openexr PROPERTY INTERFACE_COMPILE_OPTIONS "")
+pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
+pkg_check_modules(libjpeg REQUIRED IMPORTED_TARGET libjpeg)
+set(HOGEL_OPTIONAL_PICTURES "")
+if(HOGEL_TIFF)
+  pkg_check_modules(libtiff REQUIRED IMPORTED_TARGET libtiff-4)
+  list(APPEND HOGEL_OPTIONAL_PICTURES PkgConfig::libtiff)
+endif()
+if(HOGEL_WEBP)
+  pkg_check_modules(libwebp REQUIRED IMPORTED_TARGET libwebp)
+  list(APPEND HOGEL_OPTIONAL_PICTURES PkgConfig::libwebp)
+endif()
+# By pkg-config, because CMake's own search for HDF5 needs a C compiler and links HDF5's dependencies (curl, ssl).
 pkg_search_module(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)

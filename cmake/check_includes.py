@@ -15,7 +15,8 @@ import re
 import sys
 
 THIRD_PARTY = {  # first part of the include path -> the modules or folders that may name it; None: any
-    "tbb": {"core"}, "fftw3.h": {"math"}, "OpenImageIO": {"image"}, "assimp": {"scene"}, "embree3": {"trace"},
+    "tbb": {"core"}, "fftw3.h": {"math"}, "OpenEXR": {"image/formats"}, "Imath": {"image/formats"}, "png.h": {"image/formats"},
+    "jpeglib.h": {"image/formats"}, "stb": {"image/formats"}, "tiffio.h": {"image/formats"}, "webp": {"image/formats"}, "assimp": {"scene"}, "embree3": {"trace"},
     "hdf5.h": {"io/hdf5"}, "hwy": {"codec", "core", "direct", "hologram", "math", "optics", "render", "shading"}, "fmt": None,
     "gtest": None,
 }

@@ -214,8 +214,7 @@ void add_photo(Command& command, Session& session) {
         "  hogel photo phase.png -o p.png --values phase --pitch 8um --wavelength 532nm");
     command.positional("input", options->input, "F.h5|X.h5|SCENE",
                        "Hologram, light field, mesh file, built-in scene, .npy, .mat or picture");
-    command.text("-o,--output", options->output, "FILE", "Picture to write: .png, .tif (sRGB) or .exr (linear)")
-        .required();
+    command.text("-o,--output", options->output, "FILE", "Picture to write: .png (sRGB) or .exr (linear)").required();
     add_camera_options(command, options->view);
     add_photo_options(command, *options);
     add_hologram_options(command, options->hologram);

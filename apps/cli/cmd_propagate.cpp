@@ -123,7 +123,7 @@ void add_propagate(Command& command, Session& session) {
         "  hogel propagate hologram.h5 -o nearer.h5 --distance 20mm\n"
         "  hogel propagate slm.npy -o there.npy --distance 0.2m --pitch 8um --wavelength 532nm");
     command.positional("input", options->input, "F.h5|F.npy|F.mat|P.png", "Hologram, or another program's field");
-    command.text("-o,--output", options->output, "FILE", "Hologram (.h5), array (.npy) or picture (.png, .tif, .exr)")
+    command.text("-o,--output", options->output, "FILE", "Hologram (.h5), array (.npy) or picture (.png, .exr)")
         .required();
     command.length("--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
         .required();

@@ -111,7 +111,7 @@ void add_slm(Command& command, Session& session) {
         "    --fov 2.5deg --wavelength 532nm\n"
         "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase");
     command.positional("input", options->input, "F.h5", "Hologram");
-    command.text("-o,--output", options->output, "FILE", "Pattern to write: .png, .bmp or .tif, 8 bits as they are")
+    command.text("-o,--output", options->output, "FILE", "Pattern to write: .png or .bmp, 8 bits as they are")
         .required();
     const std::vector<std::string> names = encodings().names();
     command.group("Pattern");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +12,7 @@
 #include "bench/measure.h"
 #include "bench/peers/coders.h"
 #include "bench/session.h"
+#include "hogel/image/formats/exr_memory.h"
 
 namespace hogel::bench {
 namespace {
@@ -17,17 +20,13 @@ namespace {
 // Levels of OpenEXR's lossy compression, the best first; 45 is its default.
 constexpr std::array levels{2, 10, 45, 200, 1000, 5000, 20000, 100000};
 
-constexpr int channels = 2;
-constexpr const char* file_name = "a.exr";  // the file is kept in memory
-
-// All hogels side by side as one picture of floats. Its channel has a name that OpenEXR codes lossily. With a single
-// channel OpenImageIO would not do so; therefore there is a second one of zeros, which takes hardly any bytes.
+// All hogels side by side as one picture of floats, whose channel has a name that OpenEXR codes lossily. A second
+// channel, of zeros, takes hardly any bytes; the figures in the documentation were measured with it.
 class Sheet {
   public:
     explicit Sheet(const LightFieldBuffer& field)
-        : spec_(static_cast<int>(field.grid().hogels_s * field.grid().directions_u),
-                static_cast<int>(field.grid().hogels_t * field.grid().directions_v), channels, OIIO::TypeDesc::FLOAT) {
-        spec_.channelnames = {"Y", "A"};
+        : width_(field.grid().hogels_s * field.grid().directions_u),
+          height_(field.grid().hogels_t * field.grid().directions_v) {
         const LightFieldGrid& grid = field.grid();
         for (std::size_t t = 0; t < grid.hogels_t; ++t)
             for (std::size_t v = 0; v < grid.directions_v; ++v)
@@ -37,31 +36,44 @@ class Sheet {
                         samples_.push_back(0);
                     }
     }
-    // The compressed bytes; nothing if this OpenEXR lacks the compression.
-    std::optional<std::vector<unsigned char>> coded(const std::string& compression) const {
-        OIIO::ImageSpec spec = spec_;
-        spec["compression"] = compression;
-        std::vector<unsigned char> bytes;
-        OIIO::Filesystem::IOVecOutput into(bytes);
-        const auto output = OIIO::ImageOutput::create(file_name, &into);
-        if (!output || !output->open(file_name, spec) || !output->write_image(OIIO::TypeDesc::FLOAT, samples_.data()) ||
-            !output->close())
-            return std::nullopt;
-        return bytes;
+    std::vector<unsigned char> coded(Imf::Compression compression, int level) const {
+        Imf::Header header(static_cast<int>(width_), static_cast<int>(height_));
+        header.compression() = compression;
+        header.dwaCompressionLevel() = static_cast<float>(level);
+        for (const char* channel : channels) header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+        image::ExrSink sink;
+        {
+            Imf::OutputFile out(sink, header, threads);
+            std::vector<float> copy = samples_;  // OpenEXR takes a pointer through which it could write
+            out.setFrameBuffer(buffer(copy));
+            out.writePixels(static_cast<int>(height_));
+        }
+        return std::move(sink.bytes);
     }
-    std::optional<std::vector<float>> decoded(const std::vector<unsigned char>& bytes) const {
-        OIIO::Filesystem::IOMemReader from(bytes.data(), bytes.size());
-        const auto input = OIIO::ImageInput::open(file_name, nullptr, &from);
+    std::vector<float> decoded(const std::vector<unsigned char>& bytes) const {
+        image::ExrSource source(bytes, "a.exr");
+        Imf::InputFile in(source, threads);
         std::vector<float> samples(samples_.size());
-        if (!input || input->spec().image_pixels() * channels != samples.size() ||
-            !input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, samples.data()))
-            return std::nullopt;
+        in.setFrameBuffer(buffer(samples));
+        in.readPixels(0, static_cast<int>(height_) - 1);
         return samples;
     }
     const std::vector<float>& samples() const { return samples_; }
 
   private:
-    OIIO::ImageSpec spec_;
+    static constexpr std::array channels{"Y", "A"};
+    static constexpr int threads = 0;
+
+    Imf::FrameBuffer buffer(std::vector<float>& samples) const {
+        constexpr std::size_t step = channels.size() * sizeof(float);
+        Imf::FrameBuffer buffer;
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            buffer.insert(channels[c],
+                          Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(samples.data() + c), step, step * width_));
+        return buffer;
+    }
+
+    std::size_t width_, height_;
     std::vector<float> samples_;
 };
 
@@ -69,8 +81,8 @@ class Sheet {
 
 std::optional<RateCurve> measure_openexr(const LightFieldBuffer& field, const std::string& compression,
                                          const QualityRange& range) {
-    OIIO::attribute("threads", 1);
-    OIIO::attribute("exr_threads", -1);
+    if (compression != "dwaa" && compression != "dwab") return std::nullopt;
+    const Imf::Compression method = compression == "dwaa" ? Imf::DWAA_COMPRESSION : Imf::DWAB_COMPRESSION;
     const Sheet sheet(field);
     const double samples = field.grid().samples();
     double signal = 0;
@@ -79,15 +91,14 @@ std::optional<RateCurve> measure_openexr(const LightFieldBuffer& field, const st
     for (const int level : levels) {
         stop_if_interrupted();
         const double began = processor_seconds();
-        const auto bytes = sheet.coded(fmt::format("{}:{}", compression, level));
+        const std::vector<unsigned char> bytes = sheet.coded(method, level);
         const double between = processor_seconds();
-        const auto back = bytes ? sheet.decoded(*bytes) : std::nullopt;
+        const std::vector<float> back = sheet.decoded(bytes);
         const double ended = processor_seconds();
-        if (!back) return std::nullopt;
         double error = 0;
-        for (std::size_t i = 0; i < back->size(); ++i) error += std::pow(double(sheet.samples()[i]) - (*back)[i], 2);
+        for (std::size_t i = 0; i < back.size(); ++i) error += std::pow(double(sheet.samples()[i]) - back[i], 2);
         const double sqnr = 10 * std::log10(signal / error);
-        curve.points.push_back({samples / (8 * static_cast<double>(bytes->size())), sqnr,
+        curve.points.push_back({samples / (8 * static_cast<double>(bytes.size())), sqnr,
                                 1e-6 * samples / (between - began), 1e-6 * samples / (ended - between)});
         if (sqnr < range.low) break;
     }

@@ -32,23 +32,25 @@ struct HOGEL_API Image {
 HOGEL_API float srgb_encode(float linear);
 HOGEL_API float srgb_decode(float display);
 
-/// Writes a picture in the format of the name's extension: .exr as linear half floats, .png and .tif as 8-bit sRGB of
-/// linear values times `exposure`, with `metadata` and the picture's provenance. The file appears under its name when
-/// it is complete. Throws Error(cannot_write), or Error(usage) for an unknown extension or an exposure that is not
-/// positive and finite.
+/// Writes a picture in the format of the name's extension: .exr as linear half floats, .png as 8-bit sRGB of linear
+/// values times `exposure`, with `metadata` and the picture's provenance; in a build with HOGEL_TIFF also .tif, like
+/// .png. The file appears under its name when it is complete. Throws Error(cannot_write), Error(not_built_in) for .tif
+/// in other builds, or Error(usage) for an unknown extension or an exposure that is not positive and finite.
 HOGEL_API void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
                            const Metadata& metadata = {});
 
-/// Throws Error(usage) for a name whose extension write_image() would refuse.
+/// Throws Error(usage) or Error(not_built_in) for a name whose extension write_image() would refuse.
 HOGEL_API void require_picture_name(const std::filesystem::path& path);
 
 /// The bytes of an 8-bit sRGB PNG file, for HTML pages with embedded pictures.
 HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
-/// Reads any picture that OpenImageIO reads into linear light, with one or three channels: integers of 8 and 16 bits
-/// are taken as sRGB, alpha is dropped, and the first of two channels is kept. The texts in the file are its
-/// provenance. Throws Error(bad_input), naming the file, for one that is missing, damaged or has more than
-/// `max_pixels`.
+/// Reads a picture into linear light, with one or three channels: PNG, JPEG, EXR, BMP, TGA, GIF (its first picture) or
+/// Radiance HDR, and TIFF and WebP in builds with HOGEL_TIFF and HOGEL_WEBP. The file's first bytes, not its name, say
+/// which. Integers of 8 and 16 bits are taken as sRGB, floating-point numbers as linear; alpha is dropped. Of an EXR
+/// file the data window is read, its first layer with R, G and B, else with Y, else its first channels. The texts in
+/// the file are its provenance. Throws Error(bad_input), naming the file, for one that is missing, damaged or has more
+/// than `max_pixels`, which is known before memory is taken; and Error(not_built_in).
 HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// As read_image(), from the bytes of a picture file in memory, such as a texture inside a glTF file.
@@ -61,12 +63,13 @@ struct RawPixels {
     std::size_t levels =
         0;  ///< 256 or 65536: the values are whole numbers below this; 0: they are floating-point numbers
 };
-/// Reads the pixels of a picture without a transfer curve. Throws Error(bad_input) as read_image() does, and for a
+/// Reads the pixels of a picture without a transfer curve. Throws as read_image() does, and Error(bad_input) for a
 /// picture whose colour channels differ.
 HOGEL_API RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
-/// Reads the texts stored in a picture file by write_image() or other programs. In a TIFF file write_image() stores
-/// them as lines of "ImageDescription". Throws Error(bad_input) as read_image() does.
+/// Reads the texts stored in a picture file by write_image() or other programs: string attributes of an EXR file, texts
+/// of a PNG file, the comment of a JPEG file as "ImageDescription". In a TIFF file write_image() stores them as lines
+/// of "ImageDescription". Throws as read_image() does.
 HOGEL_API Metadata read_metadata(const std::filesystem::path& path);
 
 /// The exposure that maps the brightest parts of a picture to display white: the 99.5th percentile of each pixel's
@@ -87,12 +90,13 @@ struct ImageComparison {
 HOGEL_API ImageComparison compare(const Image& a, const Image& b, double exposure = 1);
 
 /// Writes the drive levels of a display or modulator, levels[y][x][c], unchanged and without a transfer curve, as a
-/// .png, .bmp or .tif of 8 bits with one or three channels. The file appears under its name when it is complete. Throws
-/// Error(cannot_write), or Error(usage) for another extension.
+/// .png or .bmp of 8 bits with one or three channels, or .tif in a build with HOGEL_TIFF. The file appears under its
+/// name when it is complete. Throws Error(cannot_write), Error(not_built_in) for .tif in other builds, or Error(usage)
+/// for another extension.
 HOGEL_API void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels,
                                 const Metadata& metadata = {});
 
-/// Throws Error(usage) for a name whose extension write_raw_pixels() would refuse.
+/// Throws Error(usage) or Error(not_built_in) for a name whose extension write_raw_pixels() would refuse.
 HOGEL_API void require_raw_pixels_name(const std::filesystem::path& path);
 
 }  // namespace hogel

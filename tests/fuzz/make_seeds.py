@@ -11,7 +11,7 @@ import tempfile
 
 SMALL = "--hogels 3x2 --directions 4x3 -q".split()
 MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx"]  # as in mesh_fuzz.cpp
-PICTURE_EXTENSIONS = [".png", ".exr", ".tif", ".bmp", ".jpg"]  # as in picture_fuzz.cpp
+PICTURE_EXTENSIONS = [".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr"]  # as in picture_fuzz.cpp
 
 TRIANGLE = {
     ".obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -51,7 +51,7 @@ def make(hogel, corpus):
         put("mesh_fuzz", "glb", bytes([MESH_EXTENSIONS.index(".glb")]) + (made / "a.glb").read_bytes())
         for extension, data in TRIANGLE.items():
             put("mesh_fuzz", extension[1:], bytes([MESH_EXTENSIONS.index(extension)]) + data)
-        for i, extension in enumerate(PICTURE_EXTENSIONS[:3]):
+        for i, extension in enumerate(PICTURE_EXTENSIONS[:2]):
             run("photo", made / "a.h5", "-o", made / ("p" + extension), "--resolution", "8", "-q")
             put("picture_fuzz", extension[1:], bytes([i]) + (made / ("p" + extension)).read_bytes())
 

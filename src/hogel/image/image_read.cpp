@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <memory>
 #include <new>
-#include <sstream>
 #include <system_error>
+#include <type_traits>
 
 #include "hogel/error.h"
 #include "hogel/image.h"
@@ -20,41 +16,35 @@ namespace hogel {
 
 using namespace image;
 
-namespace {
+namespace image {
 
 // The largest ratio of a picture's bytes to those of its file (deflate reaches 1032). Beyond it a file is refused as
 // damaged, so that a few bytes cannot make the library allocate gigabytes. Pictures below the second limit are exempt.
 constexpr std::uint64_t max_expansion = 4096;
 constexpr std::uint64_t always_allowed = std::uint64_t{16} << 20;
 
-[[noreturn]] void fail_read(const std::string& name, const std::string& why) {
+void PictureBytes::fail(const std::string& why) const {
     throw Error(ErrorCode::bad_input, fmt::format("cannot read the picture '{}': {}", name, one_line(why)));
 }
 
-OIIO::ImageSpec reading_options() {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // alpha is dropped, so colours must not be multiplied by it
-    return config;
+void PictureBytes::check_size(std::uint64_t width, std::uint64_t height, std::uint64_t channels,
+                              std::uint64_t sample_bytes) const {
+    constexpr std::uint64_t widest = 0x7fffffff;
+    if (width == 0 || height == 0 || width > widest || height > widest || channels < 1 || channels > 64)
+        fail(fmt::format("a picture was expected, not {}x{} pixels in {} channels", width, height, channels));
+    if (width * height > max_pixels)
+        fail(fmt::format("{}x{} pixels are more than the {} that are accepted", width, height, max_pixels));
+    const std::uint64_t claimed = width * height * channels * sample_bytes;
+    if (claimed > always_allowed && claimed / max_expansion > bytes.size())
+        fail(fmt::format("{} bytes are too few for {}x{} pixels", bytes.size(), width, height));
 }
 
-void check_size(const OIIO::ImageSpec& spec, const std::string& name, std::size_t max_pixels,
-                std::uint64_t file_bytes) {
-    const auto width = static_cast<std::uint64_t>(std::max(spec.width, 0));
-    const auto height = static_cast<std::uint64_t>(std::max(spec.height, 0));
-    if (width == 0 || height == 0 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64 || spec.deep)
-        fail_read(name, fmt::format("a flat picture was expected, not {}x{}x{} pixels in {} {}channels", spec.width,
-                                    spec.height, spec.depth, spec.nchannels, spec.deep ? "deep " : ""));
-    if (width * height > max_pixels)  // both are below 2^31
-        fail_read(name, fmt::format("{}x{} pixels are more than the {} that are accepted", width, height, max_pixels));
-    if (spec.tile_width > 0 &&
-        static_cast<std::uint64_t>(spec.tile_width) * static_cast<std::uint64_t>(spec.tile_height) >
-            std::max<std::uint64_t>(4 * width * height, 1 << 20))
-        fail_read(name, fmt::format("its tiles of {}x{} pixels do not suit {}x{} pixels", spec.tile_width,
-                                    spec.tile_height, width, height));
-    const std::uint64_t claimed = width * height * static_cast<std::uint64_t>(spec.nchannels) * spec.format.size();
-    if (claimed > always_allowed && claimed / max_expansion > file_bytes)
-        fail_read(name, fmt::format("{} bytes are too few for {}x{} pixels", file_bytes, width, height));
-}
+}  // namespace image
+
+namespace {
+
+constexpr const char* unknown_format =
+    "its first bytes are not those of a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, HDR or TGA file";
 
 // Linear light of each 16-bit display value; 8-bit values are the multiples of 257 among them.
 const std::vector<float>& linear_of_display() {
@@ -66,167 +56,113 @@ const std::vector<float>& linear_of_display() {
     return table;
 }
 
-Image read_pixels(OIIO::ImageInput& in, const std::string& name) {
-    const OIIO::ImageSpec& spec = in.spec();
-    const std::size_t channels = spec.nchannels >= 3 ? 3 : 1;
-    Image image(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height), channels);
-    const auto read = [&](OIIO::TypeDesc type, void* pixels) {
-        if (!in.read_image(0, 0, 0, static_cast<int>(channels), type, pixels)) fail_read(name, in.geterror());
-    };
-    const bool display = !spec.format.is_floating_point() && spec.format.size() <= 2;
-    if (display) {
-        std::vector<std::uint16_t> values(image.pixels.size());
-        read(OIIO::TypeDesc::UINT16, values.data());
-        const std::vector<float>& table = linear_of_display();
-        std::ranges::transform(values, image.pixels.data(), [&](std::uint16_t value) { return table[value]; });
-    } else {
-        read(OIIO::TypeDesc::FLOAT, image.pixels.data());
+Image linear_image(Samples&& samples) {
+    Image image;
+    if (auto* linear = std::get_if<Array<float, 3>>(&samples)) {
+        image.pixels = std::move(*linear);
+        return image;
     }
+    std::visit(
+        [&](const auto& values) {
+            using T = std::remove_cvref_t<decltype(values(0u, 0u, 0u))>;
+            constexpr std::size_t step = std::is_same_v<T, std::uint8_t> ? 257 : 1;
+            const std::vector<float>& table = linear_of_display();
+            image.pixels = Array<float, 3>(values.shape());
+            std::ranges::transform(values.elements(), image.pixels.data(),
+                                   [&](T value) { return table[static_cast<std::size_t>(value) * step]; });
+        },
+        samples);
     return image;
 }
 
-// Turns exceptions into Error(bad_input). OpenImageIO reports errors by return values, but the libraries that it uses
-// throw.
-template <class F>
-auto guarded(const std::string& name, const F& body) {
+// The picture must be grey or have three equal channels.
+template <class T>
+RawPixels raw_pixels(const Array<T, 3>& samples, const PictureBytes& file) {
+    RawPixels pixels;
+    const std::size_t channels = samples.extent(2);
+    if constexpr (!std::is_same_v<T, float>) pixels.levels = std::size_t{1} << (8 * sizeof(T));
+    pixels.values = Array<float, 2>({samples.extent(0), samples.extent(1)});
+    for (std::size_t i = 0; i < pixels.values.size(); ++i) {
+        const T* pixel = samples.data() + i * channels;
+        if (channels == 3 && (pixel[0] != pixel[1] || pixel[0] != pixel[2]))
+            file.fail("its channels differ, but one number a pixel was expected");
+        pixels.values.data()[i] = static_cast<float>(pixel[0]);
+    }
+    return pixels;
+}
+
+// Turns what the libraries throw into Error(bad_input).
+template <class Body>
+auto guarded(const PictureBytes& file, const Body& body) {
     try {
         return body();
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
-        fail_read(name, "it needs more memory than there is");
+        file.fail("it needs more memory than there is");
     } catch (const std::exception& error) {
-        fail_read(name, error.what());
+        file.fail(error.what());
     }
 }
 
-// A picture that is being read and the memory that it is read from.
-struct OpenPicture {
-    std::vector<unsigned char> bytes;
-    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
-    std::unique_ptr<OIIO::ImageInput> in;  // last, so that it is closed before its memory is freed
-};
-
-OpenPicture open_bytes(std::span<const unsigned char> bytes, const std::string& format, const std::string& name) {
-    const std::string damage = structure_error(format, bytes);
-    if (!damage.empty()) fail_read(name, damage);
-    OpenPicture picture;
-    picture.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes.data(), bytes.size());
-    picture.in = OIIO::ImageInput::create(format);
-    if (!picture.in) fail_read(name, OIIO::geterror());
-    OIIO::ImageSpec spec;
-    if (!picture.in->set_ioproxy(picture.memory.get()) || !picture.in->open(name, spec, reading_options()))
-        fail_read(name, picture.in->geterror());
-    return picture;
+Picture read_bytes(const PictureBytes& file) {
+    return guarded(file, [&] {
+        const PictureReader read = picture_reader(file.bytes);
+        if (read == nullptr) file.fail(unknown_format);
+        Picture picture = read(file);
+        // Names with a colon are properties that programs note for themselves, such as "oiio:ColorSpace".
+        std::erase_if(picture.texts, [](const auto& entry) { return entry.first.find(':') != std::string::npos; });
+        return picture;
+    });
 }
 
-OpenPicture open_file(const std::filesystem::path& path, std::uint64_t& file_bytes) {
-    const std::string name = path.string();
+Picture read_file(const std::filesystem::path& path, std::size_t max_pixels, bool only_texts = false) {
+    PictureBytes file{{}, path.string(), max_pixels, only_texts};
     std::error_code status;
     const std::filesystem::file_status there = std::filesystem::status(path, status);
-    if (!std::filesystem::exists(there)) fail_read(name, "no such file");
-    if (!std::filesystem::is_regular_file(there)) fail_read(name, "it is not a plain file");
-    file_bytes = std::filesystem::file_size(path);
-    std::vector<unsigned char> bytes(8);
-    std::ifstream file(path, std::ios::binary);
-    if (!file) fail_read(name, "it cannot be opened");
+    if (!std::filesystem::exists(there)) file.fail("no such file");
+    if (!std::filesystem::is_regular_file(there)) file.fail("it is not a plain file");
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) file.fail("it cannot be opened");
+    std::vector<unsigned char> bytes(beginning);
     const auto read = [&](std::size_t first) {
-        file.read(reinterpret_cast<char*>(bytes.data() + first), static_cast<std::streamsize>(bytes.size() - first));
-        bytes.resize(first + static_cast<std::size_t>(file.gcount()));
+        stream.read(reinterpret_cast<char*>(bytes.data() + first), static_cast<std::streamsize>(bytes.size() - first));
+        bytes.resize(first + static_cast<std::size_t>(stream.gcount()));
     };
     read(0);
-    if (const char* format = picture_format(bytes)) {
-        bytes.resize(file_bytes);
-        read(8);
-        OpenPicture picture = open_bytes(bytes, format, name);
-        picture.bytes = std::move(bytes);  // moving a vector leaves its elements in place
-        return picture;
-    }
-    OpenPicture picture;
-    const OIIO::ImageSpec config = reading_options();
-    picture.in = OIIO::ImageInput::open(name, &config);
-    if (!picture.in) fail_read(name, OIIO::geterror());
-    return picture;
-}
-
-// The texts of a picture file. Names with a colon are internal to OpenImageIO. In a TIFF file write_image() stores the
-// texts as lines of the description.
-Metadata texts_of(const OIIO::ImageSpec& spec) {
-    Metadata texts;
-    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
-        const std::string name = attribute.name().string();
-        if (attribute.type() != OIIO::TypeDesc::STRING || name.find(':') != std::string::npos) continue;
-        std::istringstream lines(attribute.get_string());
-        std::string line;
-        std::size_t colon = 0;
-        if (name == "ImageDescription" && lines.str().ends_with('\n'))
-            while (std::getline(lines, line) && (colon = line.find(": ")) != std::string::npos)
-                texts.emplace_back(line.substr(0, colon), line.substr(colon + 2));
-        else
-            texts.emplace_back(name, lines.str());
-    }
-    return texts;
+    if (picture_reader(bytes) == nullptr) file.fail(unknown_format);
+    if (bytes.size() == beginning)
+        guarded(file, [&] {
+            bytes.resize(std::max(std::filesystem::file_size(path), std::uintmax_t{beginning}));
+            read(beginning);
+        });
+    file.bytes = bytes;
+    return read_bytes(file);
 }
 
 }  // namespace
 
 Image read_image(const std::filesystem::path& path, std::size_t max_pixels) {
-    const std::string name = path.string();
-    return guarded(name, [&] {
-        std::uint64_t file_bytes = 0;
-        const OpenPicture picture = open_file(path, file_bytes);
-        check_size(picture.in->spec(), name, max_pixels, file_bytes);
-        Image image = read_pixels(*picture.in, name);
-        image.provenance = to_provenance(texts_of(picture.in->spec()));
+    return guarded({{}, path.string()}, [&] {
+        Picture picture = read_file(path, max_pixels);
+        Image image = linear_image(std::move(picture.samples));
+        image.provenance = to_provenance(std::move(picture.texts));
         return image;
     });
 }
 
 Image decode_image(std::span<const unsigned char> bytes, const std::string& name, std::size_t max_pixels) {
-    return guarded(name, [&] {
-        const char* format = picture_format(bytes);
-        if (format == nullptr)
-            fail_read(name, "its first bytes are not those of a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, HDR or DDS file");
-        const OpenPicture picture = open_bytes(bytes, format, name);
-        check_size(picture.in->spec(), name, max_pixels, bytes.size());
-        return read_pixels(*picture.in, name);
-    });
+    return guarded({{}, name}, [&] { return linear_image(read_bytes({bytes, name, max_pixels}).samples); });
 }
 
 RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels) {
-    const std::string name = path.string();
-    return guarded(name, [&] {
-        std::uint64_t file_bytes = 0;
-        const OpenPicture picture = open_file(path, file_bytes);
-        const OIIO::ImageSpec& spec = picture.in->spec();
-        check_size(spec, name, max_pixels, file_bytes);
-        // The picture must be grey, with or without alpha, or have three equal channels.
-        const std::size_t channels = spec.nchannels >= 3 ? 3 : 1;
-        std::vector<float> values(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                                  channels);
-        RawPixels pixels;
-        const bool whole = !spec.format.is_floating_point() && spec.format.size() <= 2;
-        // OpenImageIO converts whole numbers to fractions of the largest one, which is undone here.
-        if (whole) pixels.levels = spec.format.size() == 1 ? 256 : 65536;
-        const float scale = whole ? static_cast<float>(pixels.levels - 1) : 1.0f;
-        if (!picture.in->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::FLOAT, values.data()))
-            fail_read(name, picture.in->geterror());
-        pixels.values = Array<float, 2>({static_cast<std::size_t>(spec.height), static_cast<std::size_t>(spec.width)});
-        for (std::size_t i = 0; i < pixels.values.size(); ++i) {
-            const float* pixel = &values[i * channels];
-            if (channels == 3 && (pixel[0] != pixel[1] || pixel[0] != pixel[2]))
-                fail_read(name, "its channels differ, but one number a pixel was expected");
-            pixels.values.data()[i] = whole ? std::round(pixel[0] * scale) : pixel[0];
-        }
-        return pixels;
+    const PictureBytes file{{}, path.string()};
+    return guarded(file, [&] {
+        return std::visit([&](const auto& samples) { return raw_pixels(samples, file); },
+                          read_file(path, max_pixels).samples);
     });
 }
 
-Metadata read_metadata(const std::filesystem::path& path) {
-    return guarded(path.string(), [&] {
-        std::uint64_t file_bytes = 0;
-        return texts_of(open_file(path, file_bytes).in->spec());
-    });
-}
+Metadata read_metadata(const std::filesystem::path& path) { return read_file(path, 0, true).texts; }
 
 }  // namespace hogel

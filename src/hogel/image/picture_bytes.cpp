@@ -14,19 +14,17 @@ using namespace std::string_view_literals;
 
 struct Signature {
     std::string_view bytes;
-    const char* format;
+    PictureReader read;
 };
 
-constexpr std::array signatures{Signature{"\x89PNG\r\n\x1a\n"sv, "png"},
-                                Signature{"\xff\xd8\xff"sv, "jpeg"},
-                                Signature{"\x76\x2f\x31\x01"sv, "openexr"},
-                                Signature{"II*\0"sv, "tiff"},
-                                Signature{"MM\0*"sv, "tiff"},
-                                Signature{"RIFF"sv, "webp"},
-                                Signature{"GIF8"sv, "gif"},
-                                Signature{"BM"sv, "bmp"},
-                                Signature{"#?"sv, "hdr"},
-                                Signature{"DDS "sv, "dds"}};
+constexpr std::array signatures{Signature{"\x89PNG\r\n\x1a\n"sv, read_png},
+                                Signature{"\xff\xd8\xff"sv, read_jpeg},
+                                Signature{"\x76\x2f\x31\x01"sv, read_exr},
+                                Signature{"II*\0"sv, read_tiff},
+                                Signature{"MM\0*"sv, read_tiff},
+                                Signature{"GIF8"sv, read_with_stb},
+                                Signature{"BM"sv, read_with_stb},
+                                Signature{"#?"sv, read_with_stb}};
 
 std::uint32_t big_endian(std::span<const unsigned char> b) {
     return std::uint32_t{b[0]} << 24 | std::uint32_t{b[1]} << 16 | std::uint32_t{b[2]} << 8 | b[3];
@@ -36,8 +34,10 @@ std::uint32_t little_endian(std::span<const unsigned char> b) {
     return std::uint32_t{b[3]} << 24 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[1]} << 8 | b[0];
 }
 
+}  // namespace
+
 // PNG (ISO 15948): a signature of 8 bytes, then chunks of length, name, data and checksum.
-std::string png_error(std::span<const unsigned char> bytes) {
+std::string png_structure_error(std::span<const unsigned char> bytes) {
     for (std::size_t at = 8; bytes.size() - at >= 12;) {
         const std::uint32_t length = big_endian(bytes.subspan(at, 4));
         if (length > bytes.size() - at - 12)
@@ -50,7 +50,7 @@ std::string png_error(std::span<const unsigned char> bytes) {
 
 // OpenEXR file layout: after 8 bytes one header, or several and an empty one; a header is a list of attributes (name,
 // type, size, value) that ends with an empty name.
-std::string exr_error(std::span<const unsigned char> bytes) {
+std::string exr_structure_error(std::span<const unsigned char> bytes) {
     if (bytes.size() < 8) return "it ends inside its header";
     const bool several = (little_endian(bytes.subspan(4, 4)) & 0x1000) != 0;
     std::size_t at = 8;
@@ -81,8 +81,6 @@ std::string exr_error(std::span<const unsigned char> bytes) {
     return "it ends inside its header";
 }
 
-}  // namespace
-
 std::string one_line(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
     std::string line;
@@ -95,17 +93,13 @@ std::string one_line(std::string text) {
     return line.empty() ? "unknown reason" : line;
 }
 
-const char* picture_format(std::span<const unsigned char> bytes) {
-    const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 8));
+PictureReader picture_reader(std::span<const unsigned char> bytes) {
+    const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), beginning));
+    if (start.starts_with("RIFF"sv) && start.substr(std::min<std::size_t>(start.size(), 8)).starts_with("WEBP"sv))
+        return read_webp;
     for (const Signature& signature : signatures)
-        if (start.starts_with(signature.bytes)) return signature.format;
-    return nullptr;
-}
-
-std::string structure_error(const std::string& format, std::span<const unsigned char> bytes) {
-    if (format == "png") return png_error(bytes);
-    if (format == "openexr") return exr_error(bytes);
-    return "";
+        if (start.starts_with(signature.bytes)) return signature.read;
+    return begins_like_tga(bytes) ? read_with_stb : nullptr;
 }
 
 }  // namespace hogel::image

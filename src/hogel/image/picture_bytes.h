@@ -6,17 +6,24 @@
 #include <span>
 #include <string>
 
+#include "hogel/image/formats/formats.h"
+
 namespace hogel::image {
 
 /// Puts an error message of a library on one line.
 std::string one_line(std::string text);
 
-/// OpenImageIO's name of the format of a picture file, by its first bytes; null for an unknown one.
-const char* picture_format(std::span<const unsigned char> bytes);
+/// How many of a file's first bytes picture_reader() looks at.
+constexpr std::size_t beginning = 18;
 
-/// Describes what is wrong with the outer structure of a PNG or EXR file; "" if nothing is. This check is needed
-/// because the libraries that read these files allocate the length that a chunk or an attribute claims before they know
-/// whether the file is that long.
-std::string structure_error(const std::string& format, std::span<const unsigned char> bytes);
+using PictureReader = Picture (*)(const PictureBytes&);
+/// The reader of the format that a picture file begins with; null for an unknown one.
+PictureReader picture_reader(std::span<const unsigned char> bytes);
+
+/// Describe what is wrong with the outer structure of a PNG or EXR file; "" if nothing is. The check is needed because
+/// the libraries that read these files allocate the length that a chunk or an attribute claims before they know whether
+/// the file is that long.
+std::string png_structure_error(std::span<const unsigned char> bytes);
+std::string exr_structure_error(std::span<const unsigned char> bytes);
 
 }  // namespace hogel::image

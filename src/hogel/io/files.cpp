@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include "hogel/compress.h"
+#include "hogel/image/picture_formats.h"
 #include "hogel/io/finite.h"
 #include "hogel/io/hdf5/files.h"
 #include "hogel/io/summary.h"
@@ -12,15 +14,42 @@
 namespace hogel {
 namespace {
 
-FileFormat picture_format(std::string name, std::vector<std::string> extensions, std::string text,
-                          bool written = false) {
-    FileFormat format{std::move(name), std::move(extensions), std::move(text), {FileKind::picture}, {}};
-    if (written) format.writes = {FileKind::picture};
-    return format;
+// The formats of pictures that this build has.
+std::vector<FileFormat> picture_rows() {
+    std::vector<FileFormat> rows;
+    for (const image::PictureFormat& format : image::picture_formats()) {
+        if (!format.built_in) continue;
+        rows.push_back({format.name, format.extensions, format.text, {FileKind::picture}, {}});
+        if (format.written_as_picture || format.written_as_levels) rows.back().writes = {FileKind::picture};
+    }
+    return rows;
 }
 
-FileFormat mesh_format(std::string name, std::vector<std::string> extensions, std::string text) {
-    return {std::move(name), std::move(extensions), std::move(text), {FileKind::mesh}, {}};
+std::vector<FileFormat> all_formats() {
+    constexpr FileKind light_field = FileKind::light_field, hologram = FileKind::hologram;
+    std::vector<FileFormat> rows{
+        {"hdf5",
+         {".h5", ".hdf5"},
+         "samples of light fields and holograms, for h5py and others",
+         {light_field, hologram},
+         {light_field, hologram}},
+        {"hgl", {".hgl"}, "compressed light fields", {light_field}, {light_field}},
+        {"npy", {".npy"}, "NumPy arrays: the samples of one field", {hologram}, {hologram}},
+        {"mat", {".mat"}, "MATLAB arrays, versions 5 to 7.3: the samples of one field", {hologram}, {}},
+    };
+    std::ranges::move(picture_rows(), std::back_inserter(rows));
+    const auto add_mesh = [&](const char* name, std::vector<std::string> extensions, const char* text) {
+        rows.push_back({name, std::move(extensions), text, {FileKind::mesh}, {}});
+    };
+    add_mesh("gltf", {".gltf", ".glb"}, "glTF 2.0, with its materials and textures");
+    add_mesh("obj", {".obj"}, "Wavefront OBJ");
+    add_mesh("ply", {".ply"}, "Stanford polygons");
+    add_mesh("stl", {".stl"}, "stereolithography");
+    add_mesh("off", {".off"}, "Object File Format");
+    add_mesh("dae", {".dae"}, "COLLADA");
+    add_mesh("fbx", {".fbx"}, "Autodesk FBX");
+    add_mesh("3ds", {".3ds"}, "Autodesk 3DS");
+    return rows;
 }
 
 std::string lower_case(std::string text) {
@@ -35,42 +64,14 @@ FileKind kind_by_extension(const std::filesystem::path& path) {
         if (std::ranges::count(format.extensions, extension) > 0)
             for (const FileKind kind : format.reads)
                 if (kind == FileKind::picture || kind == FileKind::mesh) return kind;
-    return FileKind::unknown;
+    // A picture of a format that is not built in is known as such, so that its reader can say what is missing.
+    return image::format_by_extension(path) != nullptr ? FileKind::picture : FileKind::unknown;
 }
 
 }  // namespace
 
 Table<FileFormat>& file_formats() {
-    constexpr FileKind light_field = FileKind::light_field, hologram = FileKind::hologram;
-    static Table<FileFormat> table(
-        "file format",
-        {
-            {"hdf5",
-             {".h5", ".hdf5"},
-             "samples of light fields and holograms, for h5py and others",
-             {light_field, hologram},
-             {light_field, hologram}},
-            {"hgl", {".hgl"}, "compressed light fields", {light_field}, {light_field}},
-            {"npy", {".npy"}, "NumPy arrays: the samples of one field", {hologram}, {hologram}},
-            {"mat", {".mat"}, "MATLAB arrays, versions 5 to 7.3: the samples of one field", {hologram}, {}},
-            picture_format("exr", {".exr"}, "OpenEXR, linear half floats", true),
-            picture_format("png", {".png"}, "PNG, 8 bits sRGB", true),
-            picture_format("tiff", {".tif", ".tiff"}, "TIFF, 8 bits sRGB", true),
-            picture_format("bmp", {".bmp"}, "Windows bitmap; written for the levels of a modulator alone", true),
-            picture_format("jpeg", {".jpg", ".jpeg"}, "JPEG"),
-            picture_format("gif", {".gif"}, "GIF"),
-            picture_format("hdr", {".hdr"}, "Radiance RGBE"),
-            picture_format("tga", {".tga"}, "Targa"),
-            picture_format("webp", {".webp"}, "WebP"),
-            mesh_format("gltf", {".gltf", ".glb"}, "glTF 2.0, with its materials and textures"),
-            mesh_format("obj", {".obj"}, "Wavefront OBJ"),
-            mesh_format("ply", {".ply"}, "Stanford polygons"),
-            mesh_format("stl", {".stl"}, "stereolithography"),
-            mesh_format("off", {".off"}, "Object File Format"),
-            mesh_format("dae", {".dae"}, "COLLADA"),
-            mesh_format("fbx", {".fbx"}, "Autodesk FBX"),
-            mesh_format("3ds", {".3ds"}, "Autodesk 3DS"),
-        });
+    static Table<FileFormat> table("file format", all_formats());
     return table;
 }
 

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>  // before jpeglib.h, which needs FILE
+
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+#include <array>
+#include <cmath>
+#include <csetjmp>
+
+#include "hogel/image/formats/formats.h"
+
+namespace hogel::image {
+namespace {
+
+// A progressive file may repeat its scans thousands of times to keep a reader busy; more than these are refused.
+constexpr int most_scans = 500;
+
+// libjpeg reports an error by calling fail_by_jump(), which may not return. As with libpng, a step that calls it owns
+// nothing that has a destructor.
+struct Errors {
+    jpeg_error_mgr base;  // first, because libjpeg knows this alone
+    std::jmp_buf back;
+    std::array<char, JMSG_LENGTH_MAX> text;
+};
+
+[[noreturn]] void fail_by_jump(j_common_ptr jpeg) {
+    auto* errors = reinterpret_cast<Errors*>(jpeg->err);
+    errors->base.format_message(jpeg, errors->text.data());
+    std::longjmp(errors->back, 1);
+}
+
+// Warnings are about damage that libjpeg conceals. Where the file has ended, it would make up what is missing.
+void refuse_early_end(j_common_ptr jpeg, int level) {
+    if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) fail_by_jump(jpeg);
+}
+
+void print_nothing(j_common_ptr) {}
+
+void limit_scans(j_common_ptr jpeg) {
+    if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= most_scans) return;
+    auto* errors = reinterpret_cast<Errors*>(jpeg->err);
+    std::snprintf(errors->text.data(), errors->text.size(), "it has more than %d scans", most_scans);
+    std::longjmp(errors->back, 1);
+}
+
+class Reader {
+  public:
+    explicit Reader(const PictureBytes& file) : file_(file) {
+        jpeg_.err = jpeg_std_error(&errors_.base);
+        errors_.base.error_exit = fail_by_jump;
+        errors_.base.emit_message = refuse_early_end;
+        errors_.base.output_message = print_nothing;
+        errors_.text[0] = 0;
+        progress_.progress_monitor = limit_scans;
+        run([&] { jpeg_create_decompress(&jpeg_); });
+        jpeg_.progress = &progress_;
+    }
+    ~Reader() { jpeg_destroy_decompress(&jpeg_); }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+
+    void read_header() {
+        run([&] {
+            jpeg_mem_src(&jpeg_, file_.bytes.data(), static_cast<unsigned long>(file_.bytes.size()));
+            jpeg_save_markers(&jpeg_, JPEG_COM, 0xffff);
+            jpeg_read_header(&jpeg_, TRUE);
+        });
+    }
+
+    Metadata texts() const {
+        Metadata texts;
+        for (const jpeg_marker_struct* marker = jpeg_.marker_list; marker != nullptr; marker = marker->next) {
+            const std::string text(reinterpret_cast<const char*>(marker->data), marker->data_length);
+            texts.emplace_back("ImageDescription", text.substr(0, text.find('\0')));
+        }
+        return texts;
+    }
+
+    Samples pixels() {
+        file_.check_size(jpeg_.image_width, jpeg_.image_height, static_cast<std::uint64_t>(jpeg_.num_components), 1);
+        const bool inks = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
+        const bool grey = jpeg_.jpeg_color_space == JCS_GRAYSCALE;
+        jpeg_.out_color_space = inks ? JCS_CMYK : grey ? JCS_GRAYSCALE : JCS_RGB;
+        run([&] { jpeg_start_decompress(&jpeg_); });
+        const std::size_t channels = grey ? 1 : 3, width = jpeg_.output_width;
+        Array<std::uint8_t, 3> samples({jpeg_.output_height, width, channels});
+        std::vector<JSAMPLE> line(inks ? 4 * width : 0);
+        JSAMPLE* const first = samples.data();
+        JSAMPLE* const colours = line.data();
+        run([&] {
+            while (jpeg_.output_scanline < jpeg_.output_height) {
+                JSAMPLE* const row = first + jpeg_.output_scanline * width * channels;
+                JSAMPROW into = inks ? colours : row;
+                jpeg_read_scanlines(&jpeg_, &into, 1);
+                if (inks) to_rgb(colours, row, width);
+            }
+        });
+        return samples;
+    }
+
+  private:
+    template <class Step>
+    void run(const Step& step) {
+        if (!attempt(step)) file_.fail(errors_.text.data());
+    }
+    template <class Step>
+    bool attempt(const Step& step) {
+        if (setjmp(errors_.back) != 0) return false;
+        step();
+        return true;
+    }
+
+    // JPEG files store one minus the amount of each ink.
+    static void to_rgb(const JSAMPLE* inks, JSAMPLE* colours, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                colours[3 * i + c] =
+                    static_cast<JSAMPLE>(std::lround(static_cast<float>(inks[4 * i + c] * inks[4 * i + 3]) / 255.0f));
+    }
+
+    const PictureBytes& file_;
+    Errors errors_;
+    jpeg_progress_mgr progress_{};
+    jpeg_decompress_struct jpeg_{};
+};
+
+}  // namespace
+
+Picture read_jpeg(const PictureBytes& file) {
+    Reader reader(file);
+    reader.read_header();
+    Picture picture{{}, reader.texts()};
+    if (!file.only_texts) picture.samples = reader.pixels();
+    return picture;
+}
+
+}  // namespace hogel::image

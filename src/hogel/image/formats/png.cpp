@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+#include "hogel/image/formats/formats.h"
+#include "hogel/image/picture_bytes.h"
+
+namespace hogel::image {
+namespace {
+
+// PNG's names of some texts and those that other formats and programs use.
+struct Keyword {
+    std::string_view png, common;
+};
+constexpr std::array keywords{Keyword{"Description", "ImageDescription"}, Keyword{"Author", "Artist"},
+                              Keyword{"Title", "DocumentName"}};
+
+// libpng reports an error by a long jump to where attempt() set it up, which skips destructors; therefore a step that
+// calls libpng owns nothing. The message is kept here, as libpng's own is in the frame that is left.
+struct Failure {
+    std::array<char, 200> text{};
+};
+
+void note_failure(png_structp png, png_const_charp message) {
+    auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
+    std::snprintf(failure->text.data(), failure->text.size(), "%s", message);
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+template <class Step>
+bool attempt(png_structp png, const Step& step) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    step();
+    return true;
+}
+
+struct Source {
+    const unsigned char* at;
+    std::size_t left;
+};
+
+void take(png_structp png, png_bytep into, std::size_t size) {
+    auto* source = static_cast<Source*>(png_get_io_ptr(png));
+    if (size > source->left) png_error(png, "it ends before its last chunk");
+    std::memcpy(into, source->at, size);
+    source->at += size;
+    source->left -= size;
+}
+
+class Reader {
+  public:
+    explicit Reader(const PictureBytes& file) : file_(file), source_{file.bytes.data(), file.bytes.size()} {
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure_, note_failure, ignore_warning);
+        info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+        if (info_ == nullptr) {
+            png_destroy_read_struct(&png_, nullptr, nullptr);
+            throw std::bad_alloc();
+        }
+    }
+    ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+
+    void read_header() {
+        run([&] {
+            png_set_read_fn(png_, &source_, take);
+            png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size() knows better ones
+            png_read_info(png_, info_);
+        });
+    }
+
+    Metadata texts() {
+        png_textp list = nullptr;
+        int count = 0;
+        run([&] { png_get_text(png_, info_, &list, &count); });
+        Metadata texts;
+        for (int i = 0; i < count; ++i) {
+            std::string key = list[i].key;
+            for (const Keyword& keyword : keywords)
+                if (key == keyword.png) key = keyword.common;
+            // Profiles are bytes of other formats, written as hexadecimal digits.
+            if (list[i].text != nullptr && !key.starts_with("Raw profile type")) texts.emplace_back(key, list[i].text);
+        }
+        return texts;
+    }
+
+    Samples pixels() {
+        const std::size_t width = png_get_image_width(png_, info_), height = png_get_image_height(png_, info_);
+        const bool deep = png_get_bit_depth(png_, info_) == 16;
+        const int type = png_get_color_type(png_, info_);
+        const bool grey = (type & PNG_COLOR_MASK_COLOR) == 0;
+        file_.check_size(width, height, png_get_channels(png_, info_), deep ? 2 : 1);
+        run([&] {
+            if (type == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
+            if (grey) png_set_expand_gray_1_2_4_to_8(png_);
+            png_set_strip_alpha(png_);
+            if (deep && std::endian::native == std::endian::little) png_set_swap(png_);
+            passes_ = png_set_interlace_handling(png_);
+            png_read_update_info(png_, info_);
+        });
+        const Shape<3> shape{height, width, grey ? 1u : 3u};
+        if (deep) return rows(Array<std::uint16_t, 3>(shape));
+        return rows(Array<std::uint8_t, 3>(shape));
+    }
+
+  private:
+    template <class Step>
+    void run(const Step& step) {
+        if (!attempt(png_, step)) file_.fail(failure_.text.data());
+    }
+
+    template <class T>
+    Samples rows(Array<T, 3> samples) {
+        const std::size_t row = samples.extent(1) * samples.extent(2);
+        if (png_get_rowbytes(png_, info_) != row * sizeof(T)) file_.fail("its rows are not of the size they should be");
+        T* const first = samples.data();
+        const std::size_t height = samples.extent(0);
+        run([&] {
+            for (int pass = 0; pass < passes_; ++pass)
+                for (std::size_t y = 0; y < height; ++y)
+                    png_read_row(png_, reinterpret_cast<png_bytep>(first + y * row), nullptr);
+        });
+        return samples;
+    }
+
+    const PictureBytes& file_;
+    Source source_;
+    Failure failure_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    int passes_ = 1;
+};
+
+// Where a writer puts its bytes. What is thrown while memory is taken may not pass through libpng.
+struct Sink {
+    std::vector<unsigned char>* bytes;
+    bool full = false;
+};
+
+void put(png_structp png, png_bytep from, std::size_t size) {
+    auto* sink = static_cast<Sink*>(png_get_io_ptr(png));
+    try {
+        sink->bytes->insert(sink->bytes->end(), from, from + size);
+    } catch (const std::bad_alloc&) {
+        sink->full = true;
+    }
+    if (sink->full) png_error(png, "there is not enough memory");
+}
+
+// The texts as libpng takes them. It keeps its own copy.
+std::vector<png_text> png_texts(Metadata& texts) {
+    std::vector<png_text> list;
+    for (auto& [key, text] : texts) {
+        if (key.empty()) continue;
+        for (const Keyword& keyword : keywords)
+            if (key == keyword.common) key = keyword.png;
+        png_text entry{};
+        entry.compression = PNG_TEXT_COMPRESSION_NONE;
+        entry.key = key.data();
+        entry.text = text.data();
+        entry.text_length = text.size();
+        list.push_back(entry);
+    }
+    return list;
+}
+
+}  // namespace
+
+Picture read_png(const PictureBytes& file) {
+    const std::string damage = png_structure_error(file.bytes);
+    if (!damage.empty()) file.fail(damage);
+    Reader reader(file);
+    reader.read_header();
+    Picture picture{{}, reader.texts()};
+    if (!file.only_texts) picture.samples = reader.pixels();
+    return picture;
+}
+
+std::vector<unsigned char> png_file(View<const std::uint8_t, 3> pixels, const Metadata& texts, Curve curve) {
+    std::vector<unsigned char> bytes;
+    Metadata named = texts;
+    const std::vector<png_text> list = png_texts(named);
+    Sink sink{&bytes};
+    Failure failure;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, note_failure, ignore_warning);
+    if (png == nullptr) throw std::bad_alloc();
+    png_infop info = png_create_info_struct(png);
+    const auto height = static_cast<png_uint_32>(pixels.extent(0)), width = static_cast<png_uint_32>(pixels.extent(1));
+    const int type = pixels.extent(2) == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
+    const std::size_t row = pixels.extent(1) * pixels.extent(2);
+    const bool done = info != nullptr && attempt(png, [&] {
+                          png_set_write_fn(png, &sink, put, nullptr);
+                          png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+                          png_set_compression_level(png, 6);
+                          png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_NO_FILTERS);
+                          png_set_IHDR(png, info, width, height, 8, type, PNG_INTERLACE_NONE,
+                                       PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+                          if (curve == Curve::srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+                          if (!list.empty()) png_set_text(png, info, list.data(), static_cast<int>(list.size()));
+                          png_write_info(png, info);
+                          for (std::size_t y = 0; y < height; ++y) png_write_row(png, pixels.data() + y * row);
+                          png_write_end(png, info);
+                      });
+    png_destroy_write_struct(&png, &info);
+    if (!done) throw std::runtime_error(failure.text.data());
+    return bytes;
+}
+
+}  // namespace hogel::image

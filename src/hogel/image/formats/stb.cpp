@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one file that compiles stb_image, with nothing but the formats that have no library of their own here.
+#include <stdexcept>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_BMP
+#define STBI_ONLY_GIF
+#define STBI_ONLY_HDR
+#define STBI_ONLY_TGA
+#define STBI_NO_STDIO
+// A damaged file must not end the program.
+#define STBI_ASSERT(condition) \
+    if (!(condition)) throw std::runtime_error("it is damaged")
+#include <stb/stb_image.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "hogel/image/formats/formats.h"
+
+namespace hogel::image {
+namespace {
+
+// Where stb_image reads. It takes what is missing at the end of a file as zeros, so the end is watched here.
+struct Source {
+    std::span<const unsigned char> bytes;
+    std::size_t at = 0;
+    bool passed_end = false;
+};
+
+int take(void* user, char* into, int size) {
+    auto& source = *static_cast<Source*>(user);
+    const std::size_t count = std::min(static_cast<std::size_t>(std::max(size, 0)), source.bytes.size() - source.at);
+    if (count == 0 && size > 0) source.passed_end = true;
+    if (count > 0) std::memcpy(into, source.bytes.data() + source.at, count);
+    source.at += count;
+    return static_cast<int>(count);
+}
+
+void skip(void* user, int count) {  // a negative number goes back
+    auto& source = *static_cast<Source*>(user);
+    const std::int64_t to = static_cast<std::int64_t>(source.at) + count;
+    source.at =
+        static_cast<std::size_t>(std::clamp<std::int64_t>(to, 0, static_cast<std::int64_t>(source.bytes.size())));
+}
+
+int at_end(void* user) {
+    const auto& source = *static_cast<Source*>(user);
+    return source.at >= source.bytes.size() ? 1 : 0;
+}
+
+constexpr stbi_io_callbacks callbacks{take, skip, at_end};
+
+[[noreturn]] void fail(const PictureBytes& file, const Source& source) {
+    if (source.passed_end) file.fail("it ends too early");
+    const char* reason = stbi_failure_reason();
+    file.fail(reason != nullptr ? reason : "it is damaged");
+}
+
+struct Free {
+    void operator()(void* memory) const { stbi_image_free(memory); }
+};
+
+// Whether a file is a bitmap with a palette of greys: after the file header of 14 bytes, one that begins with its
+// length and has the bits of a pixel at byte 14, comes the palette, four bytes a colour, up to the pixels.
+bool has_grey_palette(std::span<const unsigned char> bytes) {
+    const auto number = [&](std::size_t at) {
+        return bytes[at] | std::size_t{bytes[at + 1]} << 8 | std::size_t{bytes[at + 2]} << 16 |
+               std::size_t{bytes[at + 3]} << 24;
+    };
+    if (bytes.size() < 54 || bytes[0] != 'B' || bytes[1] != 'M' || bytes[28] > 8 || bytes[29] != 0) return false;
+    const std::size_t pixels = number(10), palette = 14 + number(14);
+    if (number(14) < 40 || palette + 4 > pixels || pixels > bytes.size()) return false;
+    for (std::size_t at = palette; at + 4 <= pixels; at += 4)
+        if (bytes[at] != bytes[at + 1] || bytes[at] != bytes[at + 2]) return false;
+    return true;
+}
+
+// `load` is stb_image's function for the type of the samples.
+template <class T, class Load>
+Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
+    Source source{file.bytes};
+    int width = 0, height = 0, stored = 0;
+    const std::unique_ptr<T, Free> pixels(load(&callbacks, &source, &width, &height, &stored, channels));
+    if (!pixels || source.passed_end) fail(file, source);
+    const auto extent = [](int size) { return static_cast<std::size_t>(size); };
+    Array<T, 3> samples({extent(height), extent(width), extent(channels)});
+    std::copy_n(pixels.get(), samples.size(), samples.data());
+    return samples;
+}
+
+}  // namespace
+
+bool begins_like_tga(std::span<const unsigned char> bytes) {
+    if (bytes.size() < 18) return false;
+    const unsigned palette = bytes[1], type = bytes[2] & ~8u, depth = bytes[16];
+    if ((bytes[2] & ~0xbu) != 0 || palette > 1 || type < 1 || type > 3 || (type == 1) != (palette == 1)) return false;
+    return depth == 8 || ((depth == 15 || depth == 16 || depth == 24 || depth == 32) && type != 1);
+}
+
+Picture read_with_stb(const PictureBytes& file) {
+    if (file.only_texts) return {};
+    Source source{file.bytes};
+    int width = 0, height = 0, stored = 0;
+    if (stbi_info_from_callbacks(&callbacks, &source, &width, &height, &stored) == 0) fail(file, source);
+    Source start{file.bytes};
+    const bool linear = stbi_is_hdr_from_callbacks(&callbacks, &start) != 0;
+    const auto positive = [](int size) { return static_cast<std::uint64_t>(std::max(size, 0)); };
+    file.check_size(positive(width), positive(height), positive(stored), linear ? sizeof(float) : 1);
+    const int channels = stored >= 3 && !has_grey_palette(file.bytes) ? 3 : 1;
+    Picture picture;
+    picture.samples = linear ? load_samples<float>(file, channels, stbi_loadf_from_callbacks)
+                             : load_samples<stbi_uc>(file, channels, stbi_load_from_callbacks);
+    return picture;
+}
+
+}  // namespace hogel::image
