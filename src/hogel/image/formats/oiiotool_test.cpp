@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <sstream>
 
+#include "hogel/error.h"
 #include "hogel/image.h"
+#include "hogel/image/picture_formats.h"
 
 namespace hogel::image {
 namespace {
@@ -118,7 +120,9 @@ TEST_F(OiioTool, writes_exr_files_that_are_read_exactly) {
 TEST_F(OiioTool, writes_integers_that_are_read_exactly) {
     const Image image = display_ramp(3);
     write_image(file("a.png"), image);
-    for (const std::string name : {"b.bmp", "b.tga", "b.png"}) {
+    std::vector<std::string> names{"b.bmp", "b.tga", "b.png"};
+    if (format_by_extension("b.tif")->built_in) names.push_back("b.tif");
+    for (const std::string& name : names) {
         run(file("a.png") + " -o " + file(name));
         const Image read = read_image(file(name));
         ASSERT_EQ(read.pixels.shape(), image.pixels.shape()) << name;
@@ -132,6 +136,26 @@ TEST_F(OiioTool, writes_integers_that_are_read_exactly) {
     const std::vector<double> expected = pixels(file("deep.png"));
     ASSERT_EQ(expected.size(), deep.values.size());
     for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_EQ(deep.values.data()[i], expected[i]) << i;
+}
+
+TEST_F(OiioTool, writes_webp_files_that_are_read_or_refused_by_name) {
+    Image image(32, 32, 3);
+    std::ranges::fill(image.pixels.elements(), 0.25f);
+    write_image(file("a.png"), image);
+    run(file("a.png") + " -o " + file("b.webp"));
+    if (format_by_extension("b.webp")->built_in) {
+        const Image read = read_image(file("b.webp"));
+        ASSERT_EQ(read.pixels.shape(), image.pixels.shape());
+        for (const float value : read.pixels.elements()) EXPECT_NEAR(value, 0.25f, 0.02f);
+        return;
+    }
+    try {
+        read_image(file("b.webp"));
+        FAIL() << "was read";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::not_built_in);
+        EXPECT_NE(std::string(error.what()).find("WebP"), std::string::npos);
+    }
 }
 
 TEST_F(OiioTool, writes_jpeg_and_hdr_files_that_are_read) {

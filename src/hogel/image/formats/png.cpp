@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -202,7 +203,7 @@ std::vector<unsigned char> png_file(View<const std::uint8_t, 3> pixels, const Me
                           png_set_write_fn(png, &sink, put, nullptr);
                           png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
                           png_set_compression_level(png, 6);
-                          png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_NO_FILTERS);
+                          png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);  // the bytes of earlier versions
                           png_set_IHDR(png, info, width, height, 8, type, PNG_INTERLACE_NONE,
                                        PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
                           if (curve == Curve::srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
