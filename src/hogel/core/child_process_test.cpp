@@ -49,8 +49,7 @@ TEST(ChildProcess, failures_are_told_apart) {
     EXPECT_EQ(failure_of([](int) { std::raise(SIGSEGV); }), ChildFailure::Kind::crashed);
     EXPECT_EQ(failure_of([](int) {}), ChildFailure::Kind::crashed);
     EXPECT_EQ(failure_of([](int) {
-                  for (volatile int i = 0;; i = i + 1) {
-                  }
+                  for (std::atomic<int> i = 0;;) ++i;
               }),
               ChildFailure::Kind::time);
     EXPECT_EQ(failure_of([](int) { ::pause(); }), ChildFailure::Kind::stuck);
