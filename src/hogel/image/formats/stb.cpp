@@ -1,7 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one file that compiles stb_image, with nothing but the formats that have no library of their own here.
+#include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
+#include <vector>
 
+namespace {
+
+// The blocks of memory that stb_image holds on this thread. An exception that passes through it would lose them.
+thread_local std::vector<void*> held;
+
+void* hold(void* block) {
+    if (block != nullptr) held.push_back(block);
+    return block;
+}
+
+void let_go(void* block) {
+    const auto at = std::find(held.begin(), held.end(), block);
+    if (at != held.end()) held.erase(at);
+}
+
+struct ReleaseAll {
+    ~ReleaseAll() {
+        for (void* block : held) std::free(block);
+        held.clear();
+    }
+};
+
+}  // namespace
+
+#define STBI_MALLOC(size) hold(std::malloc(size))
+#define STBI_REALLOC(block, size) (let_go(block), hold(std::realloc(block, size)))
+#define STBI_FREE(block) (let_go(block), std::free(block))
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_BMP
@@ -23,17 +53,17 @@
 namespace hogel::image {
 namespace {
 
-// Where stb_image reads. It takes what is missing at the end of a file as zeros, so the end is watched here.
+// Where stb_image reads. It takes what is missing at the end of a file as zeros, by which it may run for ever, so the
+// end is an exception here.
 struct Source {
     std::span<const unsigned char> bytes;
     std::size_t at = 0;
-    bool passed_end = false;
 };
 
 int take(void* user, char* into, int size) {
     auto& source = *static_cast<Source*>(user);
     const std::size_t count = std::min(static_cast<std::size_t>(std::max(size, 0)), source.bytes.size() - source.at);
-    if (count == 0 && size > 0) source.passed_end = true;
+    if (count == 0 && size > 0) throw std::runtime_error("it ends too early");
     if (count > 0) std::memcpy(into, source.bytes.data() + source.at, count);
     source.at += count;
     return static_cast<int>(count);
@@ -53,8 +83,7 @@ int at_end(void* user) {
 
 constexpr stbi_io_callbacks callbacks{take, skip, at_end};
 
-[[noreturn]] void fail(const PictureBytes& file, const Source& source) {
-    if (source.passed_end) file.fail("it ends too early");
+[[noreturn]] void fail(const PictureBytes& file) {
     const char* reason = stbi_failure_reason();
     file.fail(reason != nullptr ? reason : "it is damaged");
 }
@@ -84,7 +113,7 @@ Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
     Source source{file.bytes};
     int width = 0, height = 0, stored = 0;
     const std::unique_ptr<T, Free> pixels(load(&callbacks, &source, &width, &height, &stored, channels));
-    if (!pixels || source.passed_end) fail(file, source);
+    if (!pixels) fail(file);
     const auto extent = [](int size) { return static_cast<std::size_t>(size); };
     Array<T, 3> samples({extent(height), extent(width), extent(channels)});
     std::copy_n(pixels.get(), samples.size(), samples.data());
@@ -102,9 +131,10 @@ bool begins_like_tga(std::span<const unsigned char> bytes) {
 
 Picture read_with_stb(const PictureBytes& file) {
     if (file.only_texts) return {};
+    const ReleaseAll at_the_end;
     Source source{file.bytes};
     int width = 0, height = 0, stored = 0;
-    if (stbi_info_from_callbacks(&callbacks, &source, &width, &height, &stored) == 0) fail(file, source);
+    if (stbi_info_from_callbacks(&callbacks, &source, &width, &height, &stored) == 0) fail(file);
     Source start{file.bytes};
     const bool linear = stbi_is_hdr_from_callbacks(&callbacks, &start) != 0;
     const auto positive = [](int size) { return static_cast<std::uint64_t>(std::max(size, 0)); };
