@@ -105,6 +105,15 @@ Bytes hdr_of(std::size_t width, std::size_t height) {
     return bytes;
 }
 
+// A Radiance file of 8 x 2 pixels, in which each row is a run of one value for each byte of a pixel.
+Bytes hdr_of_runs() {
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 8\n";
+    Bytes bytes(header.begin(), header.end());
+    for (int y = 0; y < 2; ++y)
+        for (const unsigned char value : {2, 2, 0, 8, 136, 32, 136, 64, 136, 128, 136, 130}) bytes.push_back(value);
+    return bytes;
+}
+
 // A GIF of one pixel with the first of two colours, (10, 20, 30).
 Bytes small_gif() {
     return {'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0x80, 0, 0, 10,   20, 30, 0,  0,
@@ -213,6 +222,7 @@ std::vector<Sample> samples() {
             {"bmp_grey", bmp_file(some_levels(6, 5, 1))},
             {"tga", tga_of(levels)},
             {"hdr", hdr_of(5, 6)},
+            {"hdr_runs", hdr_of_runs()},
             {"gif", small_gif()}};
 }
 
