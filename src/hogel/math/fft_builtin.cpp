@@ -13,9 +13,9 @@
 namespace hogel::math {
 namespace {
 
-// Up to this length sixteen lines are transformed side by side, since as many positions fit into the second-level
-// cache.
-constexpr std::size_t max_together = 4096;
+// Up to these lengths sixteen rows, or columns, are transformed side by side. Columns would otherwise have to be
+// copied.
+constexpr std::size_t max_rows_together = 4096, max_columns_together = 65536;
 // Rows of a multiple of this length begin in the same cache sets and are transformed one after the other.
 constexpr std::size_t same_cache_sets = 512;
 // From this length on a single line is transformed as an array.
@@ -37,7 +37,7 @@ struct LineEngine::Plans {
             convolved = fourier::convolution_length(2 * n - 1);
             chirp.emplace(n, convolved);
         }
-        if (convolved <= max_together) together.emplace(convolved);
+        if (convolved <= max_columns_together) together.emplace(convolved);
         if (convolved >= min_split) split.emplace(convolved);
     }
 
@@ -51,11 +51,15 @@ struct LineEngine::Plans {
         for (std::size_t i = 0; i < size; ++i) line[i * stride] = exchanged(copy[i]);
     }
 
-    void line(bool forward, std::complex<float>* values) const {
+    // A line in memory, rather than in a near cache, is first copied: reading it in order is faster than by columns.
+    void line(bool forward, std::complex<float>* values, bool in_memory) const {
         if (!fourier::has_vectors()) return plain(forward, values, 1);
         if (!split) return fourier::transform_lines(*together, chirp_or_none(), !forward, floats(values), 0, 1, size);
-        if (!chirp) return fourier::transform_split(*split, !forward, floats(values), floats(values));
-        std::complex<float>* copy = buffer(convolved);
+        std::complex<float>* copy = in_memory || chirp ? buffer(convolved) : values;
+        if (!chirp) {
+            if (in_memory) std::copy_n(values, size, copy);
+            return fourier::transform_split(*split, !forward, floats(copy), floats(values));
+        }
         fourier::multiply(floats(values), chirp->chirp.data(), floats(copy), size, !forward, false);
         std::fill(copy + size, copy + convolved, 0.0f);
         fourier::transform_split(*split, false, floats(copy), floats(copy));
@@ -78,14 +82,15 @@ LineEngine::LineEngine(LineEngine&&) noexcept = default;
 LineEngine& LineEngine::operator=(LineEngine&&) noexcept = default;
 
 std::size_t LineEngine::size() const { return plans_->size; }
-void LineEngine::line(bool forward, std::complex<float>* line) const { plans_->line(forward, line); }
+void LineEngine::line(bool forward, std::complex<float>* line) const { plans_->line(forward, line, false); }
 
 void LineEngine::rows(bool forward, std::complex<float>* lines, std::size_t stride, std::size_t count) const {
     const Plans& plans = *plans_;
-    if (plans.together && plans.size % same_cache_sets != 0 && fourier::has_vectors())
+    const bool side_by_side = plans.convolved <= max_rows_together && plans.size % same_cache_sets != 0;
+    if (side_by_side && fourier::has_vectors())
         return fourier::transform_lines(*plans.together, plans.chirp_or_none(), !forward, floats(lines), 2 * stride,
                                         count, plans.size);
-    for (std::size_t i = 0; i < count; ++i) plans.line(forward, lines + i * stride);
+    for (std::size_t i = 0; i < count; ++i) plans.line(forward, lines + i * stride, true);
 }
 
 void LineEngine::columns(bool forward, std::complex<float>* columns, std::size_t row, std::size_t count) const {
@@ -102,7 +107,7 @@ void LineEngine::columns(bool forward, std::complex<float>* columns, std::size_t
         Array<std::complex<float>, 2> lines({count, stride});
         for (std::size_t y = 0; y < size; ++y)
             for (std::size_t i = 0; i < count; ++i) lines.data()[i * stride + y] = columns[y * row + i];
-        for (std::size_t i = 0; i < count; ++i) plans.line(forward, &lines(i, 0));
+        for (std::size_t i = 0; i < count; ++i) plans.line(forward, &lines(i, 0), false);
         for (std::size_t y = 0; y < size; ++y)
             for (std::size_t i = 0; i < count; ++i) columns[y * row + i] = lines.data()[i * stride + y];
     }
