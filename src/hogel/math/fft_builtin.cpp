@@ -3,6 +3,7 @@
 // are given at once.
 #ifndef HOGEL_FFTW
 #include <algorithm>
+#include <mutex>
 #include <optional>
 
 #include "hogel/array.h"
@@ -13,9 +14,8 @@
 namespace hogel::math {
 namespace {
 
-// Up to these lengths sixteen rows, or columns, are transformed side by side. Columns would otherwise have to be
-// copied.
-constexpr std::size_t max_rows_together = 4096, max_columns_together = 65536;
+// Up to this length sixteen rows are transformed side by side, since as many positions fit into the second-level cache.
+constexpr std::size_t max_rows_together = 4096;
 // Rows of a multiple of this length begin in the same cache sets and are transformed one after the other.
 constexpr std::size_t same_cache_sets = 512;
 // From this length on a single line is transformed as an array.
@@ -37,7 +37,6 @@ struct LineEngine::Plans {
             convolved = fourier::convolution_length(2 * n - 1);
             chirp.emplace(n, convolved);
         }
-        if (convolved <= max_columns_together) together.emplace(convolved);
         if (convolved >= min_split) split.emplace(convolved);
     }
 
@@ -54,7 +53,7 @@ struct LineEngine::Plans {
     // A line in memory, rather than in a near cache, is first copied: reading it in order is faster than by columns.
     void line(bool forward, std::complex<float>* values, bool in_memory) const {
         if (!fourier::has_vectors()) return plain(forward, values, 1);
-        if (!split) return fourier::transform_lines(*together, chirp_or_none(), !forward, floats(values), 0, 1, size);
+        if (!split) return fourier::transform_lines(together(), chirp_or_none(), !forward, floats(values), 0, 1, size);
         std::complex<float>* copy = in_memory || chirp ? buffer(convolved) : values;
         if (!chirp) {
             if (in_memory) std::copy_n(values, size, copy);
@@ -68,12 +67,20 @@ struct LineEngine::Plans {
         fourier::multiply(floats(copy), chirp->chirp.data(), floats(values), size, true, !forward);
     }
 
+    // For lines side by side; planned when it is first needed.
+    const fourier::Plan& together() const {
+        std::call_once(planned_, [&] { together_.emplace(convolved); });
+        return *together_;
+    }
     const fourier::Chirp* chirp_or_none() const { return chirp ? &*chirp : nullptr; }
 
     std::size_t size, convolved;  // the length of the lines, and of the transforms that they need
     std::optional<fourier::Chirp> chirp;
-    std::optional<fourier::Plan> together;
     std::optional<fourier::Split> split;
+
+  private:
+    mutable std::once_flag planned_;
+    mutable std::optional<fourier::Plan> together_;
 };
 
 LineEngine::LineEngine(std::size_t size) : plans_(std::make_unique<Plans>(size)) {}
@@ -88,7 +95,7 @@ void LineEngine::rows(bool forward, std::complex<float>* lines, std::size_t stri
     const Plans& plans = *plans_;
     const bool side_by_side = plans.convolved <= max_rows_together && plans.size % same_cache_sets != 0;
     if (side_by_side && fourier::has_vectors())
-        return fourier::transform_lines(*plans.together, plans.chirp_or_none(), !forward, floats(lines), 2 * stride,
+        return fourier::transform_lines(plans.together(), plans.chirp_or_none(), !forward, floats(lines), 2 * stride,
                                         count, plans.size);
     for (std::size_t i = 0; i < count; ++i) plans.line(forward, lines + i * stride, true);
 }
@@ -98,18 +105,9 @@ void LineEngine::columns(bool forward, std::complex<float>* columns, std::size_t
     const std::size_t size = plans.size;
     if (!fourier::has_vectors()) {
         for (std::size_t i = 0; i < count; ++i) plans.plain(forward, columns + i, row);
-    } else if (plans.together) {
-        fourier::transform_columns(*plans.together, plans.chirp_or_none(), !forward, floats(columns), 2 * row,
-                                   floats(columns), 2 * row, count, size);
     } else {
-        // Padding, so that the lines do not all begin in the same cache sets.
-        const std::size_t stride = (size + 15) / 8 * 8;
-        Array<std::complex<float>, 2> lines({count, stride});
-        for (std::size_t y = 0; y < size; ++y)
-            for (std::size_t i = 0; i < count; ++i) lines.data()[i * stride + y] = columns[y * row + i];
-        for (std::size_t i = 0; i < count; ++i) plans.line(forward, &lines(i, 0), false);
-        for (std::size_t y = 0; y < size; ++y)
-            for (std::size_t i = 0; i < count; ++i) columns[y * row + i] = lines.data()[i * stride + y];
+        fourier::transform_columns(plans.together(), plans.chirp_or_none(), !forward, floats(columns), 2 * row,
+                                   floats(columns), 2 * row, count, size);
     }
 }
 

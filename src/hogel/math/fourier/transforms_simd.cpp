@@ -27,13 +27,23 @@ void Multiply(const float*, const float*, float*, std::size_t, bool, bool) {}
 #else
 bool HasVectors() { return true; }
 
-// Memory of this thread that is kept for the next transform.
+// Memory for rows in split layout. Up to 8 MB this thread keeps for its next transform.
 template <int which>
-float* Scratch(std::size_t rows) {
-    thread_local Array<float, 1> scratch;
-    if (scratch.size() < rows * split_row) scratch = Array<float, 1>({rows * split_row});
-    return scratch.data();
-}
+class Scratch {
+  public:
+    explicit Scratch(std::size_t rows) {
+        thread_local Array<float, 1> kept;
+        Array<float, 1>& memory = rows <= most_kept ? kept : own_;
+        if (memory.size() < rows * split_row) memory = Array<float, 1>({rows * split_row});
+        data_ = memory.data();
+    }
+    float* data() { return data_; }
+
+  private:
+    static constexpr std::size_t most_kept = std::size_t{1} << 16;
+    Array<float, 1> own_;
+    float* data_;
+};
 
 // Copies `columns` complex numbers of each row into rows of `together`, or back.
 void CopyRows(const float* from, std::size_t from_row, float* to, std::size_t to_row, std::size_t rows,
@@ -48,20 +58,22 @@ void ColumnsAs(const Plan& plan, const Chirp* chirp, const float* from, std::siz
     Source source{from, from_row};
     Sink sink{to, to_row, plan.frequency.data()};
     const bool part = columns < together;
+    Scratch<0> padded(part ? length : 0);
     if (part) {
-        float* padded = Scratch<0>(length);
-        CopyRows(from, from_row, padded, split_row, length, columns);
-        source = {padded, split_row};
-        sink.data = padded, sink.row = split_row;
+        CopyRows(from, from_row, padded.data(), split_row, length, columns);
+        source = {padded.data(), split_row};
+        sink.data = padded.data(), sink.row = split_row;
     }
-    float* scratch = Scratch<1>(plan.length);
+    Scratch<1> memory(plan.length);
+    float* scratch = memory.data();
     if (!chirp) {
         TransformRows<Layout, Layout>(plan, source, scratch, sink, columns);
     } else {
         for (std::size_t row = 0; row < length; ++row)
             for (std::size_t i = 0; i < together; i += hn::Lanes(d))
                 InSplit::Store(d, Layout::Load(d, source.data + row * source.row, i), scratch + row * split_row, i);
-        float* other = Scratch<2>(plan.length);
+        Scratch<2> more(plan.length);
+        float* other = more.data();
         Convolve(plan, *chirp, length, scratch, other, columns);
         for (std::size_t row = 0; row < length; ++row)
             for (std::size_t i = 0; i < together; i += hn::Lanes(d))
@@ -147,21 +159,22 @@ void LinesAs(const Plan& plan, const Chirp* chirp, float* lines, std::size_t str
     // Lanes beyond `count` repeat the first line; their results are not wanted.
     const float* from[together];
     float* to[together];
-    float* unwanted = count < together ? Scratch<0>(length / together + 1) : nullptr;
+    Scratch<0> unwanted(length / together + 1);
     for (std::size_t l = 0; l < together; ++l) {
         from[l] = lines + (l < count ? l : 0) * stride;
-        to[l] = l < count ? lines + l * stride : unwanted;
+        to[l] = l < count ? lines + l * stride : unwanted.data();
     }
-    float* scratch = Scratch<1>(plan.length);
+    Scratch<1> memory(plan.length);
+    Scratch<2> more(chirp ? plan.length : 0);
+    float* scratch = memory.data();
     if (count == 1)
         OneLineToRows<exchange>(lines, length, scratch, lanes);
     else
         LinesToRows<exchange>(from, length, scratch, lanes);
     const float* result = scratch;
     if (chirp) {
-        float* other = Scratch<2>(plan.length);
-        Convolve(plan, *chirp, length, scratch, other, count);
-        result = other;
+        Convolve(plan, *chirp, length, scratch, more.data(), count);
+        result = more.data();
     } else {
         TransformInPlace(plan, scratch, count);
     }
@@ -212,9 +225,10 @@ void TwiddleAndTurn(const Split& split, const float* columns, std::size_t block,
 template <class Layout>
 void LongLineAs(const Split& split, const float* from, float* to) {
     const std::size_t across = split.across.length, down = split.down.length;
-    float* columns = Scratch<1>(down);
-    float* padded = Scratch<0>(std::max(across, down));
-    float* rows = Scratch<2>(split.blocks_down() * across);
+    Scratch<0> memory_padded(std::max(across, down));
+    Scratch<1> memory_columns(down);
+    Scratch<2> memory_rows(split.blocks_down() * across);
+    float *padded = memory_padded.data(), *columns = memory_columns.data(), *rows = memory_rows.data();
     for (std::size_t block = 0; block < split.blocks_across(); ++block) {
         const std::size_t count = std::min(together, across - block * together);
         Source source{from + block * split_row, 2 * across};
