@@ -22,23 +22,27 @@ constexpr std::size_t large_array = std::size_t{1} << 16;
 // Up to this size one thread is fastest, if ColumnFft supports the columns.
 constexpr std::size_t max_by_columns = std::size_t{1} << 18;
 
-// Calls transform(first, count) for blocks of neighbouring lines, on all threads.
+// Calls transform(first, count) for blocks of neighbouring lines, on all threads. A thread takes several blocks of
+// short lines at once.
 template <class Transform>
-void for_blocks(std::size_t lines, const Transform& transform) {
-    constexpr std::size_t together = LineEngine::together;
-    core::parallel_for((lines + together - 1) / together, [&](std::size_t block) {
-        transform(block * together, std::min(together, lines - block * together));
+void for_blocks(std::size_t lines, std::size_t length, const Transform& transform) {
+    constexpr std::size_t together = LineEngine::together, values_at_once = 16384;
+    const std::size_t at_once = std::max<std::size_t>(1, values_at_once / (together * length)) * together;
+    core::parallel_for((lines + at_once - 1) / at_once, [&](std::size_t task) {
+        const std::size_t end = std::min(lines, (task + 1) * at_once);
+        for (std::size_t first = task * at_once; first < end; first += together)
+            transform(first, std::min(together, end - first));
     });
 }
 
 void transform_rows(View<std::complex<float>, 2> values, const LineEngine& engine, bool forward) {
-    for_blocks(values.extent(0), [&](std::size_t first, std::size_t count) {
+    for_blocks(values.extent(0), values.extent(1), [&](std::size_t first, std::size_t count) {
         engine.rows(forward, &values(first, 0), values.extent(1), count);
     });
 }
 
 void transform_columns(View<std::complex<float>, 2> values, const LineEngine& engine, bool forward) {
-    for_blocks(values.extent(1), [&](std::size_t first, std::size_t count) {
+    for_blocks(values.extent(1), values.extent(0), [&](std::size_t first, std::size_t count) {
         engine.columns(forward, &values(0, first), values.extent(1), count);
     });
 }
