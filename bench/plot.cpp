@@ -182,8 +182,7 @@ std::string plot_svg(const PlotText& text, const std::vector<Curve>& curves) {
     svg += text_at(18, middle, text.y_axis,
                    fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle));
     const std::vector<double> rows = label_rows(axes, curves);
-    for (std::size_t i = 0; i < curves.size(); ++i)
-        svg += curve_svg(axes, curves[i], i, rows[i]);
+    for (std::size_t i = 0; i < curves.size(); ++i) svg += curve_svg(axes, curves[i], i, rows[i]);
     return svg + "</svg>\n";
 }
 

@@ -291,7 +291,7 @@ void require_memory(const Session& session, const LightField& rendered, const Re
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
     const Scene scene = load_scene(session, name, options);
-    const LightField rendered = render_light_field(session, scene, options);
+    LightField rendered = render_light_field(session, scene, options);
     require_memory(session, rendered, options, scene);
     return rendered;
 }

@@ -55,7 +55,8 @@ Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) 
 
 Interrupts::~Interrupts() {
     impl_->ended = true;
-    pthread_kill(impl_->watcher.native_handle(), SIGTERM);  // wakes the watcher
+    // Wakes the watcher, which waits for it. NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread)
+    pthread_kill(impl_->watcher.native_handle(), SIGTERM);
     impl_->watcher.join();
 }
 

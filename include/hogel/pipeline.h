@@ -122,7 +122,8 @@ HOGEL_API std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, con
                                                          const Progress& progress = {});
 
 /// The light field of a scene, rendered when it is read.
-HOGEL_API LightField render_light_field(std::shared_ptr<const ShadedScene> scene, const LightFieldRequest& request);
+HOGEL_API LightField render_light_field(const std::shared_ptr<const ShadedScene>& scene,
+                                        const LightFieldRequest& request);
 HOGEL_API LightField render_light_field(const Scene& scene, const LightFieldRequest& request,
                                         const Progress& progress = {});
 

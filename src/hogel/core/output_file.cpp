@@ -65,7 +65,7 @@ std::filesystem::path final_name_of(const std::filesystem::path& target) {
     if (target.filename().empty()) fail(target, "it has no file name");
     std::error_code status;
     const bool link = std::filesystem::is_symlink(std::filesystem::symlink_status(target, status));
-    const std::filesystem::path file = link ? std::filesystem::weakly_canonical(target, status) : target;
+    std::filesystem::path file = link ? std::filesystem::weakly_canonical(target, status) : target;
     const std::filesystem::file_status there = std::filesystem::status(file, status);
     if (std::filesystem::is_directory(there)) fail(target, "it is a directory");
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))

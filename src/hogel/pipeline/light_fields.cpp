@@ -76,7 +76,7 @@ std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFi
     return shaded;
 }
 
-LightField render_light_field(std::shared_ptr<const ShadedScene> scene, const LightFieldRequest& request) {
+LightField render_light_field(const std::shared_ptr<const ShadedScene>& scene, const LightFieldRequest& request) {
     std::vector<LightField::Source> faces;
     for (const LightFieldGrid& grid : request.grids())
         faces.push_back(make_renderer(request.renderer, scene, grid, request.samples));

@@ -14,8 +14,6 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-using hdf5::Element;
-
 Box radiance_box(const LightFieldGrid& grid, const HogelRange& r) {
     return {{0, r.t0, r.s0, 0, 0}, {grid.channels, r.nt, r.ns, grid.directions_v, grid.directions_u}};
 }
