@@ -274,6 +274,11 @@ void add_studies(CLI::App& app, Program& program) {
     add_count(command, "--samples", stereogram->samples, "Samples along a side of the hologram");
     add_count(command, "--rounds", stereogram->rounds, "Rounds of which the best counts");
 
+    const auto fourier = std::make_shared<FourierStudy>();
+    command = add_command<FourierStudy>(app, program, "fourier", "Fourier transforms: speed, beside FFTW", 1, fourier,
+                                        study_fourier);
+    add_count(command, "--rounds", fourier->rounds, "Rounds of which the best counts");
+
     const auto speed = std::make_shared<SpeedStudy>();
     command = add_command<SpeedStudy>(app, program, "speed",
                                       "Renderers: samples a second of a sphere or sheets, turn and turn about", 1,

@@ -8,8 +8,17 @@ find_package(ZLIB REQUIRED)
 find_package(assimp REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(fmt REQUIRED)
-# libfftw3f is GPL; any library with the same interface can be put in its place here (see math/fft.cpp).
-pkg_check_modules(fftw3f REQUIRED IMPORTED_TARGET fftw3f)
+# FFTW is under the GPL, and so is a binary that is linked with it. Any library with its interface can be put in its place here
+# (see math/fft_fftw.cpp). Without it, tests and benchmarks compare with it where it is installed.
+if(HOGEL_FFT STREQUAL "fftw")
+  pkg_check_modules(fftw3f REQUIRED IMPORTED_TARGET fftw3f)
+  set(HOGEL_FFT_LIBRARY PkgConfig::fftw3f)
+elseif(HOGEL_FFT STREQUAL "builtin")
+  pkg_check_modules(fftw3f QUIET IMPORTED_TARGET fftw3f)
+  set(HOGEL_FFT_LIBRARY)
+else()
+  message(FATAL_ERROR "HOGEL_FFT is builtin or fftw, not ${HOGEL_FFT}")
+endif()
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 # Pictures. By pkg-config, which names the libraries alone that are needed.
 pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)

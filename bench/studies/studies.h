@@ -52,6 +52,14 @@ struct StereogramStudy {
 /// of the transforms of as many squares of that size, one after the other over a whole hologram, in place.
 void study_stereogram(const StereogramStudy& study);
 
+struct FourierStudy {
+    std::size_t rounds = 9;
+};
+/// Speed of Fourier transforms in place: many lines of one length, squares of the size of hogels, large arrays. Prints
+/// nanoseconds a sample by the clock, the best of the rounds, beside those of FFTW on one thread where it is installed,
+/// with plans that it estimates and plans that it measures. All alternate in every round.
+void study_fourier(const FourierStudy& study);
+
 struct SpeedStudy {
     std::string scene =
         "sphere";  ///< sphere: displaced, behind the hologram; sheets: eight, the first hides the others

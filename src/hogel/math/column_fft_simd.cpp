@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 
-// Compiled for every SIMD target and dispatched at run time. The plain twin is FFTW.
+// Compiled for every SIMD target and dispatched at run time. The plain twin is math/fourier/plain.cpp.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/math/column_fft_simd.cpp"
 #include <hwy/foreach_target.h>

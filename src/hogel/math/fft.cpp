@@ -1,82 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that depends on the FFT library, which may be any with FFTW's single-precision interface.
+// Arrays and threads; the transforms of lines are those of fft_engine.h.
 #include "hogel/math/fft.h"
 
-#include <fftw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/math/column_fft.h"
+#include "hogel/math/fft_engine.h"
 
 namespace hogel::math {
 namespace {
-
-// FFTW's planner keeps global tables; only execution is thread-safe.
-std::mutex& planner() {
-    static std::mutex mutex;
-    return mutex;
-}
-
-fftwf_complex* fftw(std::complex<float>* p) { return reinterpret_cast<fftwf_complex*>(p); }
-
-// Plans for both directions, for aligned and for unaligned data.
-class Directions {
-  public:
-    // make(scratch, sign, flags) plans an in-place transform of that many values.
-    template <class Make>
-    Directions(std::size_t values, Make make) {
-        Array<std::complex<float>, 1> scratch({values});
-        const std::lock_guard lock(planner());
-        alignment_ = fftwf_alignment_of(reinterpret_cast<float*>(scratch.data()));
-        for (int i = 0; i < 2; ++i) {
-            const int sign = i == 0 ? FFTW_FORWARD : FFTW_BACKWARD;
-            aligned_[i] = make(fftw(scratch.data()), sign, FFTW_ESTIMATE);
-            unaligned_[i] = make(fftw(scratch.data()), sign, FFTW_ESTIMATE | FFTW_UNALIGNED);
-        }
-    }
-    ~Directions() {
-        const std::lock_guard lock(planner());
-        for (int i = 0; i < 2; ++i) {
-            fftwf_destroy_plan(aligned_[i]);
-            fftwf_destroy_plan(unaligned_[i]);
-        }
-    }
-    Directions(const Directions&) = delete;
-    Directions& operator=(const Directions&) = delete;
-
-    void run(bool forward, std::complex<float>* values) const {
-        const bool fits = fftwf_alignment_of(reinterpret_cast<float*>(values)) == alignment_;
-        fftwf_execute_dft((fits ? aligned_ : unaligned_)[forward ? 0 : 1], fftw(values), fftw(values));
-    }
-
-  private:
-    int alignment_ = 0;
-    fftwf_plan aligned_[2], unaligned_[2];
-};
 
 // Arrays from this size on are transformed line by line on all threads. Smaller ones are usually many, each transformed
 // by one thread.
 constexpr std::size_t large_array = std::size_t{1} << 16;
 // Up to this size one thread is fastest, if ColumnFft supports the columns.
 constexpr std::size_t max_by_columns = std::size_t{1} << 18;
-// Lines copied together into a buffer, so that columns are read by whole cache lines.
-constexpr std::size_t lines_together = 16;
+
+// Calls transform(first, count) for blocks of neighbouring lines, on all threads. A thread takes several blocks of
+// short lines at once.
+template <class Transform>
+void for_blocks(std::size_t lines, std::size_t length, const Transform& transform) {
+    constexpr std::size_t together = LineEngine::together, values_at_once = 16384;
+    const std::size_t at_once = std::max<std::size_t>(1, values_at_once / (together * length)) * together;
+    core::parallel_for((lines + at_once - 1) / at_once, [&](std::size_t task) {
+        const std::size_t end = std::min(lines, (task + 1) * at_once);
+        for (std::size_t first = task * at_once; first < end; first += together)
+            transform(first, std::min(together, end - first));
+    });
+}
+
+void transform_rows(View<std::complex<float>, 2> values, const LineEngine& engine, bool forward) {
+    for_blocks(values.extent(0), values.extent(1), [&](std::size_t first, std::size_t count) {
+        engine.rows(forward, &values(first, 0), values.extent(1), count);
+    });
+}
+
+void transform_columns(View<std::complex<float>, 2> values, const LineEngine& engine, bool forward) {
+    for_blocks(values.extent(1), values.extent(0), [&](std::size_t first, std::size_t count) {
+        engine.columns(forward, &values(0, first), values.extent(1), count);
+    });
+}
 
 }  // namespace
 
 struct Fft1::Plans {
-    explicit Plans(std::size_t n)
-        : size(n), directions(n, [&](fftwf_complex* p, int sign, unsigned flags) {
-              return fftwf_plan_dft_1d(static_cast<int>(n), p, p, sign, flags);
-          }) {}
-    std::size_t size;
-    Directions directions;
+    explicit Plans(std::size_t n) : engine(n) {}
+    LineEngine engine;
 };
 
 Fft1::Fft1(std::size_t size) {
@@ -88,57 +63,34 @@ Fft1::~Fft1() = default;
 Fft1::Fft1(Fft1&&) noexcept = default;
 Fft1& Fft1::operator=(Fft1&&) noexcept = default;
 
-std::size_t Fft1::size() const { return plans_->size; }
-void Fft1::forward(std::complex<float>* line) const { plans_->directions.run(true, line); }
-void Fft1::backward(std::complex<float>* line) const { plans_->directions.run(false, line); }
+std::size_t Fft1::size() const { return plans_->engine.size(); }
+void Fft1::forward(std::complex<float>* line) const { plans_->engine.line(true, line); }
+void Fft1::backward(std::complex<float>* line) const { plans_->engine.line(false, line); }
 
 void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool forward) {
-    const std::size_t height = values.extent(0), width = values.extent(1);
-    if (fft.size() != width)
-        throw Error(ErrorCode::internal, fmt::format("FFT of rows of {} with a plan for {}", width, fft.size()));
-    core::parallel_for((height + lines_together - 1) / lines_together, [&](std::size_t block) {
-        Array<std::complex<float>, 1> line({width});
-        for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, height); ++y) {
-            std::copy_n(&values(y, 0), width, line.data());
-            forward ? fft.forward(line.data()) : fft.backward(line.data());
-            std::copy_n(line.data(), width, &values(y, 0));
-        }
-    });
+    if (fft.size() != values.extent(1))
+        throw Error(ErrorCode::internal,
+                    fmt::format("FFT of rows of {} with a plan for {}", values.extent(1), fft.size()));
+    transform_rows(values, fft.plans_->engine, forward);
 }
 
 void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, bool forward) {
-    const std::size_t height = values.extent(0), width = values.extent(1);
-    if (fft.size() != height)
-        throw Error(ErrorCode::internal, fmt::format("FFT of columns of {} with a plan for {}", height, fft.size()));
-    // Padding, so that the lines do not all begin in the same cache sets.
-    const std::size_t stride = (height + 15) / 8 * 8;
-    core::parallel_for((width + lines_together - 1) / lines_together, [&](std::size_t block) {
-        const std::size_t x0 = block * lines_together, columns = std::min(lines_together, width - x0);
-        Array<std::complex<float>, 2> lines({columns, stride});
-        for (std::size_t y = 0; y < height; ++y)
-            for (std::size_t i = 0; i < columns; ++i) lines.data()[i * stride + y] = (&values(y, x0))[i];
-        for (std::size_t i = 0; i < columns; ++i) forward ? fft.forward(&lines(i, 0)) : fft.backward(&lines(i, 0));
-        for (std::size_t y = 0; y < height; ++y)
-            for (std::size_t i = 0; i < columns; ++i) (&values(y, x0))[i] = lines.data()[i * stride + y];
-    });
+    if (fft.size() != values.extent(0))
+        throw Error(ErrorCode::internal,
+                    fmt::format("FFT of columns of {} with a plan for {}", values.extent(0), fft.size()));
+    transform_columns(values, fft.plans_->engine, forward);
 }
 
 struct Fft2::Plans {
     Plans(std::size_t h, std::size_t w) : height(h), width(w) {
         if (h * w <= max_by_columns && ColumnFft::can(h, w)) {
-            whole.emplace(h * w, [&](fftwf_complex* p, int sign, unsigned flags) {
-                const int length = static_cast<int>(w);
-                return fftwf_plan_many_dft(1, &length, static_cast<int>(h), p, nullptr, 1, length, p, nullptr, 1,
-                                           length, sign, flags);
-            });
+            whole.emplace(h, w, SmallArrayEngine::Axes::rows);
             column_fft.emplace(h);
         } else if (h * w >= large_array) {
-            rows.emplace(w);
-            columns.emplace(h);
+            if (w > 1) rows.emplace(w);
+            if (h > 1) columns.emplace(h);
         } else {
-            whole.emplace(h * w, [&](fftwf_complex* p, int sign, unsigned flags) {
-                return fftwf_plan_dft_2d(static_cast<int>(h), static_cast<int>(w), p, p, sign, flags);
-            });
+            whole.emplace(h, w, SmallArrayEngine::Axes::both);
         }
     }
     void run(bool forward, View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const {
@@ -149,17 +101,17 @@ struct Fft2::Plans {
             whole->run(forward, values.data());
             if (column_fft) return column_fft->transform(forward, values.data(), width, to, to_row, width);
         } else {
-            transform_rows(values, *rows, forward);
-            transform_columns(values, *columns, forward);
+            if (rows) transform_rows(values, *rows, forward);
+            if (columns) transform_columns(values, *columns, forward);
         }
         if (to == values.data() && to_row == width) return;
         for (std::size_t y = 0; y < height; ++y) std::copy_n(&values(y, 0), width, to + y * to_row);
     }
 
     std::size_t height, width;
-    std::optional<Directions> whole;      // for a small array, or only its rows
-    std::optional<ColumnFft> column_fft;  // for the columns, if `whole` transforms only rows
-    std::optional<Fft1> rows, columns;    // for a large array
+    std::optional<SmallArrayEngine> whole;    // for a small array, or only its rows
+    std::optional<ColumnFft> column_fft;      // for the columns, if `whole` transforms only rows
+    std::optional<LineEngine> rows, columns;  // for a large array
 };
 
 Fft2::Fft2(std::size_t height, std::size_t width) {

@@ -28,6 +28,8 @@ class Fft1 {
     void backward(std::complex<float>* line) const;
 
   private:
+    friend void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
+    friend void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
     struct Plans;
     std::unique_ptr<Plans> plans_;
 };

@@ -68,7 +68,7 @@ TEST(Fft2, large_arrays_give_the_same_sum) {
 TEST_P(ColumnFftKernels, give_the_sum_of_waves_for_every_length_and_direction) {
     for (std::size_t length = ColumnFft::shortest; length <= 512; length *= 2) {
         const std::size_t columns = 2 * ColumnFft::together, row = columns + 3;
-        if (!ColumnFft::can(length, columns)) return;  // targets without vectors use only FFTW
+        if (!ColumnFft::can(length, columns)) return;  // targets without vectors have none
         const Array<Complex, 2> from = noise(length, row);
         for (const bool forward : {false, true}) {
             Array<Complex, 2> to({length, row + 1}, Complex(7, 7));
@@ -95,7 +95,7 @@ TEST_P(ColumnFftKernels, give_the_sum_of_waves_for_every_length_and_direction) {
 // Transforms in place, and to rows of an array that may be wider than the columns.
 TEST_P(ColumnFftKernels, give_the_same_in_split_layout) {
     const std::size_t length = 32, columns = 32;
-    if (!ColumnFft::can(length, columns)) return;  // targets without vectors use only FFTW
+    if (!ColumnFft::can(length, columns)) return;  // targets without vectors have none
     const Array<Complex, 2> from = noise(length, columns);
     Array<float, 4> apart({columns / 16, length, 2, 16});
     for (std::size_t r = 0; r < length; ++r)

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "hogel/array.h"
+#include "hogel/math/fourier/plan.h"
+
+/// What the tests of Fourier transforms share.
+namespace hogel::math::fourier {
+
+using Line = std::vector<std::complex<float>>;
+using ExactLine = std::vector<std::complex<double>>;
+
+inline Line noise(std::size_t length, std::uint32_t seed = 1) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    Line values(length);
+    for (std::complex<float>& value : values) value = {normal(random), normal(random)};
+    return values;
+}
+
+inline ExactLine exact(const Line& line) { return {line.begin(), line.end()}; }
+
+/// The root of the mean squared error, relative to that of the values.
+inline double relative_error(const std::complex<float>* values, const ExactLine& expected, std::size_t stride = 1) {
+    double error = 0, power = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        error += std::norm(std::complex<double>(values[i * stride]) - expected[i]);
+        power += std::norm(expected[i]);
+    }
+    return power > 0 ? std::sqrt(error / power) : std::sqrt(error);
+}
+
+/// The error that a length may have: a convolution has two transforms of its own.
+inline double allowed_error(std::size_t length) { return is_smooth(length) ? 5e-7 : 2e-6; }
+
+}  // namespace hogel::math::fourier

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled for every SIMD target and dispatched at run time. The plain twin is plain.cpp.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/math/fourier/transforms_simd.cpp"
+#include <hwy/foreach_target.h>
+// Must be included after foreach_target.h:
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "hogel/array.h"
+#include "hogel/math/fourier/butterflies-inl.h"
+#include "hogel/math/fourier/passes-inl.h"
+#include "hogel/math/fourier/plan.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel::math::fourier {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+bool HasVectors() { return false; }
+void Columns(const Plan&, const Chirp*, bool, const float*, std::size_t, float*, std::size_t, std::size_t,
+             std::size_t) {}
+void Lines(const Plan&, const Chirp*, bool, float*, std::size_t, std::size_t, std::size_t) {}
+void LongLine(const Split&, bool, const float*, float*) {}
+void Multiply(const float*, const float*, float*, std::size_t, bool, bool) {}
+#else
+bool HasVectors() { return true; }
+
+// Memory for rows in split layout. Up to 8 MB this thread keeps for its next transform.
+template <int which>
+class Scratch {
+  public:
+    explicit Scratch(std::size_t rows) {
+        thread_local Array<float, 1> kept;
+        Array<float, 1>& memory = rows <= most_kept ? kept : own_;
+        if (memory.size() < rows * split_row) memory = Array<float, 1>({rows * split_row});
+        data_ = memory.data();
+    }
+    float* data() { return data_; }
+
+  private:
+    static constexpr std::size_t most_kept = std::size_t{1} << 16;
+    Array<float, 1> own_;
+    float* data_;
+};
+
+// Copies `columns` complex numbers of each row into rows of `together`, or back.
+void CopyRows(const float* from, std::size_t from_row, float* to, std::size_t to_row, std::size_t rows,
+              std::size_t columns) {
+    for (std::size_t row = 0; row < rows; ++row) std::copy_n(from + row * from_row, 2 * columns, to + row * to_row);
+}
+
+template <class Layout>
+void ColumnsAs(const Plan& plan, const Chirp* chirp, const float* from, std::size_t from_row, float* to,
+               std::size_t to_row, std::size_t columns, std::size_t length) {
+    const D d;
+    Source source{from, from_row};
+    Sink sink{to, to_row, plan.frequency.data()};
+    const bool part = columns < together;
+    Scratch<0> padded(part ? length : 0);
+    if (part) {
+        CopyRows(from, from_row, padded.data(), split_row, length, columns);
+        source = {padded.data(), split_row};
+        sink.data = padded.data(), sink.row = split_row;
+    }
+    Scratch<1> memory(plan.length);
+    float* scratch = memory.data();
+    if (!chirp) {
+        TransformRows<Layout, Layout>(plan, source, scratch, sink, columns);
+    } else {
+        for (std::size_t row = 0; row < length; ++row)
+            for (std::size_t i = 0; i < together; i += hn::Lanes(d))
+                InSplit::Store(d, Layout::Load(d, source.data + row * source.row, i), scratch + row * split_row, i);
+        Scratch<2> more(plan.length);
+        float* other = more.data();
+        Convolve(plan, *chirp, length, scratch, other, columns);
+        for (std::size_t row = 0; row < length; ++row)
+            for (std::size_t i = 0; i < together; i += hn::Lanes(d))
+                Layout::Store(d, InSplit::Load(d, other + plan.place[row] * split_row, i), sink.data + row * sink.row,
+                              i);
+    }
+    if (part) CopyRows(sink.data, split_row, to, to_row, length, columns);
+}
+
+void Columns(const Plan& plan, const Chirp* chirp, bool backward, const float* from, std::size_t from_row, float* to,
+             std::size_t to_row, std::size_t columns, std::size_t length) {
+    if (backward)
+        ColumnsAs<Exchanged>(plan, chirp, from, from_row, to, to_row, columns, length);
+    else
+        ColumnsAs<Interleaved>(plan, chirp, from, from_row, to, to_row, columns, length);
+}
+
+// Moves lines between memory and the split layout, in which position j is row j, or row place[j].
+template <bool exchange>
+void LinesToRows(const float* const* lines, std::size_t length, float* rows, std::size_t lanes) {
+    const D d;
+    alignas(16) float ends[together][4] = {};
+    const float* last[together];
+    for (std::size_t l = 0; l < together; ++l) {
+        std::copy_n(lines[l] + 2 * (length - 1), 2, ends[l]);
+        last[l] = ends[l];
+    }
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        Numbers first, second;
+        std::size_t j = 0;
+        for (; j + 1 < length; j += 2) {
+            Turn(d, lines + i, 2 * j, first, second);
+            InSplit::Store(d, ExchangedIf(exchange, first), rows + j * split_row, i);
+            InSplit::Store(d, ExchangedIf(exchange, second), rows + (j + 1) * split_row, i);
+        }
+        if (j == length) continue;
+        Turn(d, last + i, 0, first, second);
+        InSplit::Store(d, ExchangedIf(exchange, first), rows + j * split_row, i);
+    }
+}
+template <bool exchange>
+void LinesFromRows(const float* rows, const std::uint32_t* place, std::size_t length, float* const* lines,
+                   std::size_t lanes, std::size_t count) {
+    const D d;
+    const auto row = [&](std::size_t j, std::size_t i) {
+        return ExchangedIf(exchange, InSplit::Load(d, rows + place[j] * split_row, i));
+    };
+    alignas(16) float ends[together][4] = {};
+    float* last[together];
+    for (std::size_t l = 0; l < together; ++l) last[l] = ends[l];
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        for (std::size_t j = 0; j + 1 < length; j += 2) TurnBack(d, row(j, i), row(j + 1, i), lines + i, 2 * j);
+        if (length % 2 == 1) TurnBack(d, row(length - 1, i), row(length - 1, i), last + i, 0);
+    }
+    if (length % 2 == 1)
+        for (std::size_t l = 0; l < count; ++l) std::copy_n(ends[l], 2, lines[l] + 2 * (length - 1));
+}
+
+// A single short line, in all lanes.
+template <bool exchange>
+void OneLineToRows(const float* line, std::size_t length, float* rows, std::size_t lanes) {
+    const D d;
+    for (std::size_t j = 0; j < length; ++j)
+        for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+            const Numbers x{hn::Set(d, line[2 * j]), hn::Set(d, line[2 * j + 1])};
+            InSplit::Store(d, ExchangedIf(exchange, x), rows + j * split_row, i);
+        }
+}
+template <bool exchange>
+void OneLineFromRows(const float* rows, const std::uint32_t* place, std::size_t length, float* line) {
+    constexpr std::size_t re = exchange ? together : 0, im = exchange ? 0 : together;
+    for (std::size_t j = 0; j < length; ++j) {
+        line[2 * j] = rows[place[j] * split_row + re];
+        line[2 * j + 1] = rows[place[j] * split_row + im];
+    }
+}
+
+template <bool exchange>
+void LinesAs(const Plan& plan, const Chirp* chirp, float* lines, std::size_t stride, std::size_t count,
+             std::size_t length) {
+    const D d;
+    const std::size_t lanes = (count + hn::Lanes(d) - 1) / hn::Lanes(d) * hn::Lanes(d);
+    // Lanes beyond `count` repeat the first line; their results are not wanted.
+    const float* from[together];
+    float* to[together];
+    Scratch<0> unwanted(length / together + 1);
+    for (std::size_t l = 0; l < together; ++l) {
+        from[l] = lines + (l < count ? l : 0) * stride;
+        to[l] = l < count ? lines + l * stride : unwanted.data();
+    }
+    Scratch<1> memory(plan.length);
+    Scratch<2> more(chirp ? plan.length : 0);
+    float* scratch = memory.data();
+    if (count == 1)
+        OneLineToRows<exchange>(lines, length, scratch, lanes);
+    else
+        LinesToRows<exchange>(from, length, scratch, lanes);
+    const float* result = scratch;
+    if (chirp) {
+        Convolve(plan, *chirp, length, scratch, more.data(), count);
+        result = more.data();
+    } else {
+        TransformInPlace(plan, scratch, count);
+    }
+    if (count == 1)
+        OneLineFromRows<exchange>(result, plan.place.data(), length, lines);
+    else
+        LinesFromRows<exchange>(result, plan.place.data(), length, to, lanes, count);
+}
+
+void Lines(const Plan& plan, const Chirp* chirp, bool backward, float* lines, std::size_t stride, std::size_t count,
+           std::size_t length) {
+    if (backward)
+        LinesAs<true>(plan, chirp, lines, stride, count, length);
+    else
+        LinesAs<false>(plan, chirp, lines, stride, count, length);
+}
+
+// Multiplies transformed columns by their twiddle factors and turns them into rows: from frequency f of column b, at
+// row place[f], to [f/16][b][part][f mod 16].
+void TwiddleAndTurn(const Split& split, const float* columns, std::size_t block, std::size_t count, float* rows) {
+    const D d;
+    const std::size_t across = split.across.length, down = split.down.length;
+    alignas(64) float products[4][split_row] = {};
+    const float* const pointers[] = {products[0], products[1], products[2], products[3]};
+    alignas(16) float turned[16];
+    for (std::size_t p = 0; p < down; p += 4) {
+        for (std::size_t k = 0; k < std::min<std::size_t>(4, down - p); ++k) {
+            const float* x = columns + split.down.place[p + k] * split_row;
+            const float* w = split.twiddles.data() + ((p + k) * split.blocks_across() + block) * split_row;
+            for (std::size_t i = 0; i < together; i += hn::Lanes(d))
+                InSplit::Store(d, Times(InSplit::Load(d, x, i), hn::Load(d, w + i), hn::Load(d, w + together + i)),
+                               products[k], i);
+        }
+        float* to = rows + (p / together * across + block * together) * split_row + p % together;
+        for (std::size_t b = 0; b < count; b += 4)
+            for (const std::size_t part : {std::size_t{0}, together}) {
+                if (b + 4 <= count) {
+                    TransposeFour(pointers, b + part, to + b * split_row + part, split_row);
+                } else {
+                    TransposeFour(pointers, b + part, turned, 4);
+                    for (std::size_t i = b; i < count; ++i)
+                        std::copy_n(turned + 4 * (i - b), 4, to + i * split_row + part);
+                }
+            }
+    }
+}
+
+template <class Layout>
+void LongLineAs(const Split& split, const float* from, float* to) {
+    const std::size_t across = split.across.length, down = split.down.length;
+    Scratch<0> memory_padded(std::max(across, down));
+    Scratch<1> memory_columns(down);
+    Scratch<2> memory_rows(split.blocks_down() * across);
+    float *padded = memory_padded.data(), *columns = memory_columns.data(), *rows = memory_rows.data();
+    for (std::size_t block = 0; block < split.blocks_across(); ++block) {
+        const std::size_t count = std::min(together, across - block * together);
+        Source source{from + block * split_row, 2 * across};
+        if (count < together) {
+            CopyRows(source.data, source.row, padded, split_row, down, count);
+            source = {padded, split_row};
+        }
+        TransformRows<Layout, InSplit>(split.down, source, columns, {columns, split_row, nullptr}, count);
+        TwiddleAndTurn(split, columns, block, count, rows);
+    }
+    for (std::size_t block = 0; block < split.blocks_down(); ++block) {
+        const std::size_t count = std::min(together, down - block * together);
+        float* in = rows + block * across * split_row;
+        Sink sink{to + block * split_row, 2 * down, split.across.frequency.data()};
+        if (count < together) sink.data = padded, sink.row = split_row;
+        TransformRows<InSplit, Layout>(split.across, {in, split_row}, in, sink, count);
+        if (count < together) CopyRows(padded, split_row, to + block * split_row, 2 * down, across, count);
+    }
+}
+
+void LongLine(const Split& split, bool backward, const float* from, float* to) {
+    if (backward)
+        LongLineAs<Exchanged>(split, from, to);
+    else
+        LongLineAs<Interleaved>(split, from, to);
+}
+
+void Multiply(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out) {
+    const D d;
+    const auto some = [&](const float* a, const float* b, float* to) {
+        Numbers value, factor;
+        hn::LoadInterleaved2(d, a, value.re, value.im);
+        hn::LoadInterleaved2(d, b, factor.re, factor.im);
+        if (exchange_x) std::swap(value.re, value.im);
+        value = Times(value, factor.re, factor.im);
+        if (exchange_out) std::swap(value.re, value.im);
+        hn::StoreInterleaved2(value.re, value.im, d, to);
+    };
+    std::size_t i = 0;
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d)) some(x + 2 * i, y + 2 * i, out + 2 * i);
+    if (i == n) return;
+    float a[split_row] = {}, b[split_row] = {};
+    std::copy_n(x + 2 * i, 2 * (n - i), a);
+    std::copy_n(y + 2 * i, 2 * (n - i), b);
+    some(a, b, a);
+    std::copy_n(a, 2 * (n - i), out + 2 * i);
+}
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel::math::fourier
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel::math::fourier {
+HWY_EXPORT(HasVectors);
+HWY_EXPORT(Columns);
+HWY_EXPORT(Lines);
+HWY_EXPORT(LongLine);
+HWY_EXPORT(Multiply);
+
+bool has_vectors() { return HWY_DYNAMIC_DISPATCH(HasVectors)(); }
+
+void transform_columns(const Plan& plan, const Chirp* chirp, bool backward, const float* from, std::size_t from_row,
+                       float* to, std::size_t to_row, std::size_t columns, std::size_t length) {
+    HWY_DYNAMIC_DISPATCH(Columns)(plan, chirp, backward, from, from_row, to, to_row, columns, length);
+}
+
+void transform_lines(const Plan& plan, const Chirp* chirp, bool backward, float* lines, std::size_t stride,
+                     std::size_t count, std::size_t length) {
+    HWY_DYNAMIC_DISPATCH(Lines)(plan, chirp, backward, lines, stride, count, length);
+}
+
+void transform_split(const Split& split, bool backward, const float* from, float* to) {
+    HWY_DYNAMIC_DISPATCH(LongLine)(split, backward, from, to);
+}
+
+void multiply(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out) {
+    HWY_DYNAMIC_DISPATCH(Multiply)(x, y, out, n, exchange_x, exchange_out);
+}
+
+}  // namespace hogel::math::fourier
+#endif
