@@ -41,7 +41,8 @@ class ChildFailure : public std::exception {
 ///
 /// Other threads of this process do not exist in the child, and a lock that one of them held stays locked there. glibc
 /// releases its own (memory, streams, loader); `work` must use nothing else that this process uses on several threads:
-/// no parallel loops, no library with threads of its own. A child that waits for a lock uses no processor time and is ended as `stuck`.
+/// no parallel loops, no library with threads of its own. A child that waits for a lock uses no processor time and is
+/// ended as `stuck`.
 class ChildProcess {
   public:
     /// Calls work(pipe) in the child, which ends when it returns. Throws Error(internal) if no process can be started.
