@@ -54,7 +54,7 @@ struct Size {
 };
 
 Size checked_size(const Imf::Header& header, const PictureBytes& file) {
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     std::uint64_t channels = 0, largest = 1;
@@ -129,7 +129,7 @@ std::vector<Channel> chosen_channels(const Imf::ChannelList& list) {
 }
 
 Array<float, 3> read_channels(Imf::InputFile& in, const std::vector<Channel>& channels, const Size& size) {
-    const Imath::Box2i window = in.header().dataWindow();
+    const Imath::Box2i& window = in.header().dataWindow();
     const std::size_t count = channels.size();
     Array<float, 3> samples({size.height, size.width, count});
     std::vector<std::vector<std::uint32_t>> wholes(count);

@@ -102,7 +102,8 @@ std::size_t rows_of(std::size_t length) {
         if (length % down != 0) continue;
         const std::size_t across = length / down;
         const auto waste = [](std::size_t lanes) {
-            return static_cast<double>((lanes + together - 1) / together * together) / static_cast<double>(lanes);
+            const std::size_t groups = (lanes + together - 1) / together;
+            return static_cast<double>(groups * together) / static_cast<double>(lanes);
         };
         const double longest = static_cast<double>(std::max(down, across));
         const double uneven = longest * longest / static_cast<double>(length);
