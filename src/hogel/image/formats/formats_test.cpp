@@ -76,7 +76,7 @@ Bytes jpeg_of(View<const std::uint8_t, 3> levels, int quality = 95) {
     }
     jpeg_finish_compress(&jpeg);
     jpeg_destroy_compress(&jpeg);
-    const Bytes bytes(memory, memory + size);
+    Bytes bytes(memory, memory + size);
     std::free(memory);
     return bytes;
 }

@@ -160,8 +160,10 @@ TEST_F(OiioTool, writes_webp_files_that_are_read_or_refused_by_name) {
 
 TEST_F(OiioTool, writes_jpeg_and_hdr_files_that_are_read) {
     Image smooth(32, 32, 3);
-    for (std::size_t i = 0; i < smooth.pixels.size(); ++i)
-        smooth.pixels.data()[i] = srgb_decode(static_cast<float>(60 + i / 24) / 255);
+    for (std::size_t i = 0; i < smooth.pixels.size(); ++i) {
+        const std::size_t level = 60 + i / 24;
+        smooth.pixels.data()[i] = srgb_decode(static_cast<float>(level) / 255);
+    }
     write_image(file("a.png"), smooth);
     run(file("a.png") + " --quality 100 -o " + file("b.jpg"));
     write_image(file("a.exr"), smooth);
