@@ -20,8 +20,9 @@ class OnEveryTarget : public ::testing::TestWithParam<std::int64_t> {
 
 }  // namespace hogel::core
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a name is declared.
+// NOLINTBEGIN(bugprone-macro-parentheses): a name is declared.
 #define HOGEL_TEST_ON_EVERY_TARGET(suite)                                                   \
     class suite : public ::hogel::core::OnEveryTarget {};                                   \
     INSTANTIATE_TEST_SUITE_P(Targets, suite, ::testing::ValuesIn(::hogel::core::targets()), \
                              [](const auto& test) { return ::hogel::core::target_name(test.param); })
+// NOLINTEND(bugprone-macro-parentheses)
