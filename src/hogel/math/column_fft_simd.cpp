@@ -13,6 +13,7 @@
 
 #include "hogel/array.h"
 #include "hogel/math/column_fft.h"
+#include "hogel/math/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::math {
@@ -28,32 +29,10 @@ void TransformSplitToInterleaved(const ColumnFft::Plan&, const float*, float*, s
 bool HasVectors() { return true; }
 
 constexpr std::size_t together = ColumnFft::together;
-using D = hn::CappedTag<float, together>;
-using V = hn::Vec<D>;
-
-// A vector of complex numbers, as separate real and imaginary parts.
-struct Numbers {
-    V re, im;
-};
-
-HWY_INLINE Numbers operator+(const Numbers& a, const Numbers& b) { return {hn::Add(a.re, b.re), hn::Add(a.im, b.im)}; }
-HWY_INLINE Numbers operator-(const Numbers& a, const Numbers& b) { return {hn::Sub(a.re, b.re), hn::Sub(a.im, b.im)}; }
 HWY_INLINE Numbers Times(D d, const Numbers& x, const ColumnFft::Factor& factor) {
-    const V re = hn::Set(d, factor.re), im = hn::Set(d, factor.im);
-    return {hn::NegMulAdd(x.im, im, hn::Mul(x.re, re)), hn::MulAdd(x.im, re, hn::Mul(x.re, im))};
+    return Times(x, hn::Set(d, factor.re), hn::Set(d, factor.im));
 }
 
-// Layouts of a row in memory: real and imaginary parts interleaved, or sixteen real parts and then sixteen imaginary.
-struct Interleaved {
-    static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
-        Numbers x;
-        hn::LoadInterleaved2(d, row + 2 * i, x.re, x.im);
-        return x;
-    }
-    static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
-        hn::StoreInterleaved2(x.re, x.im, d, row + 2 * i);
-    }
-};
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
 // Interleaved, written by whole cache lines with non-temporal stores: a large result is not read again soon, and a
 // normal store would first fetch the line.
@@ -69,15 +48,6 @@ struct Streamed {
 #else
 using Streamed = Interleaved;
 #endif
-struct Split {
-    static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
-        return {hn::Load(d, row + i), hn::Load(d, row + together + i)};
-    }
-    static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
-        hn::Store(x.re, d, row + i);
-        hn::Store(x.im, d, row + together + i);
-    }
-};
 
 struct Four {
     Numbers a, b, c, d;
@@ -89,8 +59,7 @@ HWY_INLINE Four Butterfly(D d, const float* rows, std::size_t apart, std::size_t
     const Numbers a = Layout::Load(d, rows, i), b = Layout::Load(d, rows + apart, i),
                   c = Layout::Load(d, rows + 2 * apart, i), e = Layout::Load(d, rows + 3 * apart, i);
     const Numbers sum_ac = a + c, difference_ac = a - c, sum_be = b + e, difference_be = b - e;
-    const Numbers plus{hn::Sub(difference_ac.re, difference_be.im), hn::Add(difference_ac.im, difference_be.re)};
-    const Numbers minus{hn::Add(difference_ac.re, difference_be.im), hn::Sub(difference_ac.im, difference_be.re)};
+    const Numbers plus = PlusTurned(difference_ac, difference_be), minus = MinusTurned(difference_ac, difference_be);
     return {sum_ac + sum_be, forward ? minus : plus, sum_ac - sum_be, forward ? plus : minus};
 }
 
@@ -108,10 +77,10 @@ HWY_INLINE void Step(const ColumnFft::Plan& plan, std::size_t length, const Colu
             float* y = scratch + (group + j) * scratch_row;
             for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
                 const Four four = Butterfly<forward, Layout>(d, in + (group + j) * in_row, part * in_row, i);
-                Split::Store(d, four.a, y, i);
-                Split::Store(d, Times(d, four.b, w[0]), y + part * scratch_row, i);
-                Split::Store(d, Times(d, four.c, w[1]), y + 2 * part * scratch_row, i);
-                Split::Store(d, Times(d, four.d, w[2]), y + 3 * part * scratch_row, i);
+                InSplit::Store(d, four.a, y, i);
+                InSplit::Store(d, Times(d, four.b, w[0]), y + part * scratch_row, i);
+                InSplit::Store(d, Times(d, four.c, w[1]), y + 2 * part * scratch_row, i);
+                InSplit::Store(d, Times(d, four.d, w[2]), y + 3 * part * scratch_row, i);
             }
         }
 }
@@ -125,7 +94,7 @@ void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t 
     std::size_t length = plan.length;
     Step<forward, From>(plan, length, factors, from, from_row, scratch);
     for (factors += 3 * (length / 4), length /= 4; length > 4; factors += 3 * (length / 4), length /= 4)
-        Step<forward, Split>(plan, length, factors, scratch, scratch_row, scratch);
+        Step<forward, InSplit>(plan, length, factors, scratch, scratch_row, scratch);
     const auto put = [&](const Numbers& x, std::size_t place, std::size_t i) {
         To::Store(d, x, to + plan.order[place] * to_row, i);
     };
@@ -133,13 +102,13 @@ void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t 
         for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
             const float* x = scratch + row * scratch_row;
             if (length == 4) {
-                const Four four = Butterfly<forward, Split>(d, x, scratch_row, i);
+                const Four four = Butterfly<forward, InSplit>(d, x, scratch_row, i);
                 put(four.a, row, i);
                 put(four.b, row + 1, i);
                 put(four.c, row + 2, i);
                 put(four.d, row + 3, i);
             } else {
-                const Numbers a = Split::Load(d, x, i), b = Split::Load(d, x + scratch_row, i);
+                const Numbers a = InSplit::Load(d, x, i), b = InSplit::Load(d, x + scratch_row, i);
                 put(a + b, row, i);
                 put(a - b, row + 1, i);
             }
@@ -163,7 +132,7 @@ void TransformColumns(const ColumnFft::Plan& plan, bool forward, const float* fr
 }
 
 void TransformSplit(const ColumnFft::Plan& plan, float* columns) {
-    TransformBlock<false, Split, Split>(plan, columns, scratch_row, columns, scratch_row, ScratchFor(plan));
+    TransformBlock<false, InSplit, InSplit>(plan, columns, scratch_row, columns, scratch_row, ScratchFor(plan));
 }
 
 void TransformSplitToInterleaved(const ColumnFft::Plan& plan, const float* from, float* to, std::size_t to_row,
@@ -173,9 +142,9 @@ void TransformSplitToInterleaved(const ColumnFft::Plan& plan, const float* from,
     const bool streamed = lines && to_row > floats;
     for (std::size_t i = 0; i < floats; i += scratch_row, from += plan.length * scratch_row)
         if (streamed)
-            TransformBlock<false, Split, Streamed>(plan, from, scratch_row, to + i, to_row, scratch);
+            TransformBlock<false, InSplit, Streamed>(plan, from, scratch_row, to + i, to_row, scratch);
         else
-            TransformBlock<false, Split, Interleaved>(plan, from, scratch_row, to + i, to_row, scratch);
+            TransformBlock<false, InSplit, Interleaved>(plan, from, scratch_row, to + i, to_row, scratch);
     if (streamed) hwy::FlushStream();
 }
 #endif

@@ -15,7 +15,7 @@ namespace hogel::image {
 namespace {
 
 // A progressive file may repeat its scans thousands of times to keep a reader busy; more than these are refused.
-constexpr int most_scans = 500;
+constexpr int max_scans = 500;
 
 // libjpeg reports an error by calling fail_by_jump(), which may not return. As with libpng, a step that calls it owns
 // nothing that has a destructor.
@@ -39,9 +39,9 @@ void refuse_early_end(j_common_ptr jpeg, int level) {
 void print_nothing(j_common_ptr) {}
 
 void limit_scans(j_common_ptr jpeg) {
-    if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= most_scans) return;
+    if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= max_scans) return;
     auto* errors = reinterpret_cast<Errors*>(jpeg->err);
-    std::snprintf(errors->text.data(), errors->text.size(), "it has more than %d scans", most_scans);
+    std::snprintf(errors->text.data(), errors->text.size(), "it has more than %d scans", max_scans);
     std::longjmp(errors->back, 1);
 }
 

@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "hogel/math/fourier/plan.h"
+#include "hogel/math/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::math::fourier {
@@ -20,24 +21,15 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
-using D = hn::CappedTag<float, together>;
-using V = hn::Vec<D>;
-
-// A vector of complex numbers, as separate real and imaginary parts.
-struct Numbers {
-    V re, im;
-};
-
-HWY_INLINE Numbers operator+(const Numbers& a, const Numbers& b) { return {hn::Add(a.re, b.re), hn::Add(a.im, b.im)}; }
-HWY_INLINE Numbers operator-(const Numbers& a, const Numbers& b) { return {hn::Sub(a.re, b.re), hn::Sub(a.im, b.im)}; }
-HWY_INLINE Numbers Times(const Numbers& x, V re, V im) {
-    return {hn::NegMulAdd(x.im, im, hn::Mul(x.re, re)), hn::MulAdd(x.im, re, hn::Mul(x.re, im))};
-}
-// a − ib and a + ib
-HWY_INLINE Numbers MinusTurned(const Numbers& a, const Numbers& b) {
-    return {hn::Add(a.re, b.im), hn::Sub(a.im, b.re)};
-}
-HWY_INLINE Numbers PlusTurned(const Numbers& a, const Numbers& b) { return {hn::Sub(a.re, b.im), hn::Add(a.im, b.re)}; }
+using math::HWY_NAMESPACE::D;
+using math::HWY_NAMESPACE::InSplit;
+using math::HWY_NAMESPACE::Interleaved;
+using math::HWY_NAMESPACE::MinusTurned;
+using math::HWY_NAMESPACE::Numbers;
+using math::HWY_NAMESPACE::PlusTurned;
+using math::HWY_NAMESPACE::Times;
+using math::HWY_NAMESPACE::V;
+static_assert(together == ColumnFft::together);
 
 // cos and sin of 2πk/radix for k from 1 to (radix − 1)/2.
 template <std::size_t radix>
@@ -148,17 +140,7 @@ struct Butterfly<8> {
     }
 };
 
-// Sixteen numbers of a row in memory: interleaved, the same with exchanged parts, or in split layout.
-struct Interleaved {
-    static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
-        Numbers x;
-        hn::LoadInterleaved2(d, row + 2 * i, x.re, x.im);
-        return x;
-    }
-    static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
-        hn::StoreInterleaved2(x.re, x.im, d, row + 2 * i);
-    }
-};
+// As Interleaved, with exchanged parts.
 struct Exchanged {
     static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
         Numbers x;
@@ -167,15 +149,6 @@ struct Exchanged {
     }
     static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
         hn::StoreInterleaved2(x.im, x.re, d, row + 2 * i);
-    }
-};
-struct InSplit {
-    static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
-        return {hn::Load(d, row + i), hn::Load(d, row + together + i)};
-    }
-    static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
-        hn::Store(x.re, d, row + i);
-        hn::Store(x.im, d, row + together + i);
     }
 };
 

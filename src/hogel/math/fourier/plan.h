@@ -20,7 +20,7 @@ constexpr std::size_t together = 16;
 constexpr std::size_t split_row = 2 * together;
 
 /// The largest prime factor of lengths that are transformed without a convolution.
-constexpr std::size_t largest_radix = 13;
+constexpr std::size_t max_radix = 13;
 bool is_smooth(std::size_t length);
 /// The smallest length from n on whose transform as a part of a convolution is fast.
 std::size_t convolution_length(std::size_t n);

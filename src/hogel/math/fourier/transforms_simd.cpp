@@ -33,14 +33,14 @@ class Scratch {
   public:
     explicit Scratch(std::size_t rows) {
         thread_local Array<float, 1> kept;
-        Array<float, 1>& memory = rows <= most_kept ? kept : own_;
+        Array<float, 1>& memory = rows <= max_kept ? kept : own_;
         if (memory.size() < rows * split_row) memory = Array<float, 1>({rows * split_row});
         data_ = memory.data();
     }
     float* data() { return data_; }
 
   private:
-    static constexpr std::size_t most_kept = std::size_t{1} << 16;
+    static constexpr std::size_t max_kept = std::size_t{1} << 16;
     Array<float, 1> own_;
     float* data_;
 };
