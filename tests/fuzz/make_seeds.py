@@ -9,6 +9,11 @@ import subprocess
 import sys
 import tempfile
 
+try:
+    import h5py
+except ImportError:
+    h5py = None  # then there are no files in chunks
+
 SMALL = "--hogels 3x2 --directions 4x3 -q".split()
 MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx"]  # as in mesh_fuzz.cpp
 PICTURE_EXTENSIONS = [".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr"]  # as in picture_fuzz.cpp
@@ -26,6 +31,40 @@ TRIANGLE = {
              b'"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}',
 }
 
+# Ways in which other programs store samples: the version of the format, which decides how chunks are found, and filters.
+CHUNKS = {
+    "v108": (("v108", "v108"), {}),
+    "v108-gzip": (("v108", "v108"), {"compression": "gzip", "shuffle": True, "fletcher32": True}),
+    "v108-lzf": (("v108", "v108"), {"compression": "lzf"}),
+    "v110-fixed": (("latest", "latest"), {}),
+    "v110-gzip": (("latest", "latest"), {"compression": "gzip"}),
+    "v110-extensible": (("latest", "latest"), {"growing": 1, "shuffle": True}),
+    "v110-tree": (("latest", "latest"), {"growing": 2, "fletcher32": True}),
+    "v110-single": (("latest", "latest"), {"whole": True, "compression": "gzip"}),
+}
+
+
+def rewrite_in_chunks(source, target, storage):
+    """The same file as h5py writes it, with samples in chunks."""
+    versions, how = CHUNKS[storage]
+    how = dict(how)
+    growing, whole = how.pop("growing", 0), how.pop("whole", False)
+    with h5py.File(source, "r") as old, h5py.File(target, "w", libver=versions) as new:
+        def copy_attributes(a, b):
+            for name, value in a.attrs.items():
+                b.attrs[name] = value
+
+        def visit(name, thing):
+            if isinstance(thing, h5py.Group):
+                copy_attributes(thing, new.require_group(name))
+                return
+            chunks = thing.shape if whole else tuple(max(1, (n + 1) // 2) for n in thing.shape)
+            limits = tuple(None if axis < growing else n for axis, n in enumerate(thing.shape))
+            copy_attributes(thing, new.create_dataset(name, data=thing[...], chunks=chunks, maxshape=limits, **how))
+
+        copy_attributes(old, new)
+        old.visititems(visit)
+
 
 def make(hogel, corpus):
     def run(*words):
@@ -41,6 +80,9 @@ def make(hogel, corpus):
         run("hologram", made / "a.h5", "-o", made / "b.h5", "--wavelength", "532nm", "-q", "--pitch", "20um")
         for name in ("a.h5", "b.h5"):
             put("hdf5_fuzz", name, (made / name).read_bytes())
+            for storage in CHUNKS if h5py else ():
+                rewrite_in_chunks(made / name, made / "c.h5", storage)
+                put("hdf5_fuzz", f"{storage}-{name}", (made / "c.h5").read_bytes())
         for coder in ("hogel", "threepass", "jpeg4d"):
             run("compress", made / "a.h5", "-o", made / "a.hgl", "--coder", coder, "-q")
             put("stream_fuzz", coder, (made / "a.hgl").read_bytes())

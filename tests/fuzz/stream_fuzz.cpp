@@ -8,7 +8,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const fuzz::FuzzFile file(data, size, ".hgl");
     fuzz::expect_bad_input([&] { read_stream_info(file.path()); });
     fuzz::expect_bad_input([&] {
-        for (const LightField::Source& face : open_stream(file.path()).faces()) {
+        const LightField light_field = open_stream(file.path());
+        for (const LightField::Source& face : light_field.faces()) {
             if (face->grid().directions() * face->grid().channels > 1 << 20) continue;
             LightFieldTile tile(face->grid(), {0, 0, 1, 1}, face->has_depth());
             face->read(tile);

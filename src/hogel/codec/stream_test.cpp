@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/test_damage.h"
@@ -207,11 +209,12 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
     options.target = Sqnr{25};
     options.tile = HogelRange{0, 0, 3, 2};
     options.with_depth = true;
-    for (const double error : {0.0, 1e-4, 1e-7}) {
+    for (const std::optional<double> error :
+         {std::optional<double>(), std::optional(0.0), std::optional(1e-4), std::optional(1e-7)}) {
         options.depth_error = error;
         const CompressionResult result = compress(field, folder / "d.hgl", options);
-        const double expected = error > 0 ? error : 1e-3 * (21e-3 + 2e-3);
-        EXPECT_NEAR(result.depth_error, expected, error > 0 ? 0 : 1e-5);
+        EXPECT_EQ(result.depth_error, error.value_or(default_depth_error(field.grid(), 23e-3)));
+        EXPECT_EQ(read_stream_info(folder / "d.hgl").depth.error, result.depth_error);
         EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "d.hgl"));
         LightFieldBuffer decoded(field.grid(), true);
         copy(open_stream(folder / "d.hgl").front(), decoded);
@@ -224,7 +227,7 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
                 continue;
             }
             ++finite;
-            ASSERT_NEAR(found, truth, result.depth_error * (1 + 1e-6) + 1e-9);
+            ASSERT_NEAR(found, truth, result.depth_error > 0 ? result.depth_error * (1 + 1e-6) + 1e-9 : 0);
         }
         EXPECT_GT(finite, field.depth.size() / 2);
     }
@@ -246,6 +249,33 @@ TEST(Stream, keeps_depth_within_an_error_and_infinity_as_it_is) {
     empty.depth(0, 0, 0, 0) = std::nanf("");
     EXPECT_THROW(compress(empty, folder / "no.hgl", options), Error);
     EXPECT_FALSE(std::filesystem::exists(folder / "no.hgl"));
+}
+
+TEST(Stream, lossless_keeps_every_array_bit_for_bit) {
+    const TestFolder folder;
+    LightFieldBuffer field = with_depth(5);
+    field.depth(1, 2, 3, 4) = -0.0f;
+    field.depth(1, 2, 3, 5) = 1e-30f;
+    CompressionOptions options;
+    options.target = Lossless{};
+    options.with_depth = true;
+    EXPECT_EQ(compress(field, folder / "l.hgl", options).depth_error, 0);
+    LightFieldBuffer decoded(field.grid(), true);
+    copy(open_stream(folder / "l.hgl").front(), decoded);
+    const auto same = [](const auto& a, const auto& b) {
+        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+    };
+    EXPECT_TRUE(same(field.radiance, decoded.radiance));
+    EXPECT_TRUE(same(field.depth, decoded.depth));
+}
+
+// The bound moves the point of the steepest ray by a 32,000th of a hogel, and is no coarser than the range allows.
+TEST(Stream, the_default_error_of_depth_is_that_of_the_steepest_ray) {
+    LightFieldGrid grid{4, 4, 50e-6, 9, 9, Perspective{0.1, 0.2}, 1};
+    EXPECT_DOUBLE_EQ(default_depth_error(grid, 1), 50e-6 / 32000 / 0.2);
+    grid.range().center_u = 0.4;
+    EXPECT_DOUBLE_EQ(default_depth_error(grid, 1), 50e-6 / 32000 / 0.5);
+    EXPECT_DOUBLE_EQ(default_depth_error(grid, 1e-6), 1e-9);
 }
 
 // Layers of the radiance alone can be read without the depth stream.

@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -46,6 +47,13 @@ void set_limit(__rlimit_resource resource, rlim_t value) {
     setrlimit(resource, &limit);
 }
 
+void renew_limit(__rlimit_resource resource, rlim_t value) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0) return;
+    limit.rlim_cur = std::min(value, limit.rlim_max);
+    setrlimit(resource, &limit);
+}
+
 void raise_limit(__rlimit_resource resource, rlim_t more) {
     rlimit limit{};
     if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
@@ -74,8 +82,10 @@ void reset_signals() {
 
 [[noreturn]] void run_child(pid_t parent, const ChildLimits& limits, int pipe,
                             const std::function<void(int)>& work) noexcept {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(1);  // it ended before that
+    if (!limits.serves) {  // the signal would come with the end of the thread
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (getppid() != parent) _exit(1);  // it ended before that
+    }
     reset_signals();
     close_files(pipe);
     set_limit(RLIMIT_CORE, 0);
@@ -99,9 +109,10 @@ std::chrono::nanoseconds cpu_time(pid_t process) {
 ChildProcess::ChildProcess(const ChildLimits& limits, const std::function<void(int)>& work)
     : patience_(limits.patience) {
     int ends[2] = {};
-    if (pipe2(ends, O_CLOEXEC) != 0)
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         throw Error(ErrorCode::internal, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-    fcntl(ends[1], F_SETPIPE_SZ, 1 << 20);  // fewer switches; a smaller pipe works as well
+    constexpr int buffer = 1 << 20;  // fewer switches; a smaller one works as well
+    setsockopt(ends[1], SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
     pipe_ = ends[0];
     const pid_t parent = getpid();
     // No signal may run a handler of this process in the child.
@@ -171,6 +182,38 @@ void ChildProcess::read(void* to, std::size_t bytes) {
         at += got;
         bytes -= static_cast<std::size_t>(got);
     }
+}
+
+void ChildProcess::send(const void* from, std::size_t bytes) {
+    const char* at = static_cast<const char*>(from);
+    while (bytes > 0) {
+        const ssize_t put = ::send(pipe_, at, bytes, MSG_NOSIGNAL);
+        if (put < 0 && errno == EINTR) continue;
+        if (put <= 0) fail();
+        at += put;
+        bytes -= static_cast<std::size_t>(put);
+    }
+}
+
+void ChildProcess::renew_limits(const ChildLimits& limits) {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    const auto whole = used.ru_utime.tv_sec + used.ru_stime.tv_sec,
+               parts = used.ru_utime.tv_usec + used.ru_stime.tv_usec;
+    renew_limit(RLIMIT_CPU, static_cast<rlim_t>(whole + (parts + 999999) / 1000000) + limits.cpu_seconds);
+    renew_limit(RLIMIT_AS, address_space() + limits.memory);
+}
+
+bool ChildProcess::receive(int pipe, void* to, std::size_t bytes) {
+    char* at = static_cast<char*>(to);
+    while (bytes > 0) {
+        const ssize_t got = ::read(pipe, at, bytes);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        at += got;
+        bytes -= static_cast<std::size_t>(got);
+    }
+    return true;
 }
 
 void ChildProcess::raise_limits(const ChildLimits& more) {

@@ -16,6 +16,9 @@ struct ChildLimits {
     std::uint64_t memory = std::uint64_t{1} << 30;  ///< bytes of address space
     unsigned cpu_seconds = 60;                      ///< then it is ended
     std::chrono::seconds patience{30};              ///< so long it may use no processor time, then it is ended
+    /// Whether the child serves threads other than the one that starts it and may outlive that. It then ends when the
+    /// other end of its pipe is closed, so it must read from there whenever it has nothing else to do.
+    bool serves = false;
 };
 
 /// Thrown where a child process ended without having sent what was to be read: what() says how, in a few words that
@@ -45,7 +48,8 @@ class ChildFailure : public std::exception {
 /// ended as `stuck`.
 class ChildProcess {
   public:
-    /// Calls work(pipe) in the child, which ends when it returns. Throws Error(internal) if no process can be started.
+    /// Calls work(pipe) in the child, which ends when it returns; the pipe works both ways. Throws Error(internal) if
+    /// no process can be started.
     ChildProcess(const ChildLimits& limits, const std::function<void(int pipe)>& work);
     /// Ends the child if it runs.
     ~ChildProcess();
@@ -55,9 +59,15 @@ class ChildProcess {
     /// The next bytes that the child writes into its pipe. Throws ChildFailure if it ended before, Error(cancelled)
     /// when the work of this thread is to stop.
     void read(void* to, std::size_t bytes);
+    /// Sends bytes to the child. Throws as read() does. The child has to read them at once, or they have to be few.
+    void send(const void* from, std::size_t bytes);
 
     /// In the child: allows more, for instance after a further file was opened.
     static void raise_limits(const ChildLimits& more);
+    /// In the child: allows this much beyond what it uses now, whatever it was allowed before.
+    static void renew_limits(const ChildLimits& limits);
+    /// In the child: reads what was sent. False if nothing more will come.
+    static bool receive(int pipe, void* to, std::size_t bytes);
     /// In the child: writes everything into the pipe; ends the child if that fails.
     static void write(int pipe, const void* from, std::size_t bytes);
 

@@ -7,7 +7,10 @@
 
 #include <atomic>
 #include <csignal>
+#include <ctime>
+#include <memory>
 #include <new>
+#include <thread>
 
 namespace hogel::core {
 namespace {
@@ -76,6 +79,47 @@ TEST(ChildProcess, a_stuck_one_is_tried_again_once) {
               ChildFailure::Kind::stuck);
     EXPECT_EQ(children, 2);
     ::munmap(shared, sizeof(std::atomic<int>));
+}
+
+TEST(ChildProcess, one_that_serves_answers_requests_of_any_thread_until_the_pipe_is_closed) {
+    std::unique_ptr<ChildProcess> child;
+    std::jthread([&] {
+        child = std::make_unique<ChildProcess>(ChildLimits{.cpu_seconds = 1, .serves = true}, [](int pipe) {
+            for (int number = 0; ChildProcess::receive(pipe, &number, sizeof number);) {
+                ChildProcess::renew_limits({.memory = std::uint64_t{1} << 28, .cpu_seconds = 1});
+                write_int(pipe, 2 * number);
+            }
+        });
+    }).join();  // a child ends with the thread that made it, unless it serves
+    for (const int number : {1, 20, 300}) {
+        child->send(&number, sizeof number);
+        EXPECT_EQ(read_int(*child), 2 * number);
+    }
+    child.reset();
+}
+
+TEST(ChildProcess, limits_are_renewed_from_what_is_used) {
+    const auto use_a_second_and_more = [] {
+        for (const std::clock_t begin = std::clock(); std::clock() - begin < 6 * CLOCKS_PER_SEC / 5;) {
+        }
+    };
+    EXPECT_EQ(with_child(
+                  limits,
+                  [&](int pipe) {
+                      for (int i = 0; i < 2; ++i) {
+                          ChildProcess::renew_limits({.cpu_seconds = 1});
+                          use_a_second_and_more();
+                      }
+                      write_int(pipe, 7);
+                  },
+                  read_int),
+              7);
+    EXPECT_EQ(failure_of([&](int pipe) {
+                  ChildProcess::renew_limits({.cpu_seconds = 0});
+                  for (int i = 0; i < 2; ++i) use_a_second_and_more();
+                  write_int(pipe, 7);
+              }),
+              ChildFailure::Kind::time);
 }
 
 }  // namespace

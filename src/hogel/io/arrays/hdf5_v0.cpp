@@ -107,7 +107,7 @@ std::uint64_t Hdf5V0Dataset::samples() const {
     return n;
 }
 
-Hdf5V0::Hdf5V0(const std::filesystem::path& path) : file_(path, core::RawFile::Mode::read, path) {
+Hdf5V0::Hdf5V0(const std::filesystem::path& path) : path_(path), file_(path, core::RawFile::Mode::read, path) {
     // The superblock (II.A) is at offset 512, 1024, …, behind MATLAB's own block.
     Bytes start;
     for (base_ = 512;; base_ *= 2) {

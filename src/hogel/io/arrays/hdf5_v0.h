@@ -56,11 +56,13 @@ class Hdf5V0 {
     /// All elements, in the byte order and element layout of the file.
     std::vector<unsigned char> read(const Hdf5V0Dataset& dataset) const;
 
+    const std::filesystem::path& path() const { return path_; }
     /// `bytes` bytes of the file from an address on.
     std::vector<unsigned char> at(std::uint64_t address, std::uint64_t bytes) const;
     [[noreturn]] void fail(const std::string& why) const;
 
   private:
+    std::filesystem::path path_;
     core::RawFile file_;
     std::uint64_t base_ = 0, root_ = 0;
 };

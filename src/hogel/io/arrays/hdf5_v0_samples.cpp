@@ -2,12 +2,12 @@
 // The samples of datasets of HDF5 files with superblock version 0 or 1: chunks in a tree (HDF5 file format
 // specification III.A.1), with their filters (IV.A.2.l) inverted.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "hogel/io/arrays/hdf5_v0.h"
+#include "hogel/io/arrays/inflate.h"
 
 namespace hogel::io::arrays {
 namespace {
@@ -19,9 +19,7 @@ constexpr std::uint64_t max_expansion = 1040;
 
 Bytes inflated(const Hdf5V0& file, const Bytes& packed, std::size_t bytes) {
     Bytes plain(bytes);
-    uLongf length = bytes;
-    if (uncompress(plain.data(), &length, packed.data(), packed.size()) != Z_OK || length != bytes)
-        file.fail("a compressed piece is damaged");
+    if (!inflate(file.path(), packed, plain, Extent::all)) file.fail("a compressed piece is damaged");
     return plain;
 }
 

@@ -17,7 +17,8 @@ using hdf5::Element;
 using hdf5::Handle;
 
 constexpr std::size_t halves_at_once = 32768;  // half floats that are converted together, few enough for the caches
-constexpr std::size_t max_halves = std::size_t{1} << 24;  // of a box that is converted as a whole
+constexpr std::size_t max_halves = std::size_t{1} << 24;      // of a box that is converted as a whole
+constexpr std::size_t halves_written = std::size_t{1} << 19;  // of a larger one at a time: they stay in the caches
 constexpr std::size_t max_chunk = std::size_t{256} << 20;
 
 // Calls run(index in the array, index in the box, samples) for each contiguous run of samples of a box of a row-major
@@ -99,25 +100,20 @@ DatasetReader::DatasetReader(hid_t file, const char* name, std::vector<std::size
     if (!fits || H5Tget_size(type.id()) > 16)
         fail(complex ? "does not hold complex numbers {r, i}" : "does not hold floating point numbers");
     element_ = complex ? Element::complex_single : is_type(type.id(), Element::half) ? Element::half : Element::single;
-    check_storage(dataset.id(), properties.id());
+    const std::size_t chunk_bytes = check_storage(dataset.id(), properties.id());
     const bool contiguous = H5Pget_layout(properties.id()) == H5D_CONTIGUOUS && is_type(type.id(), element_);
     if (contiguous)
         offset_ = H5Dget_offset(dataset.id());
     else
-        dataset_ = std::move(dataset);
+        by_hdf5_ = std::make_unique<SampleServer>(raw_->name(), name_, shape_.size(), element_, chunk_bytes);
     if (contiguous &&
         (offset_ > raw_->size() || samples_of(shape_) > (raw_->size() - offset_) / hdf5::bytes_of(element_)))
         fail("reaches beyond the end of the file");
 }
 
-DatasetReader::~DatasetReader() {
-    if (!dataset_.valid()) return;
-    const hdf5::Session session;
-    dataset_.close();
-}
-
-// Refuses samples that were never written, which would be read as zeros, and references to other files.
-void DatasetReader::check_storage(hid_t dataset, hid_t properties) {
+// Refuses samples that were never written, which would be read as zeros, and references to other files. Returns the
+// bytes of a chunk.
+std::size_t DatasetReader::check_storage(hid_t dataset, hid_t properties) {
     const H5D_layout_t layout = H5Pget_layout(properties);
     if (H5Pget_external_count(properties) != 0 || layout == H5D_VIRTUAL) fail("keeps its samples in other files");
     const Handle type(H5Dget_type(dataset), H5Tclose);
@@ -136,28 +132,18 @@ void DatasetReader::check_storage(hid_t dataset, hid_t properties) {
     const hsize_t stored = H5Dget_storage_size(dataset);
     const bool filtered = layout == H5D_CHUNKED && H5Pget_nfilters(properties) > 0;
     if (stored == 0 || (!filtered && stored / element_bytes < samples_of(shape_))) fail("is not wholly written");
-}
-
-void DatasetReader::read_by_hdf5(const Box& box, void* to) const {
-    const hdf5::Session session;
-    const std::vector<hsize_t> start(box.start.begin(), box.start.end()), extent(box.extent.begin(), box.extent.end());
-    const Handle there(H5Dget_space(dataset_.id()), H5Sclose),
-        here(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-    const Handle type = hdf5::type_of(element_);
-    if (H5Sselect_hyperslab(there.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0 ||
-        H5Dread(dataset_.id(), type.id(), here.id(), there.id(), H5P_DEFAULT, to) < 0)
-        fail("cannot be read: " + hdf5::reason());
+    return chunk_bytes;
 }
 
 bool DatasetReader::read(const Box& box, float* to) const {
     const bool half = element_ == Element::half;
     bool finite = true;
-    if (dataset_.valid() && half) {
+    if (by_hdf5_ && half) {
         std::vector<std::uint16_t> halves(samples_of(box.extent));
-        read_by_hdf5(box, halves.data());
+        by_hdf5_->read(box, halves.data());
         finite = core::to_float(halves.data(), to, halves.size());
-    } else if (dataset_.valid()) {
-        read_by_hdf5(box, to);
+    } else if (by_hdf5_) {
+        by_hdf5_->read(box, to);
         finite = all_finite({to, samples_of(box.extent)});
     } else if (half) {
         std::vector<std::uint16_t> halves(std::min(halves_at_once, samples_of(box.extent)));
@@ -178,7 +164,7 @@ bool DatasetReader::read(const Box& box, float* to) const {
 }
 
 void DatasetReader::read(const Box& box, std::complex<float>* to) const {
-    if (dataset_.valid()) return read_by_hdf5(box, to);
+    if (by_hdf5_) return by_hdf5_->read(box, to);
     for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
         raw_->read(offset_ + sizeof(*to) * there, to + here, sizeof(*to) * n);
     });
@@ -260,7 +246,7 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) 
     const std::size_t samples = samples_of(box.extent);
     auto halves = halves_.take();
     // Converted outside the lock, unless the halves would be a large part of the memory that the work takes.
-    const std::size_t at_once = std::min(samples, max_halves);
+    const std::size_t at_once = samples <= max_halves ? samples : halves_written;
     if (halves->size() < at_once) halves->resize(at_once);
     if (samples <= max_halves) {
         core::to_half(from, halves->data(), samples);

@@ -7,32 +7,25 @@
 #include <mutex>
 #include <optional>
 
+#include "hogel/array.h"
 #include "hogel/core/journal.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/io/hdf5/hdf5.h"
+#include "hogel/io/hdf5/sample_server.h"
 
 namespace hogel::io::hdf5 {
 
-/// A box of an array, by first index and extent along each axis.
-struct Box {
-    std::vector<std::size_t> start, extent;
-};
-
 /// Reads boxes of one dataset, from any number of threads. Contiguous datasets of the expected type, as hogel writes
-/// them, are read in parallel without HDF5; others (chunked, compressed, of another type or byte order) by HDF5, one
-/// thread at a time.
+/// them, are read in parallel without HDF5; others (chunked, compressed, of another type or byte order) by HDF5 in a
+/// child process, one box at a time.
 class DatasetReader {
   public:
     /// Checks the dataset without allocating memory for it. Throws Error(bad_input) if it is missing, has another type
     /// or shape, or was not completely written. Needs a Session.
     DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
                   std::shared_ptr<const core::RawFile> raw);
-    ~DatasetReader();
-    DatasetReader(DatasetReader&&) = default;
-    DatasetReader& operator=(DatasetReader&&) = delete;
-
     /// Returns whether all numbers are finite.
     bool read(const Box& box, float* to) const;
     void read(const Box& box, std::complex<float>* to) const;
@@ -40,8 +33,7 @@ class DatasetReader {
     std::size_t axes() const { return shape_.size(); }
 
   private:
-    void check_storage(hid_t dataset, hid_t properties);
-    void read_by_hdf5(const Box& box, void* to) const;
+    std::size_t check_storage(hid_t dataset, hid_t properties);
     [[noreturn]] void fail(const std::string& why) const;
 
     std::string name_;
@@ -49,7 +41,7 @@ class DatasetReader {
     hdf5::Element element_ = hdf5::Element::single;
     std::shared_ptr<const core::RawFile> raw_;
     std::uint64_t offset_ = 0;
-    hdf5::Handle dataset_;  // open only if HDF5 must read it
+    std::unique_ptr<SampleServer> by_hdf5_;  // if HDF5 must read it
 };
 
 /// The shape of a dataset. Throws Error(bad_input) if there is none of that name. Needs a Session.
@@ -82,7 +74,7 @@ class DatasetFile {
     std::vector<std::uint64_t> offsets_;
     std::optional<core::RawFile> raw_;
     std::mutex writing_;
-    core::ObjectPool<std::vector<std::uint16_t>> halves_;
+    core::ObjectPool<std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>>> halves_;
     std::optional<core::Journal> journal_;  // last, because its destructor flushes the file
 };
 

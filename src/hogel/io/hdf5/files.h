@@ -8,7 +8,8 @@
 
 namespace hogel::io::hdf5 {
 
-/// The interface of HDF5 files to the rest of the module. Only files in this folder include HDF5's header.
+/// The interface of HDF5 files to the rest of the module. Only files in this folder include HDF5's header. In a build
+/// without HDF5 all but is_hdf5() throw Error(not_built_in).
 
 /// Whether this is a regular file that begins like HDF5. Throws Error(bad_input) if it does not exist.
 bool is_hdf5(const std::filesystem::path& path);

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <fstream>
 #include <mutex>
-#include <system_error>
 
 #include "hogel/error.h"
 #include "hogel/io/hdf5/files.h"
@@ -89,18 +88,6 @@ std::string reason() {
 
 void fail(const std::filesystem::path& path, const std::string& why) {
     throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", path.string(), why));
-}
-
-bool is_hdf5(const std::filesystem::path& path) {
-    std::error_code status;
-    const std::filesystem::file_status there = std::filesystem::status(path, status);
-    if (!std::filesystem::exists(there)) fail(path, "no such file");
-    if (!std::filesystem::is_regular_file(there)) fail(path, "it is not a plain file");
-    std::ifstream file(path, std::ios::binary);
-    if (!file) fail(path, "it cannot be opened");
-    std::array<char, 8> start{};
-    file.read(start.data(), start.size());
-    return file && std::memcmp(start.data(), "\x89HDF\r\n\x1a\n", start.size()) == 0;
 }
 
 Handle open_file(const std::filesystem::path& path) {

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
+#include <ctime>
 #include <filesystem>
 #include <functional>
+#include <tuple>
 
 #include "hogel/io/hdf5/hdf5.h"
 
 namespace hogel::io::hdf5 {
+
+/// What tells a file from others, and from itself before it was changed.
+using FileIdentity = std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>;
+FileIdentity identity_of(const std::filesystem::path& path);
 
 /// Does `work`, which reads the structure of a file with HDF5, in a child process, because the library crashes on some
 /// damaged files whose checksums are right. What it throws there does not matter. The work is told by a name: where the
