@@ -1,36 +1,39 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake --install: the library, its public headers, the command line, and a package that find_package(hogel) finds.
-# cpack makes a Debian package of the same.
+# cmake --install: the library, its public headers, the command line, and packages that find_package(hogel) and pkg-config
+# find. The components are those of the packages that cpack makes (HogelPackage.cmake).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS hogel EXPORT hogelTargets)
+install(TARGETS hogel EXPORT hogelTargets
+        LIBRARY COMPONENT library NAMELINK_COMPONENT development
+        ARCHIVE COMPONENT development)
 if(TARGET hogel_cli)
-  install(TARGETS hogel_cli)
+  install(TARGETS hogel_cli COMPONENT program)
 endif()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/hogel ${PROJECT_BINARY_DIR}/include/hogel
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+hogel_install_headers(${CMAKE_INSTALL_INCLUDEDIR})
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hogel)
-install(EXPORT hogelTargets NAMESPACE hogel:: DESTINATION ${package_dir})
+install(EXPORT hogelTargets NAMESPACE hogel:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/hogelConfig.cmake.in ${PROJECT_BINARY_DIR}/hogelConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
 # Before 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hogelConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hogelConfig.cmake ${PROJECT_BINARY_DIR}/hogelConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/cmake/HogelDependencies.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
+
+# pkg-config knows the shared library alone: a static one passes on what only CMake can find (assimp, Embree).
+if(BUILD_SHARED_LIBS)
+  file(RELATIVE_PATH prefix_from_pc /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+  string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/hogel.pc.in ${PROJECT_BINARY_DIR}/hogel.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/hogel.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endif()
 
 if(PROJECT_IS_TOP_LEVEL)
-  set(CPACK_GENERATOR DEB)
-  set(CPACK_PACKAGE_NAME hogel)
-  set(CPACK_PACKAGE_VENDOR "the hogel project")
-  set(CPACK_PACKAGE_CONTACT "the hogel project")
-  set(CPACK_DEBIAN_PACKAGE_MAINTAINER "the hogel project")
-  set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
-  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-  set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
-  include(CPack)
+  include(HogelPackage)
+endif()
+if(NOT HOGEL_PACKAGE STREQUAL "debian")  # whose packages have a folder of their own each
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/cmake/package/copyright ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+          DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
 endif()

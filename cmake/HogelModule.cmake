@@ -4,11 +4,19 @@
 #   it may include and which public headers (include/hogel/HEADER.h) it implements. Its tests are linked with the modules
 #   that it uses, and with TESTED_WITH, one that implements a public header which the tests use.
 function(hogel_module name)
+  hogel_record_module(${ARGV})
+  if(HOGEL_MINIMAL AND NOT name IN_LIST HOGEL_MINIMAL_MODULES)
+    return()
+  endif()
   cmake_parse_arguments(arg "" "FOLDER" "USES;LINKS;PUBLIC;TESTED_WITH" ${ARGN})
   if(NOT arg_FOLDER)
     set(arg_FOLDER src/hogel/${name})
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${arg_FOLDER}/*.cpp ${PROJECT_SOURCE_DIR}/${arg_FOLDER}/*.h)
+  get_property(left_out GLOBAL PROPERTY HOGEL_LEFT_OUT)
+  foreach(path ${left_out})
+    list(FILTER sources EXCLUDE REGEX "/(src/hogel/)?${path}(/|\\.cpp$)")
+  endforeach()
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
@@ -16,11 +24,11 @@ function(hogel_module name)
   set_target_properties(hogel_${name} PROPERTIES LINKER_LANGUAGE CXX)
   hogel_compile_options(hogel_${name})
   hogel_private_includes(hogel_${name})
-  target_link_libraries(hogel_${name} PRIVATE ${arg_LINKS} fmt::fmt)
+  target_link_libraries(hogel_${name} PRIVATE ${arg_LINKS} ${HOGEL_FMT})
   # For the module's own tests, which then need no module above it to be compiled.
   add_library(hogel_${name}_archive STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:hogel_${name}>)
   set_target_properties(hogel_${name}_archive PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(hogel_${name}_archive PUBLIC ${arg_LINKS} fmt::fmt)
+  target_link_libraries(hogel_${name}_archive PUBLIC ${arg_LINKS} ${HOGEL_FMT})
   foreach(used ${arg_USES})
     target_link_libraries(hogel_${name}_archive PUBLIC hogel_${used}_archive)
   endforeach()
@@ -28,24 +36,117 @@ function(hogel_module name)
   set_property(GLOBAL APPEND PROPERTY HOGEL_LINKS ${arg_LINKS})
   set_property(GLOBAL PROPERTY HOGEL_TESTS_${name} ${tests})
   set_property(GLOBAL PROPERTY HOGEL_TESTED_WITH_${name} ${arg_TESTED_WITH})
+  set_property(GLOBAL APPEND PROPERTY HOGEL_BUILT_HEADERS ${arg_PUBLIC})
+endfunction()
+
+# The row of a module in the table that cmake/check_includes.py reads, which holds those too that are not built.
+function(hogel_record_module name)
+  cmake_parse_arguments(arg "" "FOLDER" "USES;LINKS;PUBLIC;TESTED_WITH" ${ARGN})
+  if(NOT arg_FOLDER)
+    set(arg_FOLDER src/hogel/${name})
+  endif()
   list(JOIN arg_USES "," uses)
   list(JOIN arg_PUBLIC "," public)
   set_property(GLOBAL APPEND_STRING PROPERTY HOGEL_MODULE_TABLE "${name}:${arg_FOLDER}:${uses}:${public}\n")
 endfunction()
 
+# hogel_part(NAME path... [INSTEAD path...])
+#   Compiles the sources or folders of these names only if HOGEL_NAME is on, and the others only if it is off. A name is a
+#   regular expression, below src/hogel or the project's folder, and without .cpp. Comes before the modules.
+function(hogel_part name)
+  cmake_parse_arguments(arg "" "" "INSTEAD" ${ARGN})
+  if(HOGEL_${name})
+    set_property(GLOBAL APPEND PROPERTY HOGEL_LEFT_OUT ${arg_INSTEAD})
+  else()
+    set_property(GLOBAL APPEND PROPERTY HOGEL_LEFT_OUT ${arg_UNPARSED_ARGUMENTS})
+  endif()
+endfunction()
+
+# Tells a source by macros, 1 or 0, which parts there are.
+function(hogel_tell_parts source)
+  foreach(part ASSIMP EMBREE HDF5 PICTURES ZLIB TIFF WEBP)
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS HOGEL_${part}=$<BOOL:${HOGEL_${part}}>)
+  endforeach()
+  set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS HOGEL_FFTW=$<STREQUAL:${HOGEL_FFT},fftw>)
+endfunction()
+
+# What the modules link for text, and what the library links for it. A minimal library contains the compiled part of fmt:
+# its objects see the headers as those of a full library do, and core/own_fmt.cpp, which hides what it defines, has the rest.
+# Headers of other versions than 9 are used by themselves.
+if(HOGEL_MINIMAL)
+  find_path(HOGEL_FMT_HEADERS fmt/format-inl.h REQUIRED)
+  file(STRINGS ${HOGEL_FMT_HEADERS}/fmt/core.h fmt_9 REGEX "define FMT_VERSION 9")
+  add_library(hogel_fmt INTERFACE)
+  target_include_directories(hogel_fmt SYSTEM INTERFACE ${HOGEL_FMT_HEADERS})
+  if(fmt_9)
+    target_compile_definitions(hogel_fmt INTERFACE FMT_SHARED)
+    set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/hogel/core/own_fmt.cpp PROPERTY COMPILE_OPTIONS -UFMT_SHARED)
+  else()
+    target_compile_definitions(hogel_fmt INTERFACE FMT_HEADER_ONLY)
+    set_property(GLOBAL APPEND PROPERTY HOGEL_LEFT_OUT core/own_fmt)
+  endif()
+  set(HOGEL_FMT hogel_fmt)
+  set(HOGEL_LINKED_FMT)
+else()
+  set(HOGEL_FMT fmt::fmt)
+  set(HOGEL_LINKED_FMT fmt::fmt)
+endif()
+
+# Installs the public headers that the built modules implement, and a hogel/hogel.h that includes these alone.
+function(hogel_install_headers destination)
+  if(NOT HOGEL_MINIMAL)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/hogel ${PROJECT_BINARY_DIR}/include/hogel DESTINATION ${destination}
+            COMPONENT development FILES_MATCHING PATTERN "*.h")
+    return()
+  endif()
+  get_property(built GLOBAL PROPERTY HOGEL_BUILT_HEADERS)
+  list(JOIN built "|" built)
+  file(STRINGS ${PROJECT_SOURCE_DIR}/include/hogel/hogel.h lines)
+  set(all "")
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "^#include" OR line MATCHES "\"hogel/(version|${built})\\.h\"")
+      string(APPEND all "${line}\n")
+    endif()
+  endforeach()
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/installed/hogel.h CONTENT "${all}")
+  file(GLOB headers ${PROJECT_SOURCE_DIR}/include/hogel/*.h ${PROJECT_BINARY_DIR}/include/hogel/*.h)
+  list(FILTER headers INCLUDE REGEX "/(export|version|${built})\\.h$")
+  install(FILES ${headers} ${PROJECT_BINARY_DIR}/installed/hogel.h DESTINATION ${destination}/hogel
+          COMPONENT development)
+endfunction()
+
 # The compile options of every target of the project.
 #   -ffp-contract=off  a product and a sum stay two roundings, so that results do not depend on whether the processor has
 #                      fused multiply-add: the same bytes on every machine, and .hgl streams decode alike everywhere
+#   on ARM             one SIMD target, NEON, which every 64-bit ARM has. With several, chosen at run time, Highway compiles
+#                      NEON for processors with AES, and gcc then inlines no implicit constructor of a struct of vectors;
+#                      and vectors of SVE, whose size is known at run time alone, cannot be members of a struct.
+#                      TOOLCHAIN_MISS_SYS_AUXV_H is what Highway calls a compiler that cannot choose at run time
 #   -Wno-psabi         silences g++'s note that passing SIMD vectors by value changed in GCC 4.6; no such call leaves a file
 function(hogel_compile_options target)
   target_compile_features(${target} PRIVATE cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi -ffp-contract=off
                                            $<$<BOOL:${HOGEL_WERROR}>:-Werror>)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+    target_compile_definitions(${target} PRIVATE TOOLCHAIN_MISS_SYS_AUXV_H
+                               "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
+  endif()
+  # In the build's own folders libraries are found by relative paths, so that no file holds the name of the folder.
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON BUILD_RPATH_USE_ORIGIN ON
                                              CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  hogel_hardening(${target})
   if(HOGEL_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${HOGEL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PUBLIC -fsanitize=${HOGEL_SANITIZE})
+  endif()
+endfunction()
+
+# What dpkg-buildflags gives Debian's packages, and immediate binding. Sanitizers bring checks of their own.
+function(hogel_hardening target)
+  if(HOGEL_HARDENING AND NOT HOGEL_SANITIZE)
+    target_compile_options(${target} PRIVATE -fstack-protector-strong -Wformat -Werror=format-security
+                                             $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>)
+    target_link_options(${target} PRIVATE -Wl,-z,relro -Wl,-z,now)
   endif()
 endfunction()
 
@@ -67,18 +168,19 @@ function(hogel_library)
   add_library(hogel ${objects})
   add_library(hogel::hogel ALIAS hogel)
   set_target_properties(hogel PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
-                                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+                                         SOVERSION ${HOGEL_SOVERSION} BUILD_RPATH_USE_ORIGIN ON INSTALL_RPATH "$ORIGIN")
+  hogel_hardening(hogel)
   target_compile_features(hogel PUBLIC cxx_std_20)
   target_include_directories(hogel PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                           $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
-  target_link_libraries(hogel PRIVATE ${links} fmt::fmt)
+  target_link_libraries(hogel PRIVATE ${links} ${HOGEL_LINKED_FMT})
   if(HOGEL_SANITIZE)
     target_link_options(hogel PUBLIC -fsanitize=${HOGEL_SANITIZE})
   endif()
 
   add_library(hogel_internal STATIC EXCLUDE_FROM_ALL ${objects})
   set_target_properties(hogel_internal PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(hogel_internal PUBLIC ${links} fmt::fmt)
+  target_link_libraries(hogel_internal PUBLIC ${links} ${HOGEL_FMT})
 
   get_property(table GLOBAL PROPERTY HOGEL_MODULE_TABLE)
   file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/module_table.txt CONTENT "${table}")

@@ -30,6 +30,10 @@ enum class SampleType { half, single };
 /// another kind; and reading a radiance that is not finite throws it, with the file, the hogel and the direction.
 HOGEL_API LightField open_light_field(const std::filesystem::path& path);
 
+/// Throws Error(not_built_in) in a build without HDF5, in which the functions below that open, create or summarise HDF5
+/// files throw it too. To be called before work whose result is to be such a file.
+HOGEL_API void require_hdf5(const std::filesystem::path& path);
+
 /// Options of create_light_field().
 struct LightFieldFileOptions {
     SampleType type = SampleType::half;
@@ -86,7 +90,7 @@ struct FileFormat {
     std::vector<FileKind> reads, writes;  ///< the kinds of content that the library reads and writes in this format
 };
 
-/// The file formats of light fields, fields, pictures and meshes.
+/// The file formats of light fields, fields, pictures and meshes that this build has.
 HOGEL_API Table<FileFormat>& file_formats();
 
 /// Facts about a light field or hologram file: names and values, in SI units.

@@ -14,6 +14,7 @@
 #include "hogel/hologram.h"
 #include "hogel/image.h"
 #include "hogel/light_field.h"
+#include "hogel/parts.h"
 #include "hogel/pattern.h"
 #include "hogel/photograph.h"
 #include "hogel/pipeline.h"

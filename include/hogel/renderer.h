@@ -38,6 +38,7 @@ struct RendererInfo {
     /// Bytes of depth buffers for rendering a region of hogels at once, in addition to the tile that receives the
     /// values; null if memory does not grow with the region.
     std::function<double(const LightFieldGrid& grid, const HogelRange& region)> depth_buffer_bytes = nullptr;
+    bool casts_rays = false;         ///< needs Embree; in a build without it make() throws Error(not_built_in)
     bool takes_frequencies = false;  ///< can render light fields whose directions are uniform in sines
 };
 

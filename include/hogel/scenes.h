@@ -34,7 +34,7 @@ HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Pr
 /// outside the mesh's own folder are not opened. The scene has no lights: see add_default_lights(). assimp works in a
 /// child process whose memory and time are limited in proportion to the files (docs/files.md, "Meshes"), so that a
 /// damaged file cannot harm this one. Throws Error(bad_input) with one line: the file, and what is missing, damaged or
-/// out of range; Error(cancelled).
+/// out of range; Error(cancelled); and Error(not_built_in) in a build without assimp.
 HOGEL_API Scene import_scene(const std::filesystem::path& path, const Progress& progress = {});
 
 /// The size and position of a scene that fit_scene() fits to a hologram.

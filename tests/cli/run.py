@@ -7,7 +7,8 @@ usage: run.py PROGRAM SCRIPT      PROGRAM: the one under test, hogel or hogel-be
 A script is read line by line:
   # words            a comment
   needs command      skips the script unless bash runs this with exit status 0; before the first $
-  $ command          is run by bash in an empty folder that the whole script shares; the program is in its PATH
+  $ command          is run by bash in an empty folder that the whole script shares; the program is in its PATH, and
+                     PYTHON is the Python that runs this
   text               expected on its standard output
   ! text             expected on its standard error
   ? 3                expected exit status, 0 where none is given
@@ -89,7 +90,7 @@ def main():
         folder = pathlib.Path(name) / "work"
         folder.mkdir()
         environment = {"PATH": f"{program.parent}:{os.environ['PATH']}", "HOME": name, "LC_ALL": "C.UTF-8",
-                       "TOOLS": str(pathlib.Path(__file__).parent.resolve())}
+                       "TOOLS": str(pathlib.Path(__file__).parent.resolve()), "PYTHON": sys.executable}
         needs, steps = read_script(script)
         for command in needs:
             if run(command, folder, environment).returncode != 0:

@@ -1,23 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/array.h"
 
-#include <sys/mman.h>
+#include <malloc.h>
 
 #include <cstdlib>
 #include <new>
 
+#include "hogel/core/freed_blocks.h"
+
 namespace hogel {
+namespace {
+
+constexpr std::size_t line = 64;
+// Blocks of this size are what malloc, too, takes from the system and gives back.
+constexpr std::size_t large = std::size_t{128} << 10;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// A sanitizer shall see every block end.
+constexpr std::size_t max_kept = 0;
+#else
+constexpr std::size_t max_kept = std::size_t{1} << 30;
+#endif
+
+// Never destroyed, because other objects that live until the program ends may own blocks.
+core::FreedBlocks& freed_blocks() {
+    static auto* blocks = new core::FreedBlocks(max_kept);
+    return *blocks;
+}
+
+}  // namespace
 
 void* allocate_lines(std::size_t bytes) {
-    constexpr std::size_t line = 64, huge_page = std::size_t{2} << 20;
-    const bool large = bytes >= 2 * huge_page;
+    if (bytes >= large) return freed_blocks().allocate(bytes);
     void* memory = nullptr;
-    if (posix_memalign(&memory, large ? huge_page : line, bytes) != 0) throw std::bad_alloc();
-    // A hint; only the speed depends on whether the system follows it.
-    if (large) madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
+    if (posix_memalign(&memory, line, bytes) != 0) throw std::bad_alloc();
     return memory;
 }
 
-void free_lines(void* memory) { std::free(memory); }
+void free_lines(void* memory) {
+    if (malloc_usable_size(memory) >= large)
+        freed_blocks().free(memory);
+    else
+        std::free(memory);
+}
 
 }  // namespace hogel

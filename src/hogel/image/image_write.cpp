@@ -63,7 +63,8 @@ std::vector<unsigned char> encode(const Image& image, double exposure, const std
 
 std::string format_of(const std::filesystem::path& path) {
     const PictureFormat* format = format_by_extension(path);
-    if (format != nullptr && !format->built_in) refuse_not_built_in(*format, path.string(), "PNG and EXR");
+    if (format != nullptr && !format->built_in)
+        refuse_not_built_in(*format, path.string(), &PictureFormat::written_as_picture);
     if (format != nullptr && format->written_as_picture) return format->name;
     throw Error(ErrorCode::usage, fmt::format("'{}': pictures are written as {}", path.string(),
                                               list_extensions(&PictureFormat::written_as_picture)));

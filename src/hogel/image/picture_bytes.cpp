@@ -36,6 +36,15 @@ std::uint32_t little_endian(std::span<const unsigned char> b) {
 
 }  // namespace
 
+// Targa (version 2.0 of its specification): an identifier's length, whether there is a palette, and the type of the
+// picture; the bits of a pixel are at byte 16.
+bool begins_like_tga(std::span<const unsigned char> bytes) {
+    if (bytes.size() < 18) return false;
+    const unsigned palette = bytes[1], type = bytes[2] & ~8u, depth = bytes[16];
+    if ((bytes[2] & ~0xbu) != 0 || palette > 1 || type < 1 || type > 3 || (type == 1) != (palette == 1)) return false;
+    return depth == 8 || ((depth == 15 || depth == 16 || depth == 24 || depth == 32) && type != 1);
+}
+
 // PNG (ISO 15948): a signature of 8 bytes, then chunks of length, name, data and checksum.
 std::string png_structure_error(std::span<const unsigned char> bytes) {
     for (std::size_t at = 8; bytes.size() - at >= 12;) {

@@ -2,40 +2,72 @@
 #include "hogel/image/picture_formats.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 
+#include "hogel/core/part.h"
 #include "hogel/error.h"
 
 namespace hogel::image {
 namespace {
 
-#ifdef HOGEL_TIFF
-constexpr bool has_tiff = true;
-#else
-constexpr bool has_tiff = false;
-#endif
-#ifdef HOGEL_WEBP
-constexpr bool has_webp = true;
-#else
-constexpr bool has_webp = false;
-#endif
+std::vector<PictureFormat> all_formats() {
+    const char* const pictures = "pictures";
+    const bool has_pictures = core::part(pictures).built_in;
+    std::vector<PictureFormat> formats{
+        {.name = "png",
+         .title = "PNG",
+         .extensions = {".png"},
+         .text = "PNG, 8 bits sRGB",
+         .part = pictures,
+         .written_as_picture = true,
+         .written_as_levels = true},
+        {.name = "exr",
+         .title = "OpenEXR",
+         .extensions = {".exr"},
+         .text = "OpenEXR, linear half floats",
+         .part = pictures,
+         .written_as_picture = true},
+        {.name = "bmp",
+         .title = "BMP",
+         .extensions = {".bmp"},
+         .text = "Windows bitmap; written for the levels of a modulator alone",
+         .part = {},
+         .read = has_pictures,  // writing needs no library
+         .written_as_levels = true},
+        {.name = "tiff",
+         .title = "TIFF",
+         .extensions = {".tif", ".tiff"},
+         .text = "TIFF, 8 bits sRGB",
+         .part = "TIFF",
+         .written_as_picture = true,
+         .written_as_levels = true},
+        {.name = "jpeg", .title = "JPEG", .extensions = {".jpg", ".jpeg"}, .text = "JPEG", .part = pictures},
+        {.name = "gif", .title = "GIF", .extensions = {".gif"}, .text = "GIF", .part = pictures},
+        {.name = "hdr", .title = "HDR", .extensions = {".hdr"}, .text = "Radiance RGBE", .part = pictures},
+        {.name = "tga", .title = "TGA", .extensions = {".tga"}, .text = "Targa", .part = pictures},
+        {.name = "webp", .title = "WebP", .extensions = {".webp"}, .text = "WebP", .part = "WebP"},
+    };
+    for (PictureFormat& format : formats) {
+        format.built_in = format.part.empty() || core::part(format.part).built_in;
+        if (!format.built_in) format.read = format.written_as_picture = format.written_as_levels = false;
+    }
+    return formats;
+}
+
+std::string list(std::vector<std::string> names) {
+    if (names.size() < 2) return names.empty() ? "nothing" : names.front();
+    const std::string last = names.back();
+    names.pop_back();
+    return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
 
 }  // namespace
 
 const std::vector<PictureFormat>& picture_formats() {
-    static const std::vector<PictureFormat> formats{
-        {"png", "PNG", {".png"}, "PNG, 8 bits sRGB", true, true, true},
-        {"exr", "OpenEXR", {".exr"}, "OpenEXR, linear half floats", true, true, false},
-        {"bmp", "BMP", {".bmp"}, "Windows bitmap; written for the levels of a modulator alone", true, false, true},
-        {"tiff", "TIFF", {".tif", ".tiff"}, "TIFF, 8 bits sRGB", has_tiff, has_tiff, has_tiff},
-        {"jpeg", "JPEG", {".jpg", ".jpeg"}, "JPEG"},
-        {"gif", "GIF", {".gif"}, "GIF"},
-        {"hdr", "HDR", {".hdr"}, "Radiance RGBE"},
-        {"tga", "TGA", {".tga"}, "Targa"},
-        {"webp", "WebP", {".webp"}, "WebP", has_webp},
-    };
+    static const std::vector<PictureFormat> formats = all_formats();
     return formats;
 }
 
@@ -51,15 +83,17 @@ std::string list_extensions(bool PictureFormat::*member) {
     std::vector<std::string> names;
     for (const PictureFormat& format : picture_formats())
         if (format.*member) names.push_back(format.extensions.front());
-    const std::string last = names.back();
-    names.pop_back();
-    return fmt::format("{} or {}", fmt::join(names, ", "), last);
+    return list(std::move(names));
 }
 
-void refuse_not_built_in(const PictureFormat& format, const std::string& name, const std::string& instead) {
-    throw Error(
-        ErrorCode::not_built_in,
-        fmt::format("'{}': this build of hogel neither reads nor writes {}; {} would do", name, format.title, instead));
+void refuse_not_built_in(const PictureFormat& format, const std::string& name, bool PictureFormat::*wanted) {
+    std::vector<std::string> titles;
+    for (const PictureFormat& other : picture_formats())
+        if (other.*wanted) titles.push_back(other.title);
+    throw Error(ErrorCode::not_built_in,
+                fmt::format("'{}': this build of hogel neither reads nor writes {}; the build option {} brings it{}",
+                            name, format.title, core::part(format.part.empty() ? "pictures" : format.part).option,
+                            titles.empty() ? "" : fmt::format(", and {} would do", list(std::move(titles)))));
 }
 
 }  // namespace hogel::image

@@ -18,7 +18,8 @@ namespace {
 
 std::string format_of(const std::filesystem::path& path) {
     const PictureFormat* format = format_by_extension(path);
-    if (format != nullptr && !format->built_in) refuse_not_built_in(*format, path.string(), "PNG and BMP");
+    if (format != nullptr && !format->built_in)
+        refuse_not_built_in(*format, path.string(), &PictureFormat::written_as_levels);
     if (format != nullptr && format->written_as_levels) return format->name;
     throw Error(ErrorCode::usage, fmt::format("'{}': patterns are written as {}", path.string(),
                                               list_extensions(&PictureFormat::written_as_levels)));

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstring>
+#include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include "hogel/compress.h"
+#include "hogel/core/part.h"
+#include "hogel/error.h"
 #include "hogel/image/picture_formats.h"
 #include "hogel/io/finite.h"
 #include "hogel/io/hdf5/files.h"
@@ -19,36 +27,45 @@ std::vector<FileFormat> picture_rows() {
     std::vector<FileFormat> rows;
     for (const image::PictureFormat& format : image::picture_formats()) {
         if (!format.built_in) continue;
-        rows.push_back({format.name, format.extensions, format.text, {FileKind::picture}, {}});
+        rows.push_back({format.name, format.extensions, format.text, {}, {}});
+        if (format.read) rows.back().reads = {FileKind::picture};
         if (format.written_as_picture || format.written_as_levels) rows.back().writes = {FileKind::picture};
     }
+    return rows;
+}
+
+// The mesh files that a build with assimp reads.
+std::vector<FileFormat> mesh_rows() {
+    std::vector<FileFormat> rows;
+    const auto add = [&](const char* name, std::vector<std::string> extensions, const char* text) {
+        rows.push_back({name, std::move(extensions), text, {FileKind::mesh}, {}});
+    };
+    add("gltf", {".gltf", ".glb"}, "glTF 2.0, with its materials and textures");
+    add("obj", {".obj"}, "Wavefront OBJ");
+    add("ply", {".ply"}, "Stanford polygons");
+    add("stl", {".stl"}, "stereolithography");
+    add("off", {".off"}, "Object File Format");
+    add("dae", {".dae"}, "COLLADA");
+    add("fbx", {".fbx"}, "Autodesk FBX");
+    add("3ds", {".3ds"}, "Autodesk 3DS");
     return rows;
 }
 
 std::vector<FileFormat> all_formats() {
     constexpr FileKind light_field = FileKind::light_field, hologram = FileKind::hologram;
     std::vector<FileFormat> rows{
-        {"hdf5",
-         {".h5", ".hdf5"},
-         "samples of light fields and holograms, for h5py and others",
-         {light_field, hologram},
-         {light_field, hologram}},
         {"hgl", {".hgl"}, "compressed light fields", {light_field}, {light_field}},
         {"npy", {".npy"}, "NumPy arrays: the samples of one field", {hologram}, {hologram}},
         {"mat", {".mat"}, "MATLAB arrays, versions 5 to 7.3: the samples of one field", {hologram}, {}},
     };
+    if (core::part("HDF5").built_in)
+        rows.insert(rows.begin(), {"hdf5",
+                                   {".h5", ".hdf5"},
+                                   "samples of light fields and holograms, for h5py and others",
+                                   {light_field, hologram},
+                                   {light_field, hologram}});
     std::ranges::move(picture_rows(), std::back_inserter(rows));
-    const auto add_mesh = [&](const char* name, std::vector<std::string> extensions, const char* text) {
-        rows.push_back({name, std::move(extensions), text, {FileKind::mesh}, {}});
-    };
-    add_mesh("gltf", {".gltf", ".glb"}, "glTF 2.0, with its materials and textures");
-    add_mesh("obj", {".obj"}, "Wavefront OBJ");
-    add_mesh("ply", {".ply"}, "Stanford polygons");
-    add_mesh("stl", {".stl"}, "stereolithography");
-    add_mesh("off", {".off"}, "Object File Format");
-    add_mesh("dae", {".dae"}, "COLLADA");
-    add_mesh("fbx", {".fbx"}, "Autodesk FBX");
-    add_mesh("3ds", {".3ds"}, "Autodesk 3DS");
+    if (core::part("assimp").built_in) std::ranges::move(mesh_rows(), std::back_inserter(rows));
     return rows;
 }
 
@@ -64,11 +81,33 @@ FileKind kind_by_extension(const std::filesystem::path& path) {
         if (std::ranges::count(format.extensions, extension) > 0)
             for (const FileKind kind : format.reads)
                 if (kind == FileKind::picture || kind == FileKind::mesh) return kind;
-    // A picture of a format that is not built in is known as such, so that its reader can say what is missing.
+    // A mesh or a picture of a format that is not built in is known as such, so that its reader can say what is
+    // missing.
+    for (const FileFormat& format : mesh_rows())
+        if (std::ranges::count(format.extensions, extension) > 0) return FileKind::mesh;
     return image::format_by_extension(path) != nullptr ? FileKind::picture : FileKind::unknown;
 }
 
 }  // namespace
+
+bool io::hdf5::is_hdf5(const std::filesystem::path& path) {
+    const auto fail = [&](const char* why) {
+        throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", path.string(), why));
+    };
+    std::error_code status;
+    const std::filesystem::file_status there = std::filesystem::status(path, status);
+    if (!std::filesystem::exists(there)) fail("no such file");
+    if (!std::filesystem::is_regular_file(there)) fail("it is not a plain file");
+    std::ifstream file(path, std::ios::binary);
+    if (!file) fail("it cannot be opened");
+    std::array<char, 8> start{};
+    file.read(start.data(), start.size());
+    return file && std::memcmp(start.data(), "\x89HDF\r\n\x1a\n", start.size()) == 0;
+}
+
+void require_hdf5(const std::filesystem::path& path) {
+    core::require_part("HDF5", fmt::format("'{}', an HDF5 file", path.string()));
+}
 
 Table<FileFormat>& file_formats() {
     static Table<FileFormat> table("file format", all_formats());

@@ -236,14 +236,14 @@ TEST_F(Files, formats_name_every_extension_once_and_pictures_and_meshes_are_know
     std::vector<std::string> extensions;
     for (const FileFormat& format : file_formats().rows()) {
         EXPECT_FALSE(format.text.empty()) << format.name;
-        EXPECT_FALSE(format.reads.empty()) << format.name;
+        const std::vector<FileKind>& kinds = format.reads.empty() ? format.writes : format.reads;
+        ASSERT_FALSE(kinds.empty()) << format.name;
         for (const std::string& extension : format.extensions) {
             extensions.push_back(extension);
             save(directory_ / ("x" + extension), "nothing that HDF5 or a compressed light field begins with");
             const FileKind kind = file_kind(directory_ / ("x" + extension));
-            const bool by_name =
-                format.reads == std::vector{FileKind::picture} || format.reads == std::vector{FileKind::mesh};
-            EXPECT_EQ(kind, by_name ? format.reads[0] : FileKind::unknown) << extension;
+            const bool by_name = kinds == std::vector{FileKind::picture} || kinds == std::vector{FileKind::mesh};
+            EXPECT_EQ(kind, by_name ? kinds[0] : FileKind::unknown) << extension;
         }
         for (const FileKind kind : format.writes)
             if (kind == FileKind::picture) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 #include <tuple>
 
@@ -193,18 +194,35 @@ Picture read_exr(const PictureBytes& file) {
     return picture;
 }
 
+// Whether half floats hold a picture: it has no finite value beyond their largest, and is not so dark that all of its
+// values would have fewer than eleven bits.
+bool halves_hold(View<const float, 3> pixels) {
+    float largest = 0;
+    for (const float value : pixels.elements())
+        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    return largest == 0 || (largest <= HALF_MAX && largest >= HALF_NRM_MIN);
+}
+
 std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata& texts) {
     const std::size_t height = pixels.extent(0), width = pixels.extent(1), channels = pixels.extent(2);
     Imf::Header header(static_cast<int>(width), static_cast<int>(height));
     header.compression() = Imf::ZIP_COMPRESSION;
-    std::vector<half> halves(pixels.size());
-    std::ranges::transform(pixels.elements(), halves.begin(), [](float value) { return half(value); });
     Imf::FrameBuffer buffer;
-    for (std::size_t c = 0; c < channels; ++c) {
-        const std::string name = channels == 1 ? "Y" : std::string(1, "RGB"[c]);
-        header.channels().insert(name, Imf::Channel(Imf::HALF));
-        buffer.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(halves.data() + c), channels * sizeof(half),
-                                       channels * width * sizeof(half)));
+    const auto insert = [&](Imf::PixelType type, const void* first, std::size_t bytes) {
+        for (std::size_t c = 0; c < channels; ++c) {
+            const std::string name = channels == 1 ? "Y" : std::string(1, "RGB"[c]);
+            header.channels().insert(name, Imf::Channel(type));
+            auto* samples = const_cast<char*>(static_cast<const char*>(first)) + c * bytes;  // they are only read
+            buffer.insert(name, Imf::Slice(type, samples, channels * bytes, channels * width * bytes));
+        }
+    };
+    std::vector<half> halves;
+    if (halves_hold(pixels)) {
+        halves.resize(pixels.size());
+        std::ranges::transform(pixels.elements(), halves.begin(), [](float value) { return half(value); });
+        insert(Imf::HALF, halves.data(), sizeof(half));
+    } else {
+        insert(Imf::FLOAT, pixels.data(), sizeof(float));
     }
     add_texts(header, texts);
     ExrSink sink;

@@ -41,14 +41,14 @@ struct Picture {
     Metadata texts;
 };
 
-// The readers. They throw Error(bad_input), by PictureBytes, or std::exception with a reason.
+// The readers. They throw Error(bad_input), by PictureBytes, or std::exception with a reason. Those of formats that a
+// build lacks throw Error(not_built_in), and so do their writers.
 Picture read_png(const PictureBytes& file);
 Picture read_jpeg(const PictureBytes& file);
 /// The first part of the file, its data window alone. Of several layers the first with colours or luminance is taken.
 Picture read_exr(const PictureBytes& file);
 /// BMP, TGA, the first picture of a GIF, and Radiance HDR.
 Picture read_with_stb(const PictureBytes& file);
-/// Both throw Error(not_built_in) in a build without the format.
 Picture read_tiff(const PictureBytes& file);
 Picture read_webp(const PictureBytes& file);
 

@@ -206,6 +206,21 @@ TEST(ExrFile, has_the_texts_and_the_half_floats) {
     EXPECT_EQ(picture.texts, (Metadata{{"a: b", "with a colon"}, {"DateTime", "today"}, {"command", "photo"}}));
 }
 
+TEST(ExrFile, has_floats_where_halves_would_be_infinite_or_coarse) {
+    for (const float scale : {1e6f, 1e-7f}) {
+        Array<float, 3> values({2, 2, 3});
+        for (std::size_t i = 0; i < values.size(); ++i) values.data()[i] = scale / (1.0f + float(i));
+        expect_samples<float>(read_exr(request(exr_file(values, {}))), values);
+    }
+    // A single bright value is enough; dark ones beside ordinary ones are not.
+    Array<float, 3> mixed({1, 2, 1}, 0.1f);
+    mixed(0, 0, 0) = 65505.0f;
+    expect_samples<float>(read_exr(request(exr_file(mixed, {}))), mixed);
+    mixed(0, 0, 0) = 1e-7f;
+    const Picture coarse = read_exr(request(exr_file(mixed, {})));
+    EXPECT_NE((std::get<Array<float, 3>>(coarse.samples)(0, 1, 0)), 0.1f);
+}
+
 struct Sample {
     std::string name;
     Bytes bytes;

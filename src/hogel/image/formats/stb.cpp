@@ -122,13 +122,6 @@ Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
 
 }  // namespace
 
-bool begins_like_tga(std::span<const unsigned char> bytes) {
-    if (bytes.size() < 18) return false;
-    const unsigned palette = bytes[1], type = bytes[2] & ~8u, depth = bytes[16];
-    if ((bytes[2] & ~0xbu) != 0 || palette > 1 || type < 1 || type > 3 || (type == 1) != (palette == 1)) return false;
-    return depth == 8 || ((depth == 15 || depth == 16 || depth == 24 || depth == 32) && type != 1);
-}
-
 Picture read_with_stb(const PictureBytes& file) {
     if (file.only_texts) return {};
     const ReleaseAll at_the_end;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/image/formats/formats.h"
 
-#ifdef HOGEL_TIFF
 #include <fmt/format.h>
 #include <tiffio.h>
 
@@ -12,14 +11,8 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
-#else
-#include "hogel/image/picture_formats.h"
-#endif
 
 namespace hogel::image {
-
-#ifdef HOGEL_TIFF
-
 namespace {
 
 // A file in memory and the first error that libtiff reports for it.
@@ -219,17 +212,5 @@ std::vector<unsigned char> tiff_file(View<const std::uint8_t, 3> pixels, const M
     if (!done) throw std::runtime_error(memory.error);
     return std::move(memory.written);
 }
-
-#else
-
-Picture read_tiff(const PictureBytes& file) {
-    refuse_not_built_in(*format_by_extension("a.tif"), file.name, "PNG, BMP and EXR");
-}
-
-std::vector<unsigned char> tiff_file(View<const std::uint8_t, 3>, const Metadata&) {
-    refuse_not_built_in(*format_by_extension("a.tif"), "a picture", "PNG, BMP and EXR");
-}
-
-#endif
 
 }  // namespace hogel::image

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <webp/decode.h>
+
 #include "hogel/image/formats/formats.h"
 
-#ifdef HOGEL_WEBP
-#include <webp/decode.h>
-#else
-#include "hogel/image/picture_formats.h"
-#endif
-
 namespace hogel::image {
-
-#ifdef HOGEL_WEBP
 
 Picture read_webp(const PictureBytes& file) {
     if (file.only_texts) return {};
@@ -24,13 +18,5 @@ Picture read_webp(const PictureBytes& file) {
         file.fail("it is damaged or ends too early");
     return {std::move(samples), {}};
 }
-
-#else
-
-Picture read_webp(const PictureBytes& file) {
-    refuse_not_built_in(*format_by_extension("a.webp"), file.name, "PNG, JPEG and EXR");
-}
-
-#endif
 
 }  // namespace hogel::image

@@ -3,11 +3,11 @@
 // elements, each a type, a length and that number of bytes, padded to eight. An array is an element that contains
 // elements: flags, extents, name, real parts, imaginary parts. Version 7 compresses whole arrays with zlib.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
 
+#include "hogel/io/arrays/inflate.h"
 #include "hogel/io/arrays/mat.h"
 
 namespace hogel::io::arrays {
@@ -60,33 +60,17 @@ class Elements {
 };
 
 std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span<const unsigned char> compressed) {
-    z_stream stream{};
-    if (inflateInit(&stream) != Z_OK) fail_external(path, "zlib cannot start");
-    struct End {
-        z_stream& stream;
-        ~End() { inflateEnd(&stream); }
-    } end{stream};
-    stream.next_in = const_cast<unsigned char*>(compressed.data());
-    stream.avail_in = static_cast<unsigned>(compressed.size());
+    const auto fill = [&](std::span<unsigned char> bytes) {
+        if (!inflate(path, compressed, bytes, Extent::first)) fail_external(path, "a compressed array is damaged");
+    };
     // The header of the array inside gives its length.
     std::vector<unsigned char> bytes(8);
-    const auto fill = [&](std::size_t from) {
-        while (from < bytes.size()) {
-            stream.next_out = &bytes[from];
-            stream.avail_out = static_cast<unsigned>(std::min<std::size_t>(bytes.size() - from, 1u << 30));
-            const unsigned wanted = stream.avail_out;
-            const int status = inflate(&stream, Z_NO_FLUSH);
-            from += wanted - stream.avail_out;
-            if (status == Z_STREAM_END ? from < bytes.size() : status != Z_OK)
-                fail_external(path, "a compressed array is damaged");
-        }
-    };
-    fill(0);
+    fill(bytes);
     std::uint32_t size = 0;
     std::memcpy(&size, &bytes[4], sizeof size);
     if (size / max_expansion > compressed.size()) fail_external(path, "a compressed array is damaged");
     bytes.resize(8 + std::size_t{size});
-    fill(8);
+    fill(bytes);
     return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/part.h"
 #include "hogel/render/baselines/raytrace.h"
 #include "hogel/render/sample_store.h"
 #include "hogel/shading/triangles.h"
@@ -28,6 +29,7 @@ class RaytraceRenderer final : public Renderer {
     bool has_depth() const override { return true; }
 
     void set_scene(std::shared_ptr<const ShadedScene> scene) override {
+        core::require_part("Embree", "the renderer 'raytrace'");
         scene_ = std::move(scene);
         shading::set_seen_triangles(caster_, *scene_);
         constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -105,6 +107,7 @@ RendererInfo raytrace_renderer() {
         .text = "one ray a sample through a bounding volume hierarchy (Embree)",
         .make = [](std::shared_ptr<const ShadedScene> scene,
                    const LightFieldGrid& grid) { return std::make_unique<RaytraceRenderer>(std::move(scene), grid); },
+        .casts_rays = true,
         .takes_frequencies = true};
 }
 

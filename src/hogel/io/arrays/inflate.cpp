@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/io/arrays/inflate.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+
+namespace hogel::io::arrays {
+namespace {
+
+struct Stream : z_stream {
+    Stream() : z_stream{} { started = inflateInit(this) == Z_OK; }
+    ~Stream() {
+        if (started) inflateEnd(this);
+    }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+    bool started = false;
+};
+
+bool inflate_first(std::span<const unsigned char> packed, std::span<unsigned char> plain) {
+    Stream stream;
+    if (!stream.started) return false;
+    stream.next_in = const_cast<unsigned char*>(packed.data());
+    stream.avail_in = static_cast<unsigned>(packed.size());
+    for (std::size_t from = 0; from < plain.size();) {
+        stream.next_out = &plain[from];
+        stream.avail_out = static_cast<unsigned>(std::min<std::size_t>(plain.size() - from, 1u << 30));
+        const unsigned wanted = stream.avail_out;
+        const int status = ::inflate(&stream, Z_NO_FLUSH);
+        from += wanted - stream.avail_out;
+        if (status == Z_STREAM_END ? from < plain.size() : status != Z_OK) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+bool inflate(const std::filesystem::path&, std::span<const unsigned char> packed, std::span<unsigned char> plain,
+             Extent extent) {
+    if (extent == Extent::first) return inflate_first(packed, plain);
+    uLongf length = plain.size();
+    return uncompress(plain.data(), &length, packed.data(), packed.size()) == Z_OK && length == plain.size();
+}
+
+}  // namespace hogel::io::arrays

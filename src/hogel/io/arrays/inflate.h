@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+namespace hogel::io::arrays {
+
+/// How much of the data inflate() is to fill.
+enum class Extent {
+    first,  ///< more may follow, and the checksum at the end is not looked at
+    all,    ///< nothing may follow, and the checksum must be right
+};
+
+/// Decompresses zlib's format (RFC 1950) until `plain` is full. Returns false for damaged data and for less than that.
+/// Throws Error(not_built_in) in a build without zlib.
+/// @param path  of the file, for that message
+bool inflate(const std::filesystem::path& path, std::span<const unsigned char> packed, std::span<unsigned char> plain,
+             Extent extent);
+
+}  // namespace hogel::io::arrays

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of the folder hdf5 in a build without HDF5.
+#include <fmt/format.h>
+
+#include "hogel/core/part.h"
+#include "hogel/files.h"
+#include "hogel/io/hdf5/files.h"
+
+namespace hogel {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path) {
+    core::refuse_without("HDF5", fmt::format("'{}', an HDF5 file", path.string()));
+}
+
+}  // namespace
+
+namespace io::hdf5 {
+
+FileKind kind_of(const std::filesystem::path& path) { refuse(path); }
+void summarize(const std::filesystem::path& path, FileSummary&) { refuse(path); }
+// Any file that is not compressed is taken for HDF5, so this says first what is wrong with one that is not.
+LightField open_light_field(const std::filesystem::path& path) {
+    is_hdf5(path);
+    refuse(path);
+}
+
+}  // namespace io::hdf5
+
+std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
+                                                                std::span<const LightFieldGrid>,
+                                                                const LightFieldFileOptions&) {
+    refuse(path);
+}
+
+Fields open_hologram(const std::filesystem::path& path) {
+    io::hdf5::is_hdf5(path);
+    refuse(path);
+}
+
+std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path, std::span<const FieldGrid>,
+                                                        const HologramFileOptions&) {
+    refuse(path);
+}
+
+}  // namespace hogel

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of the folder mesh_files in a build without assimp.
+#include "hogel/core/part.h"
+#include "hogel/scenes.h"
+
+namespace hogel {
+
+Scene import_scene(const std::filesystem::path& path, const Progress&) {
+    core::refuse_without("assimp", path.string());
+}
+
+}  // namespace hogel
