@@ -72,12 +72,20 @@ struct CompressionOptions {
     Metadata metadata;                   ///< beside the light field's provenance; must not contain the name "filler"
     std::optional<StreamLayout> layout;  ///< by default the smaller of `stacked` (coder hogel only) and `faces`
     bool with_depth = false;             ///< whether depth is also stored
-    double depth_error = 0;              ///< bound on each depth, metres; 0: a 1,000th of the range of depths
+    /// Bound on each depth, metres; 0: every float as it is. By default 0 with the target Lossless, otherwise
+    /// default_depth_error().
+    std::optional<double> depth_error;
     /// Decades of luminance to which histogram tone mapping compresses the light field before coding (docs/codec.md),
     /// 0.1 to 20. A light field that spans no more than this is coded without tone mapping.
     std::optional<double> tone_decades;
     double chrominance = 1;  ///< steps of chrominance relative to those of luminance, 1 to 1024; three channels only
 };
+
+/// The bound on depth, metres, with which holograms whose phases are those of the points that rays meet (PhaseAdded,
+/// OverlapAdd) hardly differ from those of the exact depth. What depth decides is which point a ray meets: an error δ
+/// moves it sideways by δU. The bound moves the point of the steepest ray by no more than a 32,000th of a hogel. It is
+/// never more than a 1,000th of the range of depths, metres.
+HOGEL_API double default_depth_error(const LightFieldGrid& grid, double range);
 
 /// What compress() achieved.
 struct CompressionResult {
@@ -87,7 +95,7 @@ struct CompressionResult {
     double step = 0;                ///< of the quantiser, radiance
     int passes = 0;                 ///< number of times that the whole light field was read and coded
     std::uint64_t depth_bytes = 0;  ///< of `bytes`
-    double depth_error = 0;         ///< bound on each depth, metres
+    double depth_error = 0;         ///< bound on each depth, metres; 0: exact
 };
 
 /// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads. Quality and rate are those of
@@ -127,7 +135,7 @@ struct HOGEL_API StreamInfo {
     /// The stream of depths behind the layers.
     struct Depth {
         std::uint64_t bytes = 0;  ///< 0: the stream has no depth
-        double error = 0;         ///< bound on each depth, metres
+        double error = 0;         ///< bound on each depth, metres; 0: exact
         double beyond = 0;        ///< decoded depths of this value or more mean infinity, metres
     };
     Depth depth = {};

@@ -17,7 +17,7 @@ namespace hogel {
 struct SceneHologramOptions {
     std::size_t channel = 0;  ///< the channel of the scene's colours that this wavelength shows
     std::uint64_t seed = 1;   ///< of the random phases that make surfaces diffuse
-    double spacing = 10e-6;   ///< distance of points on surfaces and along edges, metres
+    double spacing = 10e-6;   ///< distance of points on surfaces and along edges, metres; at most 10⁸ points
     std::size_t planes = 16;  ///< number of depth planes, for methods that use them
 };
 

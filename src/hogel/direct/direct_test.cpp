@@ -265,5 +265,19 @@ TEST(SceneHologramMethods, refuse_scenes_and_grids_that_they_cannot_take) {
     EXPECT_THROW(scene_hologram_methods().find("wavy"), Error);
 }
 
+TEST(ScenePoints, more_of_them_than_memory_holds_are_refused_with_a_spacing_that_would_do) {
+    SceneHologramOptions options;
+    options.spacing = 1e-3_nm;
+    for (const char* method : {"points", "points-visible", "points-tiled", "points-hpo"}) try {
+            make(method, card_at(2_mm, 1_mm), small, options);
+            ADD_FAILURE() << method;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage) << method;
+            EXPECT_NE(std::string(error.what()).find("expected at most 1e+08"), std::string::npos) << error.what();
+        }
+    options.spacing = 1e-6_nm;
+    EXPECT_THROW(make("edges", card_at(2_mm, 1_mm), small, options), Error);
+}
+
 }  // namespace
 }  // namespace hogel::direct

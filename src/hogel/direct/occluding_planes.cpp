@@ -3,8 +3,8 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/direct/depth_planes.h"
+#include "hogel/direct/onward.h"
 #include "hogel/optics/spectrum.h"
-#include "hogel/propagate.h"
 
 namespace hogel::direct {
 
@@ -26,13 +26,13 @@ Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const Sc
         progress.report(1 - static_cast<double>(i + 1) / static_cast<double>(slices.size()));
         const SliceDrawing::Drawn drawn = drawing.draw(slices[i], grid.plane, grid.wavelength, options);
         if (drawn.empty) continue;
-        if (!dark) field = hogel::propagate(field, depth - slices[i].depth());
+        if (!dark) field = onward(field, depth - slices[i].depth());
         depth = slices[i].depth();
         dark = false;
         for (std::size_t j = 0; j < field.samples.size(); ++j)
             field.samples.data()[j] = drawn.solid.data()[j] > 0 ? drawn.light.data()[j] : field.samples.data()[j];
     }
-    if (!dark) field = hogel::propagate(field, depth);
+    if (!dark) field = onward(field, depth);
     progress.report(1);
     return field;
 }

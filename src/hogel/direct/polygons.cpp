@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "hogel/core/parallel.h"
+#include "hogel/direct/onward.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/optics/tilt.h"
-#include "hogel/propagate.h"
 
 namespace hogel::direct {
 namespace {
@@ -208,12 +208,12 @@ Field occluding_polygons(const ShadedScene& scene, const FieldGrid& grid, const 
     for (std::size_t i = 0; i < polygons.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(polygons.size()));
         const double here = -polygons[i].middle.z;
-        if (i > 0 && here != depth) field = hogel::propagate(field, depth - here);
+        if (i > 0 && here != depth) field = onward(field, depth - here);
         depth = here;
         light.hide(polygons[i], field);
         light.add(polygons[i], depth, field);
     }
-    if (!polygons.empty()) field = hogel::propagate(field, depth);
+    if (!polygons.empty()) field = onward(field, depth);
     progress.report(1);
     return field;
 }

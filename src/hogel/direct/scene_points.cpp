@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,9 +9,12 @@
 #include <utility>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/part.h"
 #include "hogel/core/random.h"
 #include "hogel/direct/scene_points.h"
+#include "hogel/error.h"
 #include "hogel/shading/triangles.h"
+#include "hogel/units.h"
 
 namespace hogel::direct {
 namespace {
@@ -28,6 +33,29 @@ std::array<Vec3, 3> corners(const ShadedScene& scene, const ShadedScene::Triangl
             scene.positions[triangle.vertices[2]]};
 }
 
+// Each takes 88 bytes.
+constexpr double max_points = 1e8;
+
+[[noreturn]] void throw_too_many(double points, double spacing, double wider) {
+    throw Error(ErrorCode::usage, fmt::format("a spacing of {} makes {:.2g} points; expected at most {:.2g}, which a "
+                                              "spacing of {} makes",
+                                              format_length(spacing), points, max_points, format_length(wider)));
+}
+
+// The parts into which an edge is cut.
+double parts_of(double length, double spacing) { return std::max(1.0, std::ceil(length / spacing)); }
+
+// Throws Error(usage) if surface_points() would be more than max_points.
+void require_few_points(const ShadedScene& scene, double spacing) {
+    double count = 0;
+    for (const ShadedScene::Triangle& triangle : scene.triangles) {
+        const auto [a, b, c] = corners(scene, triangle);
+        const double parts = parts_of(std::max({length(b - a), length(c - b), length(a - c)}), spacing);
+        count += parts * parts;
+    }
+    if (count > max_points) throw_too_many(count, spacing, spacing * std::sqrt(count / max_points));
+}
+
 constexpr double crease_cosine = 0.8660254037844387;
 
 }  // namespace
@@ -42,6 +70,7 @@ double random_cycles(const SceneHologramOptions& options, std::uint32_t a, std::
 
 std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid& grid,
                                        const SceneHologramOptions& options) {
+    require_few_points(scene, options.spacing);
     std::vector<ScenePoint> points;
     const ViewSample view_sample{{0, 0, 1}, options.spacing};
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -51,7 +80,7 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
         if (!(area > 0)) continue;
         // The triangle is cut into n² triangles of the same shape, each with a point in its middle.
         const double longest = std::max({length(b - a), length(c - b), length(a - c)});
-        const auto n = static_cast<std::uint32_t>(std::max(1.0, std::ceil(longest / options.spacing)));
+        const auto n = static_cast<std::uint32_t>(parts_of(longest, options.spacing));
         const double cut = n;
         for (std::uint32_t row = 0; row < n; ++row) {
             core::throw_if_stopped();
@@ -116,7 +145,12 @@ std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& g
                                     const SceneHologramOptions& options) {
     std::vector<ScenePoint> points;
     std::uint32_t number = 0;
-    for (const SceneEdge& edge : scene_edges(scene, options)) {
+    const std::vector<SceneEdge> edges = scene_edges(scene, options);
+    double count = 0;
+    for (const SceneEdge& edge : edges) count += parts_of(length(edge.b - edge.a), options.spacing);
+    if (count > max_points) throw_too_many(count, options.spacing, options.spacing * count / max_points);
+    for (const SceneEdge& edge : edges) {
+        core::throw_if_stopped();
         const double along = length(edge.b - edge.a), steps = std::max(1.0, std::round(along / options.spacing));
         for (double i = 0; i < steps; ++i) {
             const Vec3 at = edge.a + (i + 0.5) / steps * (edge.b - edge.a);
@@ -136,7 +170,9 @@ double modulus(const ScenePoint& point, const Passage& passage) {
     return point.amplitude * std::sqrt(cosine) / std::abs(passage.path);
 }
 
-Visibility::Visibility(const ShadedScene& scene) : caster_(shading::all_triangles(scene)) {
+Visibility::Visibility(const ShadedScene& scene) {
+    core::require_part("Embree", "points that hide each other");
+    caster_ = shading::all_triangles(scene);
     Vec3 low, high;
     for (const Vec3& p : scene.positions) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

@@ -38,24 +38,19 @@ void require_opening(double diameter) {
 
 }  // namespace
 
-double circular_aperture(Wave& wave, double center_x, double center_y, double diameter) {
+void circular_aperture(Wave& wave, double center_x, double center_y, double diameter, const PupilEdge& edge) {
     require_opening(diameter);
-    const Grid& plane = wave.grid().plane;
-    const double pitch = std::max(plane.pitch_x, plane.pitch_y);
-    const auto passes = [&](double x, double y) {
-        return edge(0.5 * diameter - std::hypot(x - center_x, y - center_y), pitch);
-    };
-    multiply_everywhere(wave, passes);
-    double sum = 0;
-    for (std::size_t row = 0; row < plane.height; ++row) {
-        const double y = plane.y(static_cast<double>(row));
-        if (std::abs(y - center_y) > 0.5 * diameter + pitch) continue;
-        for (std::size_t column = 0; column < plane.width; ++column) {
-            const double part = passes(plane.x(static_cast<double>(column)), y);
-            sum += part * part;
-        }
-    }
-    return sum * plane.pitch_x * plane.pitch_y;
+    multiply_everywhere(wave, [&](double x, double y) {
+        return edge.transmission(0.5 * diameter - std::hypot(x - center_x, y - center_y));
+    });
+}
+
+void weigh_alike(Wave& wave, double center_x, double center_y, Vec3 path) {
+    const double middle = dot(path, path);
+    multiply_everywhere(wave, [&](double x, double y) {
+        const Vec3 way = path - Vec3{x - center_x, y - center_y, 0};
+        return dot(way, way) / middle;
+    });
 }
 
 void rectangular_aperture(Wave& wave, const Rectangle& opening) {

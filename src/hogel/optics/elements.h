@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hogel/optics/pupil_edge.h"
 #include "hogel/optics/spectrum.h"
 
 namespace hogel::optics {
 
-/// A circular opening: sets the wave to zero outside; the edge falls over one sample. Returns the effective area for
-/// the energy of a uniform wave, m²: the sum of squared transmissions times the area of a sample.
-double circular_aperture(Wave& wave, double center_x, double center_y, double diameter);
+/// A circular opening: sets the wave to zero outside. The edge limits how far it diffracts light.
+void circular_aperture(Wave& wave, double center_x, double center_y, double diameter, const PupilEdge& edge);
+
+/// Multiplies by |q − p|²/|c − p|² at a distance q − c from the centre, for a point p at `path` from the centre. A wave
+/// that is propagated to p weighs each point q of an opening by cos θ/|q − p|, and cos θ is inverse to |q − p|; a lens
+/// that images p weighs all alike.
+void weigh_alike(Wave& wave, double center_x, double center_y, Vec3 path);
 
 /// A rectangular opening, whose edge falls over one sample.
 void rectangular_aperture(Wave& wave, const Rectangle& opening);

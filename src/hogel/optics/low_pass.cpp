@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/math/bessel.h"
+
 namespace hogel::optics {
 
 double LowPass::at(double distance) {
@@ -12,8 +14,7 @@ double LowPass::at(double distance) {
     constexpr double beta = 7.04;
     const double relative = distance / half_width;
     if (std::abs(relative) >= 1) return 0;
-    const double window =
-        std::cyl_bessel_i(0.0, beta * std::sqrt(1 - relative * relative)) / std::cyl_bessel_i(0.0, beta);
+    const double window = math::bessel_i0(beta * std::sqrt(1 - relative * relative)) / math::bessel_i0(beta);
     const double phase = std::numbers::pi * distance;
     return window * (distance == 0 ? 1 : std::sin(phase) / phase);
 }

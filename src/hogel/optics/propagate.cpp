@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "hogel/core/parallel.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum.h"
-#include "hogel/propagate.h"
 
 namespace hogel::optics {
 namespace {
@@ -127,43 +123,3 @@ void propagate(Spectrum& spectrum, const PropagationOptions& options) {
 }
 
 }  // namespace hogel::optics
-
-namespace hogel {
-
-using namespace optics;
-
-void propagate(const FieldSource& source, double distance, FieldSink& sink, const PropagateOptions& options,
-               const Progress& progress) {
-    const core::StopScope scope(progress);
-    const ScratchOptions& scratch = options.scratch;
-    const Grid& plane = source.grid().plane;
-    validate(source.grid(), ErrorCode::usage, "propagated field");
-    if (!std::isfinite(distance))
-        throw Error(ErrorCode::usage,
-                    fmt::format("a field cannot be propagated by {} m; the distance must be finite", distance));
-    Spectrum waves =
-        spectrum_of(source, options.look, padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y()), Band::of(plane),
-                    scratch, [&](double done) { return !progress || progress(0.4 * done); });
-    propagate(waves, {distance, 0, 0, plane.size_x(), plane.size_y(), 0.5 * plane.size_x(), 0.5 * plane.size_y()});
-    progress.report(0.6);
-    const Wave wave = wave_of(waves, waves.window.width, waves.window.height, scratch);
-    progress.report(0.9);
-    const std::size_t left = (waves.window.width - plane.width) / 2, above = (waves.window.height - plane.height) / 2;
-    core::parallel_for(blocks_of(plane.height), [&](std::size_t block) {
-        const std::size_t y0 = block * lines_together, rows = std::min(lines_together, plane.height - y0);
-        Array<Complex, 2> lines({rows, plane.width});
-        wave.read({left, above + y0, plane.width, rows}, 0, lines);
-        sink.write({0, y0, plane.width, rows}, lines);
-    });
-    sink.finish();
-    progress.report(1);
-}
-
-Field propagate(const FieldSource& source, double distance, const PropagateOptions& options, const Progress& progress) {
-    Field result(source.grid());
-    result.set_provenance(source.provenance());
-    propagate(source, distance, result, options, progress);
-    return result;
-}
-
-}  // namespace hogel

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/part.h"
 #include "hogel/core/random.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scene/tessellate.h"
@@ -105,6 +106,7 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
     constexpr double plastic = 1.32471795724474602596;
     Rgb sum{0, 0, 0};
     for (std::size_t k = 0; k < rays; ++k) {
+        if (k % 65536 == 0) core::throw_if_stopped();
         const double a = shift_a + static_cast<double>(k + 1) / plastic;
         const double b = shift_b + static_cast<double>(k + 1) / (plastic * plastic);
         const double sine2 = a - std::floor(a), sine = std::sqrt(sine2), angle = 2 * pi * (b - std::floor(b));
@@ -165,6 +167,7 @@ void require_normals(const Scene& scene) {
 
 Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
+    core::require_part("Embree", "baking");
     if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
     require_normals(scene);

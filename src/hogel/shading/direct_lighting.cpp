@@ -137,7 +137,7 @@ ShadingInfo direct_shading() {
             .make =
                 [](const Scene& scene, const ShadingOptions& options, ShadedScene& shaded, const Progress& progress) {
                     auto lighting = take_lighting<DirectLighting>(shaded);
-                    lighting->set_scene(scene, all_triangles(shaded), options.shadow_map, progress);
+                    lighting->set_scene(scene, shadow_caster(scene, shaded, "direct"), options.shadow_map, progress);
                     return lighting;
                 },
             .shadow_map_bytes = bytes_of_shadow_maps};

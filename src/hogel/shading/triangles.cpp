@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/shading/triangles.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hogel/core/part.h"
+
 namespace hogel::shading {
 namespace {
 
@@ -18,6 +24,12 @@ trace::RayCaster all_triangles(const ShadedScene& scene) {
     trace::RayCaster caster;
     set_triangles(caster, scene, trace::Sides::both);
     return caster;
+}
+
+trace::RayCaster shadow_caster(const Scene& scene, const ShadedScene& shaded, const char* model) {
+    if (std::ranges::none_of(scene.lights, &Light::casts_shadows)) return {};
+    core::require_part("Embree", fmt::format("shadows, in the shading model '{}'", model));
+    return all_triangles(shaded);
 }
 
 void set_seen_triangles(trace::RayCaster& caster, const ShadedScene& scene) {

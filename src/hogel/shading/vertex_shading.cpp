@@ -11,12 +11,8 @@ namespace {
 
 constexpr std::size_t vertices_per_task = 16;
 
-bool has_shadows(const Scene& scene) {
-    return std::ranges::any_of(scene.lights, [](const Light& light) { return light.casts_shadows; });
-}
-
 void light_vertices(const Scene& scene, ShadedScene& shaded) {
-    const trace::RayCaster caster = has_shadows(scene) ? all_triangles(shaded) : trace::RayCaster();
+    const trace::RayCaster caster = shadow_caster(scene, shaded, "vertex");
     const double offset = ray_offset(scene);
     constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
     std::size_t base = 0;

@@ -68,16 +68,23 @@ class DepthAsRadiance final : public LightFieldSource {
 
 }  // namespace
 
-DepthCoding::DepthCoding(double nearest, double farthest, double wanted_error) {
-    const double range = farthest > nearest ? farthest - nearest : std::max(std::abs(farthest), 1e-6);
-    error = wanted_error > 0 ? wanted_error : 1e-3 * range;
+namespace {
+
+// The range of depths, or for a single one its size.
+double range_of(double nearest, double farthest) {
+    return farthest > nearest ? farthest - nearest : std::max(std::abs(farthest), 1e-6);
+}
+
+}  // namespace
+
+DepthCoding::DepthCoding(double nearest, double farthest, double bound) : error(bound) {
     // Far enough for any rounding, but not farther, because edges between finite and infinite depths cost more if the
     // jump is larger.
-    beyond = farthest + 4 * error + 1e-2 * range;
+    beyond = farthest + 4 * error + 1e-2 * range_of(nearest, farthest);
     nothing = beyond + (beyond - farthest);
 }
 
-DepthCoding depth_coding(const LightField& light_field, double wanted_error) {
+DepthCoding depth_coding(const LightField& light_field, std::optional<double> bound) {
     Range all;
     for (const LightField::Source& face : light_field.faces()) {
         const Tiling tiling(face->grid(), face->preferred_tile());
@@ -85,8 +92,10 @@ DepthCoding depth_coding(const LightField& light_field, double wanted_error) {
             tiling.count(), core::default_in_flight(), [&](std::size_t i) { return depths_of(*face, tiling[i]); },
             [&](std::size_t, Range& depths) { all.include(depths); });
     }
-    return all.nearest <= all.farthest ? DepthCoding(all.nearest, all.farthest, wanted_error)
-                                       : DepthCoding(0, 0, wanted_error);
+    if (all.nearest > all.farthest) all = {0, 0};
+    return DepthCoding(
+        all.nearest, all.farthest,
+        bound ? *bound : default_depth_error(light_field.front().grid(), range_of(all.nearest, all.farthest)));
 }
 
 LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding) {
@@ -97,15 +106,28 @@ LightField depth_as_radiance(const LightField& light_field, const DepthCoding& c
 StreamInfo::Depth compress_depth(const LightField& light_field, const std::filesystem::path& path,
                                  const CompressionOptions& options) {
     if (!light_field.has_depth()) throw Error(ErrorCode::usage, "depth was asked for, but the light field has none");
-    if (!(options.depth_error >= 0 && std::isfinite(options.depth_error)))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("an error of depth of {} m was asked for, expected 0 or a positive one", options.depth_error));
-    const DepthCoding coding = depth_coding(light_field, options.depth_error);
+    std::optional<double> bound = options.depth_error;
+    if (bound && !(*bound >= 0 && std::isfinite(*bound)))
+        throw Error(ErrorCode::usage,
+                    fmt::format("an error of depth of {} m was asked for, expected 0 or a positive one", *bound));
+    if (!bound && std::holds_alternative<Lossless>(options.target)) bound = 0;
+    const DepthCoding coding = depth_coding(light_field, bound);
     CompressionOptions exact;
     exact.target = MaxError{coding.error};
+    if (coding.error == 0) exact.target = Lossless{};
     exact.tile = options.tile;
     return {compress(depth_as_radiance(light_field, coding), path, exact).bytes, coding.error, coding.beyond};
 }
 
 }  // namespace hogel::codec::encode
+
+namespace hogel {
+
+double default_depth_error(const LightFieldGrid& grid, double range) {
+    const double steepest =
+        std::max(std::abs(grid.center_u()) + grid.half_u(), std::abs(grid.center_v()) + grid.half_v());
+    const double a_thousandth = 1e-3 * range;
+    return steepest > 0 ? std::min(grid.pitch / (32000 * steepest), a_thousandth) : a_thousandth;
+}
+
+}  // namespace hogel

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "hogel/compress.h"
@@ -12,16 +13,17 @@ namespace hogel::codec::encode {
 
 // How depths are coded in the depth stream: as a light field of one channel with a bounded error. All values in metres.
 struct DepthCoding {
-    double error = 0;
+    double error = 0;    // 0: exact
     double nothing = 0;  // the depth behind all others that represents infinity
     double beyond = 0;   // decoded depths of this value or more mean infinity
 
-    // For depths from `nearest` to `farthest`. An error of 0 means a 1,000th of their range.
-    DepthCoding(double nearest, double farthest, double wanted_error);
+    // For depths from `nearest` to `farthest` with this bound, 0: exact.
+    DepthCoding(double nearest, double farthest, double bound);
 };
 
-// Reads all depths. Throws Error(bad_input) for one that is not a number, or −∞.
-DepthCoding depth_coding(const LightField& light_field, double wanted_error);
+// Reads all depths. Throws Error(bad_input) for one that is not a number, or −∞. Without a bound it is
+// default_depth_error().
+DepthCoding depth_coding(const LightField& light_field, std::optional<double> bound);
 
 // The depths of a light field as radiance of one channel.
 LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hogel/array.h"
+#include "hogel/hologram/windows/brightness.h"
 
 namespace hogel::hologram::windows {
 
@@ -20,6 +21,10 @@ struct WindowDirection {
     float U, V;
     double cycles_per_depth;  // 1/(λ cos θ)
     double first_cycles;      // phase at the window's first sample, relative to its centre
+    // Three adjacent rays along U and along V, with this one among them, and U/ΔU and V/ΔV: for the surface's slope.
+    std::array<std::uint32_t, 3> along_u, along_v;
+    float slope_u, slope_v;
+    std::uint32_t across, down;  // where the direction's factors begin in the tables of WindowBrightness
 };
 
 /// Computes the windows of sixteen hogels side by side, one hogel per vector lane. Small transforms are computed as
@@ -34,9 +39,10 @@ class WindowBatch {
     struct Shared {
         std::size_t side = 0, hop = 0;
         const std::vector<WindowDirection>* directions = nullptr;
-        const std::vector<float>* brightness = nullptr;  // by |ζ| in steps; the last value for all larger depths
-        const std::vector<float>* window = nullptr;      // along one axis
-        double steps_a_metre = 0, hogels_a_metre = 0, waves_a_metre = 0, pitch = 0;
+        const WindowBrightness* brightness = nullptr;
+        const std::vector<float>* window = nullptr;  // along one axis
+        double hogels_a_metre = 0, waves_a_metre = 0, pitch = 0;
+        double reference_cosine = 1;  // of the fan's middle, see OverlapAddHologram::cycles_of_point()
     };
     explicit WindowBatch(const Shared& shared);
 

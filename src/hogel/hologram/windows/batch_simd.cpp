@@ -44,7 +44,8 @@ void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& d
             const auto pitch = hn::Set(d, shared.pitch);
             const auto x = hn::Mul(column, pitch), y = hn::Mul(row, pitch);
             const auto distance = hn::Sqrt(hn::MulAdd(y, y, hn::MulAdd(x, x, hn::Mul(depth, depth))));
-            all = hn::MulAdd(hn::CopySign(distance, depth), hn::Set(d, shared.waves_a_metre), first);
+            const auto path = hn::NegMulAdd(depth, hn::Set(d, shared.reference_cosine), hn::CopySign(distance, depth));
+            all = hn::MulAdd(path, hn::Set(d, shared.waves_a_metre), first);
             hn::StoreU(hn::DemoteTo(whole, column), whole, columns + i);
             hn::StoreU(hn::DemoteTo(whole, row), whole, rows + i);
         }
@@ -101,12 +102,31 @@ void CyclesOfNothing(const WindowBatch::At& at, std::uint32_t coefficient, float
 }
 #endif
 
+// See surface_stretch().
+HWY_INLINE V Stretch(D d, V z0, V z1, V z2, V depth, float slope) {
+    const V before = hn::Sub(z1, z0), after = hn::Sub(z2, z1);
+    const V less = hn::IfThenElse(hn::Lt(hn::Abs(before), hn::Abs(after)), before, after);
+    const V stretch = hn::Div(hn::Mul(less, hn::Set(d, slope)), depth);
+    const V inside =
+        hn::Min(hn::Max(stretch, hn::Set(d, WindowBrightness::min_stretch)), hn::Set(d, WindowBrightness::max_stretch));
+    return hn::IfThenElseZero(hn::IsFinite(stretch), inside);
+}
+
+// See WindowBrightness::on_slope().
+HWY_INLINE V OnSlope(D d, const WindowBrightness& brightness, V factor, V stretch) {
+    const V one = hn::Set(d, 1.0f);
+    const V own = hn::Min(hn::Mul(hn::Mul(factor, factor), hn::Set(d, brightness.own_share())), one);
+    const V doubles = hn::NegMulAdd(hn::Set(d, 2.0f), hn::Min(stretch, hn::Zero(d)), one);
+    const V energy = hn::MulAdd(own, doubles, hn::Div(hn::Sub(one, own), hn::Add(one, stretch)));
+    return hn::Div(factor, hn::Sqrt(energy));
+}
+
 void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, const WindowBatch::At& at_hogels,
                  const WindowBatch::PointCycles& points) {
     const D d;
     const hn::RebindToSigned<D> whole;
-    const auto& table = *shared.brightness;
-    const auto last = static_cast<float>(table.size() - 1);
+    constexpr std::size_t last = WindowBrightness::steps - 1;
+    const auto steps_a_metre = hn::Set(d, shared.brightness->steps_a_metre());
     HWY_ALIGN float cycles[width], own_cycles[width], amplitudes[width], finite_depths[width];
     HWY_ALIGN std::int32_t columns[width], rows[width];
     for (const WindowDirection& direction : *shared.directions) {
@@ -121,15 +141,20 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
             something = something || !hn::AllFalse(d, lit);
             all_finite = all_finite && hn::AllTrue(d, finite);
             // A ray that meets nothing is treated as one to a distant surface.
-            const auto at = hn::IfThenElse(
-                finite,
-                hn::Min(hn::Mul(hn::Abs(ray), hn::Set(d, static_cast<float>(shared.steps_a_metre))), hn::Set(d, last)),
-                hn::Set(d, last));
-            const auto below = hn::Min(hn::ConvertTo(whole, at), hn::Set(whole, static_cast<std::int32_t>(last) - 1));
-            const auto rest = hn::Sub(at, hn::ConvertTo(d, below));
-            const auto low = hn::GatherIndex(d, table.data(), below),
-                       high = hn::GatherIndex(d, table.data() + 1, below);
-            const auto bright = hn::MulAdd(rest, hn::Sub(high, low), low);
+            const auto farthest = hn::Set(d, static_cast<float>(last));
+            const auto at = hn::IfThenElse(finite, hn::Min(hn::Mul(hn::Abs(ray), steps_a_metre), farthest), farthest);
+            const auto step = hn::ConvertTo(whole, at);
+            const auto one_axis = [&](const std::vector<float>& table, std::uint32_t first,
+                                      const std::array<std::uint32_t, 3>& along, float slope) {
+                const V z0 = hn::LoadU(d, work.depth.data() + along[0] * width + i),
+                        z1 = hn::LoadU(d, work.depth.data() + along[1] * width + i),
+                        z2 = hn::LoadU(d, work.depth.data() + along[2] * width + i);
+                return OnSlope(d, *shared.brightness, hn::GatherIndex(d, table.data() + first, step),
+                               Stretch(d, z0, z1, z2, ray, slope));
+            };
+            const auto bright =
+                hn::Mul(one_axis(shared.brightness->across(), direction.across, direction.along_u, direction.slope_u),
+                        one_axis(shared.brightness->down(), direction.down, direction.along_v, direction.slope_v));
             hn::Store(hn::IfThenElseZero(lit, hn::Mul(hn::Sqrt(light), bright)), d, amplitudes + i);
             hn::Store(hn::IfThenElseZero(finite, ray), d, finite_depths + i);
         }
@@ -261,7 +286,7 @@ WindowBatch::WindowBatch(const Shared& shared) : shared_(shared) {
     work_.hop = shared.hop;
     std::uint32_t rays = 0;
     for (const WindowDirection& direction : *shared.directions) {
-        rays = std::max(rays, direction.ray + 1);
+        rays = std::max({rays, direction.ray + 1, direction.along_u[2] + 1, direction.along_v[2] + 1});
         const auto row = static_cast<std::uint32_t>(direction.coefficient / n);
         if (std::ranges::find(work_.rows, row) == work_.rows.end()) work_.rows.push_back(row);
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -9,24 +12,49 @@
 
 namespace hogel::hologram::windows {
 
-/// The factor, by depth, that corrects the amplitude of points shown by overlapping windows. Near the plane the windows
-/// that show one point overlap and interfere, far from it they are separate. The factors are computed by adding up the
-/// windows of one point in one dimension; they give points of all depths the energy that the light field's rays carry
-/// in the middle of the fan of directions (docs/notation.md, section 3).
+/// The factors that correct the amplitudes of rays shown by overlapping windows, by direction and depth. Near the plane
+/// the windows that show one point overlap and interfere, far from it they are separate. For each depth the windows of
+/// one point, w_j for direction j, are set up along one axis as the hologram sets them up, and the factors b_j are
+/// those for which every window has the energy of its ray in the sum of all, b_j Re⟨w_j, Σ_i b_i w_i⟩ = hop
+/// (docs/notation.md, section 3). In two dimensions the windows of a point are
+/// products, and so are the factors, but for the curvature of the spherical wave that mixes x and y.
 class WindowBrightness {
   public:
+    /// The number of steps of depth.
+    static constexpr std::size_t steps = 1024;
+
     /// @param hop     side of a hogel in samples
     /// @param window  values along one axis
     WindowBrightness(const LightFieldGrid& rays, const FieldGrid& grid, std::size_t hop, std::span<const float> window);
 
-    float operator()(double depth) const;
-    float farthest() const { return values_.back(); }  ///< for all depths beyond the table
-    const std::vector<float>& values() const { return values_; }
-    double steps_a_metre() const { return steps_a_metre_; }
+    /// The step of a depth, which must be finite; the last one is for all larger depths.
+    std::size_t step_of(float depth) const {
+        const float at = std::min(std::abs(depth) * steps_a_metre_, static_cast<float>(steps - 1));
+        return static_cast<std::size_t>(at);
+    }
+    /// Corrects a factor of one axis for the slope of the surface. Neighbouring hogels see a surface in one direction
+    /// at points that are (1 + c) hogels apart, not one: where they lie closer, some points have two windows of this
+    /// direction, which interfere, and where they lie farther apart some have none. A window interferes with itself by
+    /// the share ρ of its energy in the sum, with its double by the same, and with those of other directions by the
+    /// rest, in proportion to their number: the energy is (1 − ρ)/(1 + c) + ρ(1 + 2 max(0, −c)) of that without slope.
+    float on_slope(float factor, float c) const {
+        const float own = std::min(factor * factor * own_share_, 1.0f);
+        return factor / std::sqrt((1 - own) / (1 + c) + own * (1 - 2 * std::min(c, 0.0f)));
+    }
+    /// The range of c of on_slope(): beyond it surfaces are seen almost along themselves, or depths are inexact.
+    static constexpr float min_stretch = -0.4f, max_stretch = 1;
+    /// One over the square of the factor of a window that interferes with no other.
+    float own_share() const { return own_share_; }
+    /// Where the factors of frequency j begin in across() and down().
+    std::size_t first(std::ptrdiff_t j) const { return static_cast<std::size_t>(j + reach_) * steps; }
+    const std::vector<float>& across() const { return across_; }
+    const std::vector<float>& down() const { return down_; }
+    float steps_a_metre() const { return steps_a_metre_; }
 
   private:
-    std::vector<float> values_;  // by |ζ|; the last value for all larger depths
-    double steps_a_metre_;
+    std::ptrdiff_t reach_;              // frequencies are j = −reach … reach
+    std::vector<float> across_, down_;  // [j + reach][step of |ζ|]
+    float steps_a_metre_, own_share_;
 };
 
 }  // namespace hogel::hologram::windows

@@ -2,6 +2,7 @@
 #include "hogel/hologram/windows/overlap_add.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -39,6 +40,17 @@ std::vector<float> hann_window(std::size_t side) {
 
 std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
 
+// By how much the points at which neighbouring hogels see a surface in one direction are farther apart than the hogels:
+// (U/ζ) ∂ζ/∂U along an axis, where the derivative is the smaller difference of three adjacent rays, so that it does not
+// reach across an edge. @param slope  U/ΔU
+float surface_stretch(std::span<const float> depths, const std::array<std::uint32_t, 3>& along, float depth,
+                      float slope) {
+    const float before = depths[along[1]] - depths[along[0]], after = depths[along[2]] - depths[along[1]];
+    const float stretch = (std::abs(before) < std::abs(after) ? before : after) * slope / depth;
+    return std::isfinite(stretch) ? std::clamp(stretch, WindowBrightness::min_stretch, WindowBrightness::max_stretch)
+                                  : 0;
+}
+
 // A stereogram of overlapping windows: a Hann window around each hogel's centre contains the waves of its directions,
 // computed by one Fourier transform, each with the phase of a spherical wave from the point that the ray meets. All
 // windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
@@ -61,6 +73,8 @@ class OverlapAddHologram final : public FieldSource {
             for (const float column : window_) square_.push_back(row * column);
         hogels_a_metre_ = 1 / light_field_.grid().pitch;
         waves_a_metre_ = 1 / grid.wavelength;
+        const double U = light_field_.grid().center_u(), V = light_field_.grid().center_v();
+        reference_cosine_ = 1 / std::sqrt(1 + U * U + V * V);
         list_directions();
         batches_ = !one_by_one && side_ <= WindowBatch::max_side && !directions_.empty();
     }
@@ -133,11 +147,11 @@ class OverlapAddHologram final : public FieldSource {
         hogels.s0 = hogels.s0 / together * together;
         hogels.ns = end - hogels.s0;
         if (!scratch.batch) {
-            WindowBatch::Shared shared{side_, hop_, &directions_, &brightness_.values(), &window_};
-            shared.steps_a_metre = brightness_.steps_a_metre();
+            WindowBatch::Shared shared{side_, hop_, &directions_, &brightness_, &window_};
             shared.hogels_a_metre = hogels_a_metre_;
             shared.waves_a_metre = waves_a_metre_;
             shared.pitch = light_field_.grid().pitch;
+            shared.reference_cosine = reference_cosine_;
             scratch.batch.emplace(shared);
         }
         const std::size_t before = (side_ - hop_) / 2;
@@ -203,15 +217,29 @@ class OverlapAddHologram final : public FieldSource {
                 };
                 const std::size_t k = nearest(rays.column(U), rays.directions_u);
                 const std::size_t l = nearest(rays.row(V), rays.directions_v);
+                // The middle one of three adjacent rays, which are the ray itself where there are fewer.
+                const auto middle = [](std::size_t at, std::size_t count) {
+                    return count < 3 ? at : std::clamp<std::size_t>(at, 1, count - 2);
+                };
+                const auto three = [](std::size_t ray, std::size_t apart) {
+                    return std::array{static_cast<std::uint32_t>(ray - apart), static_cast<std::uint32_t>(ray),
+                                      static_cast<std::uint32_t>(ray + apart)};
+                };
+                const std::size_t n_u = rays.directions_u;
+                const auto along_u = three(l * n_u + middle(k, n_u), n_u < 3 ? 0 : 1);
+                const auto along_v = three(middle(l, rays.directions_v) * n_u + k, rays.directions_v < 3 ? 0 : n_u);
                 // Rows are counted downwards but y upwards, so a row of the transform is −j_y.
                 const auto row = static_cast<std::size_t>((n - jy) % n),
                            column = static_cast<std::size_t>((n + jx) % n);
                 const double first = -0.5 * static_cast<double>(n - 1) / static_cast<double>(n);
-                directions_.push_back({static_cast<std::uint32_t>(row * side_ + column),
-                                       static_cast<std::uint32_t>(l * rays.directions_u + k),
-                                       static_cast<float>(step * step / cosine), static_cast<float>(U),
-                                       static_cast<float>(V), 1 / (grid_.wavelength * cosine),
-                                       static_cast<double>(jx - jy) * first});
+                directions_.push_back(
+                    {static_cast<std::uint32_t>(row * side_ + column),
+                     static_cast<std::uint32_t>(l * rays.directions_u + k), static_cast<float>(step * step / cosine),
+                     static_cast<float>(U), static_cast<float>(V), (1 / cosine - reference_cosine_) / grid_.wavelength,
+                     static_cast<double>(jx - jy) * first, along_u, along_v,
+                     static_cast<float>(U / (rays.u(1) - rays.u(0))), static_cast<float>(V / (rays.v(1) - rays.v(0))),
+                     static_cast<std::uint32_t>(brightness_.first(jx)),
+                     static_cast<std::uint32_t>(brightness_.first(jy))});
             }
     }
 
@@ -224,14 +252,17 @@ class OverlapAddHologram final : public FieldSource {
             const float depth = depths[direction.ray];
             double cycles = direction.first_cycles;
             float amplitude = std::sqrt(light);
-            if (std::isfinite(depth)) {
+            // A ray that meets nothing is treated as one to a distant surface.
+            const std::size_t step = std::isfinite(depth) ? brightness_.step_of(depth) : WindowBrightness::steps - 1;
+            amplitude *= brightness_.on_slope(brightness_.across()[direction.across + step],
+                                              surface_stretch(depths, direction.along_u, depth, direction.slope_u)) *
+                         brightness_.on_slope(brightness_.down()[direction.down + step],
+                                              surface_stretch(depths, direction.along_v, depth, direction.slope_v));
+            if (std::isfinite(depth))
                 cycles +=
                     points ? cycles_of_point(direction, depth, place, *points) : depth * direction.cycles_per_depth;
-                amplitude *= brightness_(depth);
-            } else {
+            else
                 cycles += cycles_of_nothing(direction, place);
-                amplitude *= brightness_.farthest();
-            }
             window.data()[direction.coefficient] = amplitude * roots_(cycles);
         }
     }
@@ -256,7 +287,7 @@ class OverlapAddHologram final : public FieldSource {
         const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
         const double x = static_cast<double>(columns) * pitch, y = static_cast<double>(rows) * pitch;
         const double distance = std::copysign(std::sqrt(depth * depth + x * x + y * y), depth);
-        return distance * waves_a_metre_ +
+        return (distance - depth * reference_cosine_) * waves_a_metre_ +
                points(static_cast<std::int64_t>(place.s) + columns, static_cast<std::int64_t>(place.t) - rows);
     }
 
@@ -304,6 +335,7 @@ class OverlapAddHologram final : public FieldSource {
     std::vector<WindowDirection> directions_;
     // Reciprocals, so that rays need no divisions.
     double hogels_a_metre_ = 0, waves_a_metre_ = 0;
+    double reference_cosine_ = 1;
     bool batches_ = false;  // whether windows are computed in batches of hogels
     mutable core::ObjectPool<Scratch> scratch_pool_;
 };

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/optics/propagation/plain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "hogel/optics/phase_walk.h"
+
+namespace hogel::optics::propagation {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+struct Nodes {
+    std::vector<double> at, weight;
+};
+
+// Gauss's rule of 16 nodes on equal panels of [−edge, edge]: the zeros of Legendre's polynomial by Newton's method.
+Nodes gauss(double edge, std::size_t panels) {
+    constexpr int order = 16;
+    std::array<double, order> zero{}, weight{};
+    for (int i = 0; i < order; ++i) {
+        double x = std::cos(pi * (i + 0.75) / (order + 0.5)), slope = 1;
+        for (int step = 0; step < 50; ++step) {
+            double p = 1, before = 0;
+            for (int n = 0; n < order; ++n) before = std::exchange(p, ((2 * n + 1) * x * p - n * before) / (n + 1));
+            slope = order * (x * p - before) / (x * x - 1);
+            x -= p / slope;
+        }
+        zero[std::size_t(i)] = x;
+        weight[std::size_t(i)] = 2 / ((1 - x * x) * slope * slope);
+    }
+    Nodes nodes;
+    const double half = edge / static_cast<double>(panels);
+    for (std::size_t panel = 0; panel < panels; ++panel)
+        for (std::size_t i = 0; i < order; ++i) {
+            nodes.at.push_back(-edge + half * (2 * static_cast<double>(panel) + 1 + zero[i]));
+            nodes.weight.push_back(half * weight[i]);
+        }
+    return nodes;
+}
+
+// Panels of about two cycles of e^{2πi f u}, u being the longest path that light can remain from a point.
+Nodes nodes_of(double pitch, double path, double wavelength) {
+    const double edge = std::min(0.5 / pitch, 4 / wavelength);
+    return gauss(edge, static_cast<std::size_t>(std::ceil(edge * path)) + 2);
+}
+
+double path_at_edge(const FieldGrid& grid, double distance) {
+    const double sine =
+        std::min(0.995, 0.5 * grid.wavelength * std::hypot(1 / grid.plane.pitch_x, 1 / grid.plane.pitch_y));
+    return std::abs(distance) * sine / std::sqrt(1 - sine * sine);
+}
+
+}  // namespace
+
+std::vector<Complex> sum_of_plane_waves(const Field& field, double distance, std::span<const PlanePoint> points) {
+    const Grid& plane = field.grid().plane;
+    const double k = 1 / field.grid().wavelength;
+    double path_x = plane.size_x(), path_y = plane.size_y();
+    for (const PlanePoint& point : points) {
+        path_x = std::max(path_x, std::abs(point.x - plane.center_x) + 0.5 * plane.size_x());
+        path_y = std::max(path_y, std::abs(point.y - plane.center_y) + 0.5 * plane.size_y());
+    }
+    const double aside = path_at_edge(field.grid(), distance);
+    const Nodes x = nodes_of(plane.pitch_x, path_x + aside, field.grid().wavelength),
+                y = nodes_of(plane.pitch_y, path_y + aside, field.grid().wavelength);
+    std::vector<Complex> result(points.size()), column(plane.height), along_x(points.size());
+    std::vector<Complex> along_y;  // [node][point]
+    for (const double f : y.at)
+        for (const PlanePoint& point : points) along_y.push_back(unit_phasor(f * point.y));
+    for (std::size_t i = 0; i < x.at.size(); ++i) {
+        // The transform along the rows at f_x, then along the column at each f_y.
+        std::ranges::fill(column, Complex(0));
+        for (std::size_t s = 0; s < plane.width; ++s) {
+            const Complex wave = unit_phasor(-x.at[i] * plane.x(static_cast<double>(s)));
+            for (std::size_t t = 0; t < plane.height; ++t) column[t] += times(wave, Complex(field.samples(t, s)));
+        }
+        for (std::size_t p = 0; p < points.size(); ++p) along_x[p] = x.weight[i] * unit_phasor(x.at[i] * points[p].x);
+        for (std::size_t j = 0; j < y.at.size(); ++j) {
+            const double square = k * k - x.at[i] * x.at[i] - y.at[j] * y.at[j];
+            if (square < 0 && distance < 0) continue;
+            Complex value = 0;
+            const Complex step = unit_phasor(y.at[j] * plane.pitch_y);
+            Complex wave = unit_phasor(-y.at[j] * plane.y(0));
+            for (std::size_t t = 0; t < plane.height; ++t, wave = times(wave, step)) value += times(wave, column[t]);
+            value *= square >= 0 ? unit_phasor(std::sqrt(square) * distance)
+                                 : Complex(std::exp(-2 * pi * std::sqrt(-square) * distance));
+            value *= y.weight[j] * plane.pitch_x * plane.pitch_y;
+            for (std::size_t p = 0; p < points.size(); ++p)
+                result[p] += times(times(value, along_x[p]), along_y[j * points.size() + p]);
+        }
+    }
+    return result;
+}
+
+std::vector<Complex> sum_of_spherical_waves(const Field& field, double distance, std::span<const PlanePoint> points) {
+    const Grid& plane = field.grid().plane;
+    const double wavelength = field.grid().wavelength, z = std::abs(distance);
+    std::vector<Complex> result;
+    for (const PlanePoint& point : points) {
+        Complex sum = 0;
+        for (std::size_t t = 0; t < plane.height; ++t)
+            for (std::size_t s = 0; s < plane.width; ++s) {
+                const double r =
+                    std::hypot(point.x - plane.x(static_cast<double>(s)), point.y - plane.y(static_cast<double>(t)), z);
+                Complex kernel =
+                    z / (2 * pi * r * r) * Complex(1 / r, -2 * pi / wavelength) * unit_phasor(r / wavelength);
+                // Light that goes backwards is the conjugate of light that goes forwards.
+                if (distance < 0) kernel = std::conj(kernel);
+                sum += kernel * Complex(field.samples(t, s));
+            }
+        result.push_back(sum * plane.pitch_x * plane.pitch_y);
+    }
+    return result;
+}
+
+}  // namespace hogel::optics::propagation

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// Propagation of fields in three passes: rows to frequencies; columns to frequencies, on to the other plane, and to its
+// rows; rows to samples. One array, of the columns' frequencies, is all that is kept between them.
+#include "hogel/propagate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "hogel/core/paged_array.h"
+#include "hogel/core/parallel.h"
+#include "hogel/optics/lines.h"
+#include "hogel/optics/propagation/tile_plan.h"
+#include "hogel/optics/propagation/transfer.h"
+
+namespace hogel {
+namespace optics::propagation {
+namespace {
+
+using Complex = std::complex<float>;
+
+// Buffers of several lines, apart by a stride.
+struct Lines {
+    Lines(std::size_t count, std::size_t size) : stride(stride_of(size)), values({count, stride}) {}
+    std::span<Complex> operator[](std::size_t line) { return {&values(line, 0), stride}; }
+    std::size_t stride;
+    Array<Complex, 2> values;
+};
+
+class TileWork {
+  public:
+    TileWork(const FieldSource& source, const TilePlan& plan, const PropagateOptions& options, const Progress& progress)
+        : source_(source),
+          plan_(plan),
+          options_(options),
+          progress_(progress),
+          transfer_(plan),
+          together_(source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1)),
+          kept_({std::max(plan.y.field.count, plan.y.output.count), plan.x.frequencies.count}, options.scratch) {
+        blocks_ = blocks_of(plan.y.field.count, together_) + blocks_of(plan.x.frequencies.count) +
+                  blocks_of(plan.y.output.count);
+    }
+
+    // Writes the tile at `region` of the sink.
+    void run(FieldSink& sink, const Region& region) {
+        rows_to_frequencies();
+        columns();
+        frequencies_to_rows(sink, region);
+    }
+
+  private:
+    void done() {
+        const std::lock_guard lock(reporting_);
+        progress_.report(static_cast<double>(++done_) / static_cast<double>(blocks_));
+    }
+
+    void rows_to_frequencies() {
+        const std::size_t width = plan_.x.field.count, height = plan_.y.field.count;
+        const LineTransform inward(plan_.x.field, plan_.x.frequencies, -1, plan_.x.field.step, plan_.x.inward);
+        core::parallel_for(blocks_of(height, together_), [&](std::size_t block) {
+            const std::size_t y0 = block * together_, rows = std::min(together_, height - y0);
+            Array<Complex, 2> samples({rows, width});
+            source_.read({0, y0, width, rows}, options_.look, samples);
+            Lines line(1, inward.buffer());
+            for (std::size_t y = 0; y < rows; ++y) {
+                std::copy_n(&samples(y, 0), width, line[0].data());
+                inward(line[0]);
+                std::copy_n(line[0].data(), inward.outputs(), &kept_.view()(y0 + y, 0));
+            }
+            done();
+        });
+    }
+
+    void columns() {
+        const AxisPlan& y = plan_.y;
+        const LineTransform inward(y.field, y.frequencies, -1, y.field.step, y.inward);
+        const LineTransform outward(y.frequencies, y.output, 1, 1 / (plan_.x.period * y.period), y.outward);
+        const std::size_t columns = plan_.x.frequencies.count, blocks = blocks_of(columns);
+        std::vector<Transfer::Energy> energies(blocks);
+        core::parallel_for(blocks, [&](std::size_t block) {
+            const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns - x0);
+            Lines lines(count, std::max(inward.buffer(), outward.buffer()));
+            for (std::size_t row = 0; row < y.field.count; ++row)
+                for (std::size_t i = 0; i < count; ++i) lines[i][row] = kept_.view()(row, x0 + i);
+            for (std::size_t i = 0; i < count; ++i) {
+                inward(lines[i]);
+                const std::span<Complex> frequencies = lines[i].first(y.frequencies.count);
+                if (plan_.min_cosine > 0) {
+                    const Transfer::Energy energy = transfer_.energy(x0 + i, frequencies);
+                    energies[block].all += energy.all;
+                    energies[block].grazing += energy.grazing;
+                }
+                transfer_.multiply(x0 + i, frequencies);
+                outward(lines[i]);
+            }
+            for (std::size_t row = 0; row < y.output.count; ++row)
+                for (std::size_t i = 0; i < count; ++i) kept_.view()(row, x0 + i) = lines[i][row];
+            done();
+        });
+        require_little_grazing_light(energies);
+    }
+
+    void require_little_grazing_light(const std::vector<Transfer::Energy>& energies) const {
+        double all = 0, grazing = 0;
+        for (const Transfer::Energy& energy : energies) {
+            all += energy.all;
+            grazing += energy.grazing;
+        }
+        if (!(grazing > options_.max_error * options_.max_error * all)) return;  // also for a dark field
+        throw Error(ErrorCode::usage,
+                    fmt::format("{:.2g} of the field's amplitude travels within {:.2g} degrees of its plane, too far "
+                                "sideways to compute; expected at most {:.2g}, or a greater distance",
+                                std::sqrt(grazing / all), std::asin(plan_.min_cosine) * 180 / std::numbers::pi,
+                                options_.max_error));
+    }
+
+    void frequencies_to_rows(FieldSink& sink, const Region& region) {
+        const LineTransform outward(plan_.x.frequencies, plan_.x.output, 1, 1, plan_.x.outward);
+        core::parallel_for(blocks_of(region.height), [&](std::size_t block) {
+            const std::size_t y0 = block * lines_together, rows = std::min(lines_together, region.height - y0);
+            Lines line(1, outward.buffer());
+            Array<Complex, 2> samples({rows, region.width});
+            for (std::size_t y = 0; y < rows; ++y) {
+                std::copy_n(&kept_.view()(y0 + y, 0), outward.inputs(), line[0].data());
+                outward(line[0]);
+                std::copy_n(line[0].data(), region.width, &samples(y, 0));
+            }
+            sink.write({region.x0, region.y0 + y0, region.width, rows}, samples);
+            done();
+        });
+    }
+
+    const FieldSource& source_;
+    const TilePlan& plan_;
+    const PropagateOptions& options_;
+    const Progress& progress_;
+    Transfer transfer_;
+    std::size_t together_;   // rows that are read together
+    core::PagedArray kept_;  // [row][frequency], first rows of the field, then of the output
+    std::size_t blocks_ = 0, done_ = 0;
+    std::mutex reporting_;
+};
+
+// A division of the output into equal tiles; the last ones of a row and a column may be smaller.
+struct Tiling {
+    Grid output;
+    std::size_t across = 1, down = 1;
+
+    Region tile(std::size_t column, std::size_t row) const {
+        const auto range = [](std::size_t i, std::size_t n, std::size_t samples) {
+            return std::pair(i * samples / n, (i + 1) * samples / n);
+        };
+        const auto [x0, x1] = range(column, across, output.width);
+        const auto [y0, y1] = range(row, down, output.height);
+        return {x0, y0, x1 - x0, y1 - y0};
+    }
+    // The plans of the tiles at the four corners, which are the most oblique.
+    std::vector<TilePlan> corners(const FieldGrid& field, double distance) const {
+        std::vector<TilePlan> plans;
+        for (const std::size_t row : {std::size_t{0}, down - 1})
+            for (const std::size_t column : {std::size_t{0}, across - 1})
+                plans.push_back(plan_tile(field, distance, part(output, tile(column, row))));
+        return plans;
+    }
+};
+
+// Tiles need fewer frequencies each, because less light leads to them, but each begins with the whole field.
+Tiling tiling_of(const FieldGrid& field, double distance, const Grid& output) {
+    const auto operations = [&](const Tiling& tiling) {
+        double worst = 0;
+        for (const TilePlan& plan : tiling.corners(field, distance)) worst = std::max(worst, plan.operations());
+        return worst * static_cast<double>(tiling.across) * static_cast<double>(tiling.down);
+    };
+    Tiling best{output};
+    double least = operations(best);
+    for (Tiling next = best; next.across < output.width || next.down < output.height;) {
+        next.across = std::min(2 * next.across, output.width);
+        next.down = std::min(2 * next.down, output.height);
+        const double all = operations(next);
+        // Beyond the best size operations rise without end.
+        if (all > 2 * least) break;
+        if (all < 0.7 * least) {
+            least = all;
+            best = next;
+        }
+    }
+    return best;
+}
+
+Grid output_of(const FieldGrid& field, double distance, const PropagateOptions& options) {
+    validate(field, ErrorCode::usage, "propagated field");
+    if (!std::isfinite(distance))
+        throw Error(ErrorCode::usage,
+                    fmt::format("a field cannot be propagated by {} m; the distance must be finite", distance));
+    const Grid output = options.output.value_or(field.plane);
+    validate(FieldGrid{output, field.wavelength}, ErrorCode::usage, "output of the propagation");
+    if (!std::isfinite(output.center_x) || !std::isfinite(output.center_y))
+        throw Error(ErrorCode::usage, "the centre of the propagation's output must be finite");
+    return output;
+}
+
+bool is_identity(const FieldGrid& field, double distance, const Grid& output) {
+    return distance == 0 && output == field.plane;
+}
+
+void require_accuracy(double error, double max_error) {
+    if (error <= max_error) return;
+    throw Error(ErrorCode::usage, fmt::format("a relative error of {:.2g} is predicted, and at most {:.2g} is accepted",
+                                              error, max_error));
+}
+
+}  // namespace
+}  // namespace optics::propagation
+
+using namespace optics;
+using namespace optics::propagation;
+
+PropagationMethod propagation_method(const FieldGrid& field, double distance, const PropagateOptions& options) {
+    const Grid output = output_of(field, distance, options);
+    const double half = 0.5 * std::max(field.plane.size_x(), field.plane.size_y());
+    PropagationMethod method;
+    method.fresnel_number =
+        distance == 0 ? std::numeric_limits<double>::infinity() : half * half / (field.wavelength * std::abs(distance));
+    method.name = "identity";
+    if (is_identity(field, distance, output)) return method;
+    const Tiling tiling = tiling_of(field, distance, output);
+    method.name = "fft";
+    method.tiles_x = tiling.across;
+    method.tiles_y = tiling.down;
+    for (const TilePlan& plan : tiling.corners(field, distance)) {
+        method.frequencies_x = std::max(method.frequencies_x, plan.x.frequencies.count);
+        method.frequencies_y = std::max(method.frequencies_y, plan.y.frequencies.count);
+        method.bytes = std::max(method.bytes, plan.bytes());
+        method.operations = std::max(method.operations, plan.operations());
+        method.error = std::max(method.error, Transfer(plan).error());
+        for (const AxisPlan* axis : {&plan.x, &plan.y})
+            if (axis->inward == 0 || axis->outward == 0) method.name = "chirp-z";
+    }
+    method.operations *= static_cast<double>(tiling.across * tiling.down);
+    require_accuracy(method.error, options.max_error);
+    return method;
+}
+
+void propagate(const FieldSource& source, double distance, FieldSink& sink, const PropagateOptions& options,
+               const Progress& progress) {
+    const core::StopScope scope(progress);
+    const FieldGrid& field = source.grid();
+    const Grid output = output_of(field, distance, options);
+    if (is_identity(field, distance, output)) return copy(source, sink, options.look, progress);
+    const Tiling tiling = tiling_of(field, distance, output);
+    const std::size_t tiles = tiling.across * tiling.down;
+    for (std::size_t i = 0; i < tiles; ++i) {
+        const Region region = tiling.tile(i % tiling.across, i / tiling.across);
+        const TilePlan plan = plan_tile(field, distance, part(output, region));
+        require_accuracy(Transfer(plan).error(), options.max_error);
+        TileWork(source, plan, options, progress.part(i, tiles)).run(sink, region);
+    }
+    sink.finish();
+    progress.report(1);
+}
+
+Field propagate(const FieldSource& source, double distance, const PropagateOptions& options, const Progress& progress) {
+    Field result({output_of(source.grid(), distance, options), source.grid().wavelength});
+    result.set_provenance(source.provenance());
+    propagate(source, distance, result, options, progress);
+    return result;
+}
+
+}  // namespace hogel

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// How finely and how far the frequencies of a propagated field must be sampled.
+//
+// Frequencies at steps of 1/W repeat the output with period W. Light reaches the output from the field at sideways
+// paths within middle ± R, R being half of both sizes together. The kernel of the propagation is e^{iπu²/λz} for a path
+// u, so that a direction has the path to within a few Fresnel lengths L = √(λz). So the frequencies are multiplied by
+// ½ erfc((|path − middle| − R − G/2)/s) and the period is W = 2R + G: the path of a wanted direction, and that of the
+// next period's, lies G/2 or more from the middle of the fade. The least error is that of s = L/√π, about
+// e^{−(π/8)(G/L)²}: a convolution of the erfc with the kernel is again an erfc, of complex width. Thus the number of
+// frequencies, W times the kept band, is about (2R + 5.5 L)(2R + 9 L)/λz: that of the samples for near planes, a
+// hundred for far ones.
+//
+// Oblique directions have a larger L: the second derivative of z f_z, λz/cos³θ at the most.
+#include "hogel/optics/propagation/tile_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hogel/error.h"
+#include "hogel/math/fft.h"
+#include "hogel/optics/propagation/band_edge.h"
+#include "hogel/optics/spectrum.h"
+#include "hogel/units.h"
+
+namespace hogel::optics::propagation {
+namespace {
+
+// In Fresnel lengths: an error of 7e-6 from the fade, and its end, beyond which 1e-5 of the amplitude is dropped.
+constexpr double guard_lengths = 5.5, fade_lengths = 1.69;
+// The part of the period that paths to a lit edge of the band may take.
+constexpr double max_edge_path = 0.85;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Sets the Fresnel lengths: those of the most oblique direction that is kept. Where grazing directions would need more
+// than four times the sizes of field and output, a smallest cosine.
+void set_guards(TilePlan& plan) {
+    AxisPlan &x = plan.x, &y = plan.y;
+    const double z = std::abs(plan.distance), lambda = plan.wavelength;
+    const double steepest = std::hypot(x.edge_frequency(), y.edge_frequency()) * lambda;
+    const double band_cosine = std::sqrt(std::max(0.0, 1 - steepest * steepest));
+    const double along_axis = std::sqrt(lambda * z);
+    const double max_length = std::max(2 * along_axis, 4 * std::max(x.reach, y.reach) / guard_lengths);
+    double length = along_axis;
+    plan.min_cosine = 0;
+    for (int i = 0; i < 40 && z > 0; ++i) {
+        const double beyond = (0.5 * guard_lengths + fade_lengths) * length;
+        const double dx = std::abs(x.middle) + x.reach + beyond, dy = std::abs(y.middle) + y.reach + beyond;
+        const double cosine = std::max(band_cosine, z / std::hypot(z, dx, dy));
+        const double next = along_axis / std::pow(cosine, 1.5);
+        const bool settled = next <= length * 1.001;
+        length = std::max(length, next);
+        if (length > max_length) {
+            length = max_length;
+            plan.min_cosine = std::pow(along_axis / length, 2.0 / 3);
+            break;
+        }
+        if (settled) break;
+    }
+    for (AxisPlan* axis : {&x, &y}) {
+        axis->fresnel = length;
+        axis->guard = guard_lengths * length;
+    }
+}
+
+// Sideways paths of the band's edge on this axis, at all frequencies of the other axis: the nearest and the farthest.
+std::pair<double, double> edge_paths(const TilePlan& plan, const AxisPlan& axis, double other_frequency) {
+    const double z = std::abs(plan.distance), f = axis.edge_frequency();
+    const double squares = 1 / (plan.wavelength * plan.wavelength) - f * f;
+    if (z == 0) return {0, 0};
+    if (squares <= 0) return plan.evanescent ? std::pair(0.0, 0.0) : std::pair(infinite, infinite);
+    const double rest = squares - other_frequency * other_frequency;
+    return {rest <= 0 && plan.evanescent ? 0 : z * f / std::sqrt(squares),
+            rest <= 0 ? infinite : z * f / std::sqrt(rest)};
+}
+
+// The path that remains at an edge whose directions travel by between low and high.
+AxisPlan::Edge edge_between(const AxisPlan& axis, double low, double high) {
+    const double kept = axis.reach + axis.end_of_fade();
+    low = std::max(low, axis.middle - kept);
+    high = std::min(high, axis.middle + kept);
+    if (low > high) return {};
+    return {true, axis.middle - axis.reach - high, axis.middle + axis.reach - low};
+}
+
+// Chooses the period, and the edges' paths in it.
+void set_period(const TilePlan& plan, AxisPlan& axis, double other_frequency) {
+    const auto [near, far] = edge_paths(plan, axis, other_frequency);
+    const bool backwards = plan.distance < 0;
+    axis.upper = backwards ? edge_between(axis, -far, -near) : edge_between(axis, near, far);
+    axis.lower = backwards ? edge_between(axis, near, far) : edge_between(axis, -far, -near);
+    double wanted = std::max(2 * axis.reach + axis.guard, 64 * axis.field.step);
+    for (const AxisPlan::Edge& edge : {axis.lower, axis.upper})
+        if (edge.lit)
+            wanted = std::max({wanted, std::abs(edge.low) / max_edge_path, std::abs(edge.high) / max_edge_path,
+                               (edge.high - edge.low) / max_edge_path});
+    const double samples = wanted / axis.field.step;
+    if (!(samples < 1e12))
+        throw Error(ErrorCode::usage,
+                    fmt::format("an output {} from the field's middle and {} wide is too large to compute",
+                                format_length(axis.middle),
+                                format_length(static_cast<double>(axis.output.count) * axis.output.step)));
+    // An even number, so that a frequency lies at each edge of the band.
+    const std::size_t half = math::good_fft_size(static_cast<std::size_t>(std::ceil(0.5 * samples)));
+    axis.period = 2 * static_cast<double>(half) * axis.field.step;
+    for (AxisPlan::Edge* edge : {&axis.lower, &axis.upper}) {
+        edge->low /= axis.period;
+        edge->high /= axis.period;
+    }
+    axis.inward = axis.outward = 2 * half;
+}
+
+// Chooses the frequencies of the band that are kept, and the transforms to and from them.
+void set_frequencies(AxisPlan& axis, double low, double high) {
+    const double half = 0.5 * axis.period / axis.field.step;
+    constexpr auto beyond = static_cast<double>(BandEdge::max_beyond);
+    const double lowest = axis.lower.lit ? -half - beyond : -half, highest = axis.upper.lit ? half + beyond : half;
+    // One frequency more at each end, so that there is one in any band.
+    const double first = std::clamp(std::floor(low * axis.period) - 1, lowest, half);
+    const double last = std::clamp(std::ceil(high * axis.period) + 1, -half, highest);
+    const double begin = axis.lower.lit && first <= -half + beyond ? lowest : first;
+    const double end = axis.upper.lit && last >= half - beyond ? highest : last;
+    axis.frequencies = {begin / axis.period, 1 / axis.period, static_cast<std::size_t>(end - begin) + 1};
+    const std::size_t n = axis.frequencies.count;
+    const auto cheaper = [](std::size_t inputs, std::size_t outputs, std::size_t transform) {
+        return LineTransform::operations(inputs, outputs, transform) <= LineTransform::operations(inputs, outputs, 0);
+    };
+    if (!cheaper(axis.field.count, n, axis.inward)) axis.inward = 0;
+    if (axis.output.step != axis.field.step || !cheaper(n, axis.output.count, axis.outward)) axis.outward = 0;
+}
+
+// Refuses an output that no direction of the samples leads to.
+void require_light(const TilePlan& plan, const AxisPlan& axis, double other_frequency, const char* across) {
+    if (plan.distance == 0 && std::abs(axis.middle) <= axis.reach) return;
+    const double widest = edge_paths(plan, axis, other_frequency).second;
+    if (plan.evanescent || std::abs(axis.middle) <= widest + axis.reach) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("no light reaches the output: samples {} apart diffract by at most {} {} over {}, and the "
+                            "output begins {} from the field",
+                            format_length(axis.field.step), format_length(widest), across,
+                            format_length(std::abs(plan.distance)), format_length(std::abs(axis.middle) - axis.reach)));
+}
+
+AxisPlan axis_of(std::size_t field, double field_pitch, std::size_t output, double output_pitch, double middle) {
+    const auto centred = [](double at, std::size_t n, double pitch) {
+        return Steps{at + (0.5 - 0.5 * static_cast<double>(n)) * pitch, pitch, n};
+    };
+    AxisPlan axis;
+    axis.field = centred(0, field, field_pitch);
+    axis.output = centred(middle, output, output_pitch);
+    axis.middle = middle;
+    // The output's samples are points, those of the field as wide as their pitch.
+    axis.reach = 0.5 * (static_cast<double>(field) * field_pitch + static_cast<double>(output - 1) * output_pitch);
+    return axis;
+}
+
+}  // namespace
+
+double AxisPlan::end_of_fade() const { return 0.5 * guard + fade_lengths * fresnel; }
+
+double AxisPlan::outermost() const { return reach + end_of_fade(); }
+
+TilePlan plan_tile(const FieldGrid& field, double distance, const Grid& output) {
+    const Grid& plane = field.plane;
+    TilePlan plan;
+    plan.distance = distance;
+    plan.wavelength = field.wavelength;
+    plan.x = axis_of(plane.width, plane.pitch_x, output.width, output.pitch_x, output.center_x - plane.center_x);
+    plan.y = axis_of(plane.height, plane.pitch_y, output.height, output.pitch_y, plane.center_y - output.center_y);
+    const double fx = plan.x.edge_frequency(), fy = plan.y.edge_frequency();
+    // Evanescent waves of noise carry 1e-4 of its amplitude at a distance of 500 pitches.
+    constexpr double pitches = 500;
+    plan.evanescent = std::hypot(fx, fy) * field.wavelength > 1 && distance >= 0 &&
+                      distance < pitches * std::min(plane.pitch_x, plane.pitch_y);
+    require_light(plan, plan.x, fy, "sideways");
+    require_light(plan, plan.y, fx, "up and down");
+    set_guards(plan);
+    set_period(plan, plan.x, fy);
+    set_period(plan, plan.y, fx);
+    Band band{-fx, fx, -fy, fy};
+    if (distance != 0 && !plan.evanescent) {
+        // From the origin to the paths that are kept.
+        Rectangle from{Grid()}, to{Grid()};
+        to.left = plan.x.middle - plan.x.outermost();
+        to.right = plan.x.middle + plan.x.outermost();
+        to.bottom = plan.y.middle - plan.y.outermost();
+        to.top = plan.y.middle + plan.y.outermost();
+        band = band_between(from, to, std::abs(distance), field.wavelength);
+        if (distance < 0) band = {-band.high_x, -band.low_x, -band.high_y, -band.low_y};
+    }
+    set_frequencies(plan.x, band.low_x, band.high_x);
+    set_frequencies(plan.y, band.low_y, band.high_y);
+    return plan;
+}
+
+double TilePlan::bytes() const {
+    return static_cast<double>(std::max(y.field.count, y.output.count)) * static_cast<double>(x.frequencies.count) *
+           sizeof(std::complex<float>);
+}
+
+double TilePlan::operations() const {
+    const std::size_t nx = x.frequencies.count, ny = y.frequencies.count;
+    const auto count = [](std::size_t n) { return static_cast<double>(n); };
+    constexpr double phase = 30;  // of a frequency, in the same unit
+    return count(y.field.count) * LineTransform::operations(x.field.count, nx, x.inward) +
+           count(nx) * (LineTransform::operations(y.field.count, ny, y.inward) + phase * count(ny) +
+                        LineTransform::operations(ny, y.output.count, y.outward)) +
+           count(y.output.count) * LineTransform::operations(nx, x.output.count, x.outward);
+}
+
+}  // namespace hogel::optics::propagation
