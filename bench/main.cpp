@@ -260,6 +260,11 @@ void add_studies(CLI::App& app, Program& program) {
     add_count(command, "--looks", hologram->looks, "Photographs of independent phases that are averaged");
     add_names(command, "--methods", hologram->methods, "Methods as the table names them; all if none are named");
 
+    const auto detail = std::make_shared<DetailStudy>();
+    command = add_command<DetailStudy>(app, program, "detail", "Hologram methods: detail away from the plane", 0,
+                                       detail, study_detail);
+    add_count(command, "--looks", detail->looks, "Photographs of independent phases that are averaged");
+
     const auto pattern = std::make_shared<PatternStudy>();
     command = add_command<PatternStudy>(app, program, "pattern",
                                         "Encodings for modulators: quality of photographs, light and time", 0, pattern,

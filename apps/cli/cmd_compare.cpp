@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "commands.h"
@@ -11,7 +12,7 @@ namespace {
 
 struct Options {
     std::string a, b;
-    std::optional<double> min_psnr, min_sqnr;
+    std::optional<double> min_psnr, min_sqnr, exposure;
 };
 
 SampleComparison compare_samples(const Options& options, FileKind kind, const Session& session) {
@@ -38,11 +39,16 @@ int compare_files(const Options& options, const Session& session) {
     std::optional<double> psnr, sqnr;
     if (kind == FileKind::picture) {
         if (options.min_sqnr) misses(session, "sqnr", options.min_sqnr, sqnr);
-        const ImageComparison result = compare(read_image(options.a), read_image(options.b));
+        const Image truth = read_image(options.a);
+        // Radiances brighter than display white are compared as displays would show them, not clamped.
+        const double exposure = options.exposure.value_or(std::min(1.0, automatic_exposure(truth)));
+        const ImageComparison result = compare(truth, read_image(options.b), exposure);
         psnr = result.psnr;
-        session.result({{"psnr", result.psnr}, {"ssim", result.ssim}, {"max_error", result.max_error}},
-                       fmt::format("psnr       {:.4f} dB\nssim       {:.6f}\nmax_error  {:.6g}\n", result.psnr,
-                                   result.ssim, result.max_error));
+        if (exposure != 1) session.say(fmt::format("hogel: compared with an exposure of {:.6g}", exposure));
+        session.result(
+            {{"psnr", result.psnr}, {"ssim", result.ssim}, {"max_error", result.max_error}, {"exposure", exposure}},
+            fmt::format("psnr       {:.4f} dB\nssim       {:.6f}\nmax_error  {:.6g}\n", result.psnr, result.ssim,
+                        result.max_error));
     } else if (kind == FileKind::light_field || kind == FileKind::hologram) {
         const SampleComparison result = compare_samples(options, kind, session);
         psnr = result.psnr;
@@ -70,6 +76,9 @@ void add_compare(Command& command, Session& session) {
     command.positional("b", options->b, "B", "What is compared with it, of the same kind and size");
     command.number("--min-psnr", options->min_psnr, "DB", "Exit with status 1 below this ratio of peak to error");
     command.number("--min-sqnr", options->min_sqnr, "DB", "Exit with status 1 below this ratio of signal to error");
+    command.number(
+        "--exposure", options->exposure, "NUMBER",
+        "What linear values of pictures are multiplied by\n(default: 1, or less where A is brighter than white)");
     add_json_flag(command, session);
     command.work([options, &session] { return compare_files(*options, session); });
 }

@@ -24,6 +24,7 @@ struct Options {
     double tone_decades = defaults.tone_decades;
     Counts tile;
     bool no_depth = false;
+    double depth_error = 0;
 };
 
 const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
@@ -66,7 +67,8 @@ int compress_file(Options options, const Session& session) {
     if (options.hemicube == "unfolded") compression.layout = StreamLayout::unfolded;
     if (options.tone == "histogram") compression.tone_decades = options.tone_decades;
     compression.with_depth = light_field.has_depth() && !options.no_depth;
-    if (compression.depth_error > 0 && !compression.with_depth)
+    if (options.depth_error > 0) compression.depth_error = options.depth_error;
+    if (compression.depth_error && !compression.with_depth)
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
     Stage stage(session, "compressing");
     const CompressionResult result =
@@ -105,7 +107,7 @@ void add_target_options(Command& command, Options& options) {
             .excludes(sqnr)
             .excludes(ppb)
             .excludes(step);
-    command.flag("--lossless", options.lossless, "Every bit of every sample as it was")
+    command.flag("--lossless", options.lossless, "Every bit of every sample and every depth as it was")
         .excludes(sqnr)
         .excludes(ppb)
         .excludes(step)
@@ -124,8 +126,10 @@ void add_method_options(Command& command, Options& options) {
                    "How a hemicube is coded: its faces one by one, or unfolded into one array with smooth corners");
     const Option no_depth = command.flag("--no-depth", options.no_depth, "Leave the depth of the rays out");
     command
-        .positive_length("--depth-error", options.compression.depth_error,
-                         "The depth of every ray within this of what it was (default: a 1,000th of the range)")
+        .positive_length("--depth-error", options.depth_error,
+                         "The depth of every ray within this of what it was (default: the pitch of the hogels over\n"
+                         "32,000 times the tangent of the steepest ray, and no more than a 1,000th of the range of\n"
+                         "depths; exact with --lossless)")
         .no_default()
         .excludes(no_depth);
 }

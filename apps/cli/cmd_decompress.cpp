@@ -41,6 +41,7 @@ int decompress_file(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field || !is_stream(options.input))
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
     require_writable(options.output, {&options.input, 1});
+    require_hdf5(options.output);
     const LightField light_field =
         with_options({{"", "--layers"}}, [&] { return open_stream(options.input, {.layers = options.layers}); });
     LightFieldFileOptions file;

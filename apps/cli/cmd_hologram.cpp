@@ -43,6 +43,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     if (options.render.fronts_only)
         throw Error(ErrorCode::usage, fmt::format("--cull-back-faces: method {} cannot", method.name));
     require_writable(options.output, {&options.input, 1});
+    require_hdf5(options.output);
     const double width = options.render.size;
     const double height =
         width * static_cast<double>(options.render.hogels.rows) / static_cast<double>(options.render.hogels.columns);
@@ -67,7 +68,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     Stage stage(session, "hologram");
     for (std::size_t i = 0; i < grids.size(); ++i) {
         how.channel = colour_of(grids[i].wavelength);
-        copy(with_options({{"", "--method"}},
+        copy(with_options({{"a spacing of", "--spacing"}, {"", "--method"}},
                           [&] { return method.make(*scene, grids[i], how, stage.progress(i, grids.size())); }),
              *sinks[i]);
     }
@@ -86,6 +87,7 @@ int hologram(Options options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output, {&options.input, 1});
+    require_hdf5(options.output);
     HologramFileOptions file = options.file(session);
     HologramRequest request = options.hologram.request(session, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {

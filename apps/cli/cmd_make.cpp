@@ -127,6 +127,9 @@ Result result_of(const Report& report, const std::string& folder, const Session&
 int make(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
+    require_hdf5(std::filesystem::path(options.output) / "lightfield.h5");
+    require_picture_name("photo.png");
+    require_picture_name("photo.exr");
     Report report;
     report.scene = options.scene;
     report.algorithm = options.render.algorithm;
@@ -168,7 +171,7 @@ int make(const Options& options, const Session& session) {
             write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = report.run}, stage.progress());
         });
     timed(session, report, "photographs by waves", [&](Stage& stage) {
-        std::vector<Image> pictures = photograph_colours(holograms, cameras, {}, stage.progress());
+        std::vector<Image> pictures = photograph_colours(holograms, cameras, PhotographOptions(), stage.progress());
         for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
     });
 

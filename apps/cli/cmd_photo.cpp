@@ -26,17 +26,20 @@ struct Options {
     std::size_t looks = defaults.looks;
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string exposure = "auto", display = "intensity";
-    std::string camera = "narrow";
+    std::string camera = "auto";
     bool geometric = false, wave = false;
 
     double film_distance = 0;
 
-    // Options of the full camera, whose scratch files are in the picture's folder.
-    std::optional<PlaneWaveCameraOptions> full() const {
-        if (camera != "full") return {};
-        return PlaneWaveCameraOptions{
-            {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
-            film_distance};
+    // The full camera's scratch files are in the picture's folder.
+    WaveCamera wave_camera() const {
+        if (camera == "full")
+            return PlaneWaveCameraOptions{
+                {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
+                film_distance};
+        return PhotographOptions{.from = camera == "eye"      ? LightFrom::hogels
+                                         : camera == "narrow" ? LightFrom::samples
+                                                              : LightFrom::cheaper};
     }
 };
 
@@ -53,12 +56,13 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
     if (options.display != "phase")
         return with_options(
             {{"tilted", "--focus-tilt"}, {"film", "--film-distance"}, {"pupil", "--pupil"}, {"", "--camera"}},
-            [&] { return photograph_colours(fields, cameras, options.full(), stage.progress()); });
+            [&] { return photograph_colours(fields, cameras, options.wave_camera(), stage.progress()); });
     if (fields.size() != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("--display phase: a phase is that of one wavelength, but there are {}", fields.size()));
     std::vector<Image> pictures;
-    for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras, *options.full(), stage.progress()))
+    for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras,
+                                           std::get<PlaneWaveCameraOptions>(options.wave_camera()), stage.progress()))
         pictures.push_back(phases(wave));
     return pictures;
 }
@@ -97,6 +101,10 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     const std::vector<Camera> cameras =
         make_cameras(options.view, light_field.grid().width(), light_field.grid().height());
     if (geometric) {
+        with_options({{"", "--pupil-samples, --resolution"}}, [&] {
+            state_plan(session, plan_ray_photographs(light_field.grids(), cameras, {options.pupil_samples}),
+                       "photographing by rays");
+        });
         Stage stage(session, "geometric photograph");
         return with_options({{"", "--focus-tilt"}}, [&] {
             return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
@@ -116,8 +124,12 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
 void require_sense(const Options& options, InputKind kind, bool geometric) {
     if (kind == InputKind::hologram && options.geometric)
         throw Error(ErrorCode::usage, "--geometric: a hologram has no rays to follow; give its light field or scene");
-    if (geometric && options.camera != "narrow")
-        throw Error(ErrorCode::usage, "--camera full: photographs waves; give --wave or a hologram");
+    if (geometric && options.camera != "auto")
+        throw Error(ErrorCode::usage,
+                    fmt::format("--camera {}: photographs waves; give --wave or a hologram", options.camera));
+    if (kind == InputKind::hologram && options.camera == "eye")
+        throw Error(ErrorCode::usage,
+                    "--camera eye: needs the hogels of a light field or a scene; of a hologram only samples are known");
     if (options.film_distance != 0 && options.camera != "full")
         throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");
     if (options.display == "phase" && (options.camera != "full" || options.film_distance != 0))
@@ -191,8 +203,11 @@ void add_photo_options(Command& command, Options& options) {
     command.choice("--display", options.display, {"intensity", "log", "phase"}, "intensity|log|phase",
                    "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
                    "through the middle of the lens, from -pi to pi");
-    command.choice("--camera", options.camera, {"narrow", "full"}, "narrow|full",
-                   "How waves are photographed:\nnarrow: the band that enters the lens, tile by tile"
+    command.choice("--camera", options.camera, {"auto", "eye", "narrow", "full"}, "auto|eye|narrow|full",
+                   "How waves are photographed:"
+                   "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
+                   "\neye: the few numbers of each hogel that enter the lens"
+                   "\nnarrow: the band that enters the lens, from all samples, tile by tile"
                    "\nfull: plane waves to the lens and back, exact and slow");
     command.length("--film-distance", options.film_distance,
                    "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "concerns.h"
 #include "display.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
@@ -22,7 +23,23 @@ struct Options {
     std::vector<double> wavelengths;
     FieldOptions field;
     std::string display = "intensity";
+    double output_pitch = 0;  // of the output; 0: that of the input
+    Counts output_samples;    // none: as many as the input has
+    double offset_x = 0, offset_y = 0;
 };
+
+// The samples of the output, by default those of the field.
+Grid output_grid(const Options& options, const Grid& field) {
+    Grid output = field;
+    if (options.output_pitch > 0) output.pitch_x = output.pitch_y = options.output_pitch;
+    if (options.output_samples.columns > 0) {
+        output.width = options.output_samples.columns;
+        output.height = options.output_samples.rows;
+    }
+    output.center_x += options.offset_x;
+    output.center_y += options.offset_y;
+    return output;
+}
 
 enum class OutputKind { hologram, array, picture };
 
@@ -51,9 +68,10 @@ Image shown(const Field& field, const std::string& display) {
 }
 
 // @param picture  the facts of the picture, if the output is one
-void report(const Options& options, OutputKind kind, std::span<const FieldGrid> grids, const Result& picture,
-            const Session& session) {
-    Result result{{"wavelengths_m", wavelengths_of(grids)}, {"distance_m", options.distance}};
+void report(const Options& options, OutputKind kind, std::span<const FieldGrid> grids, const ResultList& methods,
+            const Result& picture, const Session& session) {
+    Result result{
+        {"wavelengths_m", wavelengths_of(grids)}, {"distance_m", options.distance}, {"propagations", methods}};
     if (kind == OutputKind::hologram) return report_samples(session, options.output, result);
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::array)
@@ -61,6 +79,28 @@ void report(const Options& options, OutputKind kind, std::span<const FieldGrid> 
     result.insert(result.end(), {{"pitch_x_m", plane.pitch_x}, {"pitch_y_m", plane.pitch_y}});
     result.insert(result.end(), picture.begin(), picture.end());
     report_file(session, options.output, result);
+}
+
+// How each wavelength is propagated, for --json; in words with -v.
+ResultList methods_of(const Fields& fields, const Options& options, const std::vector<PropagateOptions>& propagations,
+                      const Session& session) {
+    ResultList methods;
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+        const FieldGrid& grid = fields[c]->grid();
+        const PropagationMethod method = propagation_method(grid, options.distance, propagations[c]);
+        session.detail(
+            fmt::format("{}: by {}, Fresnel number {:.3g}, {}x{} frequencies, {}x{} tiles, predicted error {:.1e}",
+                        format_length(grid.wavelength), method.name, method.fresnel_number, method.frequencies_x,
+                        method.frequencies_y, method.tiles_x, method.tiles_y, method.error));
+        methods.emplace_back(Result{{"wavelength_m", grid.wavelength},
+                                    {"method", std::string(method.name)},
+                                    {"fresnel_number", method.fresnel_number},
+                                    {"predicted_error", method.error},
+                                    {"frequencies_x", method.frequencies_x},
+                                    {"frequencies_y", method.frequencies_y},
+                                    {"tiles", method.tiles_x * method.tiles_y}});
+    }
+    return methods;
 }
 
 int propagate_fields(const Options& options, const Session& session) {
@@ -77,12 +117,20 @@ int propagate_fields(const Options& options, const Session& session) {
     const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
     Metadata metadata = with_history(describe_run(session), to_metadata(fields.front()->provenance()));
     Result exposed;
-    std::vector<FieldGrid> grids;
-    for (const auto& field : fields) grids.push_back(field->grid());
-    state_plan(session, plan_propagation(grids, {.scratch = scratch}), "propagation", options.output);
+    std::vector<FieldGrid> inputs, grids;
+    std::vector<PropagateOptions> propagations;
+    for (const auto& field : fields) {
+        inputs.push_back(field->grid());
+        propagations.push_back({.scratch = scratch, .output = output_grid(options, field->grid().plane)});
+        grids.push_back({*propagations.back().output, field->grid().wavelength});
+    }
+    const ResultList methods = with_options({{"output", "--output-pitch, --output-samples, --offset-x, --offset-y"}},
+                                            [&] { return methods_of(fields, options, propagations, session); });
+    state_plan(session, plan_propagation(inputs, options.distance, propagations.front()), "propagation",
+               options.output);
     Stage stage(session, "propagation");
     const auto colour = [&](std::size_t c, FieldSink& sink) {
-        hogel::propagate(*fields[c], options.distance, sink, {0, scratch}, stage.progress(c, grids.size()));
+        hogel::propagate(*fields[c], options.distance, sink, propagations[c], stage.progress(c, grids.size()));
     };
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::hologram) {
@@ -110,7 +158,7 @@ int propagate_fields(const Options& options, const Session& session) {
     }
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
                             format_length(plane.pitch_x), format_length(options.distance)));
-    report(options, kind, grids, exposed, session);
+    report(options, kind, grids, methods, exposed, session);
     return 0;
 }
 
@@ -121,6 +169,7 @@ void add_propagate(Command& command, Session& session) {
     command.examples(
         "  hogel propagate hologram.h5 -o face.png --distance -4mm\n"
         "  hogel propagate hologram.h5 -o nearer.h5 --distance 20mm\n"
+        "  hogel propagate hologram.h5 -o eye.png --distance 300mm --output-pitch 20um --output-samples 512\n"
         "  hogel propagate slm.npy -o there.npy --distance 0.2m --pitch 8um --wavelength 532nm");
     command.positional("input", options->input, "F.h5|F.npy|F.mat|P.png", "Hologram, or another program's field");
     command.text("-o,--output", options->output, "FILE", "Hologram (.h5), array (.npy) or picture (.png, .exr)")
@@ -130,6 +179,12 @@ void add_propagate(Command& command, Session& session) {
     command.choice("--display", options->display, {"intensity", "amplitude", "log", "phase"},
                    "intensity|amplitude|log|phase",
                    "What a picture shows; log: four decades, phase: black at -pi to white at pi");
+    command.positive_length("--output-pitch", options->output_pitch, "Of the output's samples")
+        .default_text("that of the input");
+    command.counts("--output-samples", options->output_samples, "Of the output, across and down")
+        .default_text("as many as the input has");
+    command.length("--offset-x", options->offset_x, "Of the output's middle from that of the input, to the right");
+    command.length("--offset-y", options->offset_y, "Of the output's middle from that of the input, upwards");
     command.positive_length("--pitch", options->pitch, "Of another program's samples");
     command.wavelengths(options->wavelengths);
     add_field_options(command, options->field);

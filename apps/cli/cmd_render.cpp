@@ -103,6 +103,7 @@ int render(Options options, const Session& session) {
             ErrorCode::usage,
             fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
     require_writable(options.output, {&options.scene, 1});
+    if (!options.compressed()) require_hdf5(options.output);
     options.file.type = options.single ? SampleType::single : SampleType::half;
     static_cast<void>(options.render.request());  // throws before a scene is made
     const Scene scene = load_scene(session, options.scene, options.render);

@@ -2,12 +2,14 @@
 #include "command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "help.h"
 #include "hogel/error.h"
+#include "hogel/parts.h"
 #include "hogel/version.h"
 #include "session.h"
 
@@ -135,13 +137,27 @@ Metadata Command::values() const {
     return values;
 }
 
+namespace {
+
+// The version, and a line that names the optional parts of this build.
+std::string version_text() {
+    std::vector<std::string> with, without;
+    for (const Part& part : parts()) (part.built_in ? with : without).push_back(part.name);
+    const auto line = [](const char* what, const std::vector<std::string>& names) {
+        return names.empty() ? "" : fmt::format("\n{} {}", what, fmt::join(names, ", "));
+    };
+    return "hogel " HOGEL_VERSION + line("with", with) + line("without", without);
+}
+
+}  // namespace
+
 struct CommandLine::Impl {
     CLI::App app{"hogel: full-parallax holographic stereograms, from scene to photograph", "hogel"};
     std::vector<std::unique_ptr<Command>> commands;
 
     Impl() {
         app.formatter(std::make_shared<HelpFormatter>());
-        app.set_version_flag("-V,--version", "hogel " HOGEL_VERSION, "Print the version and exit");
+        app.set_version_flag("-V,--version", version_text, "Print the version and the parts built in, and exit");
         app.set_help_flag("-h,--help", "Print this help and exit");
         app.require_subcommand(1);
         app.footer(

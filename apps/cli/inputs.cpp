@@ -177,7 +177,9 @@ void check_holograms(std::span<const LightFieldGrid> faces, const HologramReques
         !std::holds_alternative<Lines>(request.method))
         throw Error(ErrorCode::usage,
                     fmt::format("--method: a hemicube of {} faces takes fourier or lines", faces.size()));
-    with_options({{"pupil", "--pupil, --pitch"},
+    with_options({{"a wavelength of", "--wavelength"},
+                  {"resolves no more", "--pupil"},
+                  {"pupil", "--pupil, --pitch"},
                   {"the eye", "--eye, --pitch"},
                   {"horizontal parallax", "--method"},
                   {"added phases", "--method"},

@@ -72,8 +72,9 @@ void report_compressed(const Session& session, const std::string& file, const Co
                             format_bytes(static_cast<double>(result.bytes)), result.sqnr, result.pixels_per_bit,
                             result.passes, result.passes == 1 ? "time" : "times"));
     if (result.depth_bytes > 0)
-        session.say(fmt::format("of which depth: {}, to within {:.3g} m",
-                                format_bytes(static_cast<double>(result.depth_bytes)), result.depth_error));
+        session.say(fmt::format(
+            "of which depth: {}, {}", format_bytes(static_cast<double>(result.depth_bytes)),
+            result.depth_error > 0 ? fmt::format("to within {:.3g} m", result.depth_error) : std::string("exact")));
     report_samples(session, file, {{"sqnr", result.sqnr}, {"step", result.step}, {"passes", result.passes}});
 }
 

@@ -8,6 +8,7 @@
 #include "bench/studies/studies.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/capture.h"
+#include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/photograph.h"
 #include "hogel/propagate.h"

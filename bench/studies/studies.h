@@ -31,6 +31,15 @@ struct HologramStudy {
 /// speckle, alike for all methods. Seconds: processor time of one hologram.
 void study_hologram(const HologramStudy& study);
 
+struct DetailStudy {
+    std::size_t looks = 64;  ///< independent phases whose intensities are averaged
+    double period = 120e-6;  ///< of the texture, metres
+};
+/// How much detail photographs of holograms have away from the plane: PSNR of a textured plane in focus, at depths from
+/// −10 to 10 mm, against the exact picture, for `fourier` and the methods with phases of points. The hologram has 256 ×
+/// 256 samples of 3 µm at 633 nm, the camera a pupil of 4 mm, 100 mm away, and pixels of 12.5 µm.
+void study_detail(const DetailStudy& study);
+
 struct PatternStudy {
     std::size_t samples = 512;  ///< along a side of the hologram
     std::size_t iterations = 40;

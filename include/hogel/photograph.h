@@ -15,9 +15,17 @@
 
 namespace hogel {
 
+/// What photograph() computes the light towards an eye from.
+enum class LightFrom {
+    cheaper,  ///< hogels where they are known and that costs less, otherwise samples
+    hogels,   ///< the waves of a stereogram's hogels, of which few numbers matter to an eye; no sample is computed
+    samples,  ///< the samples of the field
+};
+
 /// Options of photograph() of holograms.
 struct PhotographOptions {
     std::size_t memory = std::size_t{2} << 30;  ///< bytes that a photograph may use, without the pictures
+    LightFrom from = LightFrom::cheaper;
 };
 
 /// Photographs a hologram by wave optics with the narrow-band camera (docs/notation.md, section 4): the field is
@@ -25,11 +33,12 @@ struct PhotographOptions {
 /// so that holograms of any size can be streamed, and one pass over the hologram serves all cameras. Intensities are
 /// averaged over the source's looks and over each pixel's area; the images have one channel, in the field's units of
 /// radiance, and the order of `cameras`. Memory: the decimated arrays, (4.4 D A/λR)² samples of 8 bytes for each eye
-/// and look, and 16 to 24 bytes for each of those samples of one eye's film, with D the hologram's side, A the pupil, R
-/// the eye's distance. If that exceeds the options, cameras are processed fewer at a time and the hologram in windows;
-/// then the thousandth of the light that falls more than 256 resolution cells from its point is lost at the seams of
-/// windows. Throws Error(usage) for a pupil that receives more directions than the field's pitch supports, and for a
-/// photograph that needs more memory than allowed.
+/// and look, and about as much again for one eye's film that is 192 resolution cells λR/A wider, with D the hologram's
+/// side, A the pupil, R the eye's distance. If that exceeds the options, cameras are processed fewer at a time and the
+/// hologram in windows; then the thousandth of the light that falls more than 256 resolution cells from its point is
+/// lost at the seams of windows. Throws Error(usage) for a pupil that receives more directions than the field's pitch
+/// supports, for one that does not resolve two points on opposite edges of the hologram, and for a photograph that
+/// needs more memory than allowed.
 HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
                                         const PhotographOptions& options = {}, const Progress& progress = {});
 
@@ -63,7 +72,8 @@ struct PlaneWaveCameraOptions {
 /// to the film. The only approximation is that the field is zero beside the hologram. Units and order of the images are
 /// those of photograph(). Cost: Fourier transforms of the hologram padded by the pupil, and twice that area for a
 /// tilted plane in focus. Memory: as `scratch` allows, the rest in a file. Throws Error(usage) for an eye in directions
-/// beyond those to which the hologram's pitch diffracts, and for a tilted plane in focus with a thin lens.
+/// beyond those to which the hologram's pitch diffracts, for a pupil that resolves fewer than four points side by side
+/// on the hologram, and for a tilted plane in focus with a thin lens.
 HOGEL_API std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::span<const Camera> cameras,
                                                        const PlaneWaveCameraOptions& options = {},
                                                        const Progress& progress = {});
@@ -81,6 +91,9 @@ HOGEL_API std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldS
 /// Photographs a hologram by direct summation, from every sample of the hologram to every point of the pupil and from
 /// there to every pixel, with no approximation but scalar waves. Cost: hologram samples × pupil points. For tests and
 /// small holograms.
+/// @param pupil_points_across  points along a diameter of the pupil, on rings; they must be closer together than half a
+///                             cycle of the light of any two points of the hologram
+/// @param subpixels            points across a pixel, by Gauss' quadrature
 HOGEL_API Image photograph_directly(const FieldSource& hologram, const Camera& camera, std::size_t pupil_points_across,
                                     std::size_t subpixels = 1);
 

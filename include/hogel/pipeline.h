@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "hogel/bake.h"
@@ -153,10 +153,13 @@ HOGEL_API std::string warning_about(const LightField& light_field, const Hologra
 /// One hologram per channel, computed from the light field when it is read.
 HOGEL_API Fields make_holograms(const LightField& light_field, const HologramRequest& request);
 
-/// Photographs holograms of one or three wavelengths by wave optics and combines the colours: by
-/// photograph_by_plane_waves() if `full` is given, otherwise by the narrow-band camera, photograph().
+/// How waves are photographed: with the narrow-band camera, photograph(), or with the full one,
+/// photograph_by_plane_waves().
+using WaveCamera = std::variant<PhotographOptions, PlaneWaveCameraOptions>;
+
+/// Photographs holograms of one or three wavelengths by wave optics and combines the colours.
 HOGEL_API std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
-                                                const std::optional<PlaneWaveCameraOptions>& full = {},
+                                                const WaveCamera& with = PhotographOptions(),
                                                 const Progress& progress = {});
 
 /// A camera on the axis that frames a hologram of this size (metres) with `resolution` pixels across.
@@ -226,11 +229,16 @@ HOGEL_API Plan plan_holograms(std::span<const LightFieldGrid> faces, const Holog
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
 
+/// Resources to photograph a light field by rays, without the cost of reading it.
+HOGEL_API Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
+                                    const RayPhotographOptions& options = {});
 /// Resources to compress a light field, without the cost of reading it. For an SQNR, the disk space is an upper
 /// bound: the size without any prediction.
 HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
-/// Resources to propagate fields one after the other and write them to a file.
-HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options = {});
+/// Resources to propagate fields one after the other and write them to a file. Throws Error(usage) as
+/// propagation_method() does.
+HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, double distance,
+                                const PropagateOptions& options = {});
 
 /// Resources to light a scene for good and write it as a mesh.
 HOGEL_API Plan plan_bake(const Scene& scene, const BakeOptions& options = {});

@@ -32,7 +32,9 @@ def hologram(fields):
 
 
 PHOTO = FILE | {"pictures": COUNT, "width": COUNT, "height": COUNT, "channels": COUNT, "exposure": NUMBER, "geometric": TRUTH}
-PROPAGATED = {"wavelengths_m": [REAL], "distance_m": REAL}
+PROPAGATED = {"wavelengths_m": [REAL], "distance_m": REAL,
+              "propagations": [{"wavelength_m": REAL, "method": WORD, "fresnel_number": NUMBER, "predicted_error": REAL,
+                                "frequencies_x": COUNT, "frequencies_y": COUNT, "tiles": COUNT}]}
 PLANE = FILE | PROPAGATED | {"pitch_x_m": REAL, "pitch_y_m": REAL}
 SLM = FILE | {"width": COUNT, "height": COUNT, "pixel_pitch_m": REAL, "levels": COUNT, "encoding": WORD}
 PATTERN = {"wavelength_m": REAL, "efficiency": REAL}
@@ -52,7 +54,7 @@ TABLE = [
     ("hologram sphere -o points.h5 --method points --size 0.1mm --hogels 4 --spacing 50um --wavelength 633nm", hologram(1)),
     (f"photo f.h5 -o wave.png {EYE}", PHOTO),
     (f"photo x.h5 -o ray##.png --frames 2 {EYE}", PHOTO),
-    ("compare wave.png ray00.png", {"psnr": DECIBELS, "ssim": REAL, "max_error": REAL}),
+    ("compare wave.png ray00.png", {"psnr": DECIBELS, "ssim": REAL, "max_error": REAL, "exposure": REAL}),
     ("propagate f.h5 -o there.h5 --distance 1.5mm", hologram(3) | PROPAGATED),
     ("propagate f.h5 -o there.png --distance 1.5mm", PLANE | {"width": COUNT, "height": COUNT, "exposure": REAL}),
     ("propagate points.h5 -o there.npy --distance 1.5mm", PLANE | {"samples_x": COUNT, "samples_y": COUNT}),
@@ -95,7 +97,7 @@ for line, keys in TABLE:
     complaint = wrong(result, keys, "result") if keys else ""
     if keys and "format" in keys:
         told = run(f"info {result['file']}")
-        for key in set(result) - {"file", "seconds", "sqnr", "step", "passes", "wavelengths_m", "distance_m"}:
+        for key in set(result) - {"file", "seconds", "sqnr", "step", "passes", "wavelengths_m", "distance_m", "propagations"}:
             if result[key] != told.get(key):
                 complaint += f"; {key} is {result[key]}, but info says {told.get(key)}"
     elif "file" in result and "#" not in result["file"]:

@@ -45,7 +45,8 @@ TABLE = [
     (f"photo sphere -o w.png {PHOTO} {SMALL}", "--pupil=20mm --pitch=3um --eye=30,0,40mm"),
     ("propagate f.h5 -o w.h5 --distance 1mm", "--imaginary=b.exr --variable=a --conjugate --pitch=1um --pitch=0um"),
     ("propagate f.h5 -o w.png", "--distance=1 --distance=1e300m"),
-    ("propagate f.h5 -o w.png --distance 1mm", "--display=none"),
+    ("propagate f.h5 -o w.png --distance 1mm",
+     "--display=none --output-pitch=0mm --output-pitch=1 --output-samples=0 --offset-x=1 --offset-y=1e300m --offset-x=900mm"),
     ("make sphere -o w",
      """--eye-distance=0mm --eye-distance=50mm --pupil=0mm --resolution=0 --looks=x --pupil-samples=0 --pitch=3um
      --fov=60deg"""),

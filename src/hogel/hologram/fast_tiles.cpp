@@ -53,6 +53,20 @@ void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> v
     }
 }
 
+void FastTiles::sixteen_rows(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
+                             std::size_t row, float* waves) const {
+    const float* some = moduli.data() + row * side_;
+    if (phases_.empty())
+        random_waves(series, row, some, side_, waves);
+    else
+        shared_waves({phases_[look].data() + 2 * row * side_, side_ * square_column}, some, waves);
+}
+
+void FastTiles::waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, float* waves) const {
+    for (std::size_t row = 0; row < side_; row += rows_at_once)
+        sixteen_rows(moduli, series, look, row, waves + 2 * row * side_);
+}
+
 void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
                            std::complex<float>* to, std::size_t to_row) const {
     // A buffer that is reused for each hogel: sixteen rows, then the square.
@@ -61,11 +75,7 @@ void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& ser
     if (scratch.size() < columns + 2 * side_ * side_) scratch = Array<float, 1>({columns + 2 * side_ * side_});
     float *waves = scratch.data(), *square = scratch.data() + columns;
     for (std::size_t row = 0; row < side_; row += rows_at_once) {
-        const float* some = moduli.data() + row * side_;
-        if (phases_.empty())
-            random_waves(series, row, some, side_, waves);
-        else
-            shared_waves({phases_[look].data() + 2 * row * side_, columns}, some, waves);
+        sixteen_rows(moduli, series, look, row, waves);
         fft_.backward_split(waves);
         transpose_rows(waves, side_, square + row * square_column, columns);
     }

@@ -33,7 +33,14 @@ class FastTiles {
     void synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, std::complex<float>* to,
                     std::size_t to_row) const;
 
+    /// The waves that synthesise() transforms, in the layout of HogelWaves::waves().
+    void waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, float* waves) const;
+
   private:
+    // Sixteen rows of waves, [column][part][row].
+    void sixteen_rows(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, std::size_t row,
+                      float* waves) const;
+
     std::size_t side_;
     math::ColumnFft fft_;
     std::vector<Array<float, 1>> phases_;  // [look]: [row/16][column][part][row mod 16]

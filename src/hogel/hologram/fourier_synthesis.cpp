@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-class FourierSynthesis final : public HogelSynthesis {
+class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
   public:
     /// @param lines  number per hogel, for horizontal parallax only; 0: a square with both parallaxes
     FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options, Phases phases,
@@ -53,6 +53,24 @@ class FourierSynthesis final : public HogelSynthesis {
                       {&scratch(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
     }
 
+    const HogelWaves* hogel_waves() const override { return lines_ == 0 ? this : nullptr; }
+
+    void waves(std::span<const float> moduli, const HogelPlace& place, float* waves) const override {
+        if (fast_) return fast_->waves(moduli, phase_series(options_, place.s, place.t, place.look), place.look, waves);
+        const std::size_t n = frequencies_.columns();
+        thread_local Array<Complex, 2> plain;
+        if (plain.shape() != Shape<2>{n, n}) plain = Array<Complex, 2>({n, n});
+        spread_phases(moduli, place, plain);
+        if (n % rows_together != 0) std::fill_n(waves, size(n), 0.0f);
+        for (std::size_t row = 0; row < n; ++row) {
+            float* to = waves + 2 * (row / rows_together * rows_together * n) + row % rows_together;
+            for (std::size_t column = 0; column < n; ++column, to += 2 * rows_together) {
+                to[0] = plain(row, column).real();
+                to[rows_together] = plain(row, column).imag();
+            }
+        }
+    }
+
   private:
     void prepare(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {
         if (fast_)
@@ -65,6 +83,11 @@ class FourierSynthesis final : public HogelSynthesis {
 
     void transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values, Complex* to,
                    std::size_t to_row) const {
+        spread_phases(moduli, place, values);
+        fft_.backward(values, to, to_row);
+    }
+
+    void spread_phases(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values) const {
         if (directions_.empty()) {
             spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, values.elements());
         } else {
@@ -72,7 +95,6 @@ class FourierSynthesis final : public HogelSynthesis {
             for (std::size_t i = 0; i < moduli.size(); ++i)
                 values.data()[i] = moduli[i] * directions_[place.look].data()[i] * own;
         }
-        fft_.backward(values, to, to_row);
     }
 
     // If all hogels share phases, each line has an additional phase of its own, because equal lines would send light

@@ -16,6 +16,22 @@ struct HogelPlace {
     std::size_t look = 0;
 };
 
+/// Computes the n×n waves of which a hogel is the sum.
+class HogelWaves {
+  public:
+    virtual ~HogelWaves() = default;
+    /// The waves of a hogel, in blocks of sixteen rows of frequencies: [row / 16][column][part][row mod 16] with
+    /// frequencies 0 … n−1, the parts real and imaginary, zero in rows beyond n. HogelSynthesis::synthesise() is their
+    /// backward transform; their phases are counted from the first sample.
+    /// @param prepared  by HogelSynthesis::prepare()
+    /// @param waves     aligned to a cache line
+    virtual void waves(std::span<const float> prepared, const HogelPlace& place, float* waves) const = 0;
+    static constexpr std::size_t rows_together = 16;
+    static std::size_t size(std::size_t samples) {
+        return (samples + rows_together - 1) / rows_together * rows_together * samples * 2;
+    }
+};
+
 /// Computes the n×n samples of a hogel from its rays in two steps, the first of which is shared by all looks. Each
 /// synthesis defines whether phases are counted from the hogel's centre or from its first sample.
 class HogelSynthesis {
@@ -39,6 +55,8 @@ class HogelSynthesis {
         for (std::size_t y = 0; y < scratch.extent(0); ++y)
             std::copy_n(&scratch(y, 0), scratch.extent(1), to + y * to_row);
     }
+    /// The hogels' waves, if each hogel is the Fourier transform of as many waves as it has samples; otherwise null.
+    virtual const HogelWaves* hogel_waves() const { return nullptr; }
 };
 
 /// Amplitudes on the frequency grid j/d with random, fixed or designed phases, then one FFT: [K] (4.2). The rays of a

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "hogel/core/object_pool.h"
+#include "hogel/hologram/eye/stereogram_eyes.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/windows/overlap_add.h"
 
@@ -36,7 +37,7 @@ std::unique_ptr<HogelSynthesis> make_synthesis(std::span<const LightFieldGrid> f
 }
 
 // A stereogram of hogels side by side.
-class Stereogram final : public FieldSource {
+class Stereogram final : public FieldSource, public optics::EyeLight {
   public:
     Stereogram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options, RayValues values)
         : light_field_(light_field),
@@ -58,9 +59,7 @@ class Stereogram final : public FieldSource {
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {
         if (region.samples() == 0) return;
-        HogelRange hogels{region.x0 / columns_, region.y0 / rows_, 0, 0};
-        hogels.ns = (region.x0 + region.width - 1) / columns_ + 1 - hogels.s0;
-        hogels.nt = (region.y0 + region.height - 1) / rows_ + 1 - hogels.t0;
+        const HogelRange hogels = hogels_of(region);
         auto scratch = scratch_pool_.take();
         if (scratch->square.size() == 0) scratch->square = Array<Complex, 2>({rows_, columns_});
         if (looks_ > 1) {
@@ -87,6 +86,18 @@ class Stereogram final : public FieldSource {
         });
     }
 
+    std::unique_ptr<optics::EyeDrawing> eye_drawing(const Region& part,
+                                                    std::span<const optics::Eye> eyes) const override {
+        const HogelWaves* waves = synthesis_->hogel_waves();
+        if (waves == nullptr) return nullptr;
+        const auto prepare_hogels = [this](const HogelRange& hogels, View<float, 2> prepared) {
+            auto scratch = scratch_pool_.take();
+            prepare(hogels, scratch->rays, prepared);
+        };
+        return eye::make_stereogram_eyes({grid_, columns_, waves, synthesis_->prepared_size(), prepare_hogels},
+                                         hogels_of(part), eyes);
+    }
+
   private:
     static constexpr std::size_t hogels_together = 16;
     // The maximum bytes of rays that are read at a time (but at least one row of hogels), because the rays of a region
@@ -95,6 +106,14 @@ class Stereogram final : public FieldSource {
 
     const LightFieldGrid& front() const { return light_field_.grid(); }
     std::span<const LightField::Source> faces() const { return light_field_.faces(); }
+
+    // The hogels of which a region, which is not empty, holds samples.
+    HogelRange hogels_of(const Region& region) const {
+        HogelRange hogels{region.x0 / columns_, region.y0 / rows_, 0, 0};
+        hogels.ns = (region.x0 + region.width - 1) / columns_ + 1 - hogels.s0;
+        hogels.nt = (region.y0 + region.height - 1) / rows_ + 1 - hogels.t0;
+        return hogels;
+    }
 
     // Buffers for one region.
     struct Scratch {
@@ -172,22 +191,24 @@ class Stereogram final : public FieldSource {
         }
     }
 
+    void prepare(const HogelRange& hogels, std::vector<LightFieldTile>& rays, View<float, 2> prepared) const {
+        for_each_band(hogels, [&](const HogelRange& band) {
+            read_rays(band, rays);
+            prepare(rays, 0, {&prepared((band.t0 - hogels.t0) * band.ns, 0), {band.hogels(), prepared.extent(1)}});
+        });
+    }
+
     std::shared_ptr<const Prepared> prepare(const HogelRange& hogels) const {
         {
             const std::lock_guard lock(recent_mutex_);
             for (const auto& entry : recent_)
                 if (entry->range == hogels) return entry;
         }
-        const std::size_t values = synthesis_->prepared_size();
         auto prepared = std::make_shared<Prepared>();
         prepared->range = hogels;
-        prepared->values = Array<float, 2>({hogels.hogels(), values});
-        std::vector<LightFieldTile> tiles;
-        for_each_band(hogels, [&](const HogelRange& band) {
-            read_rays(band, tiles);
-            const std::size_t first = (band.t0 - hogels.t0) * band.ns;
-            prepare(tiles, 0, {prepared->values.data() + first * values, {band.hogels(), values}});
-        });
+        prepared->values = Array<float, 2>({hogels.hogels(), synthesis_->prepared_size()});
+        auto scratch = scratch_pool_.take();
+        prepare(hogels, scratch->rays, prepared->values);
         const std::lock_guard lock(recent_mutex_);
         recent_.push_front(prepared);
         if (recent_.size() > max_recent) recent_.pop_back();

@@ -15,6 +15,21 @@ std::size_t samples_per_hogel(const LightFieldGrid& light_field, double pitch) {
     return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / pitch)));
 }
 
+// A hogel of width d sends light of wavelength λ into directions λ/d apart, of which the sines from -1 to 1 must hold
+// two; and it needs a sample.
+void require_hogels_that_diffract(const LightFieldGrid& light_field, double wavelength, double pitch) {
+    if (wavelength > 2 * light_field.pitch)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a wavelength of {} has no two directions that a hogel of {} tells apart; expected at "
+                                "most twice the hogel, {}",
+                                format_length(wavelength), format_length(light_field.pitch),
+                                format_length(2 * light_field.pitch)));
+    if (pitch > 2 * light_field.pitch)
+        throw Error(ErrorCode::usage, fmt::format("a pitch of {} leaves a hogel of {} without samples; expected at "
+                                                  "most the hogel",
+                                                  format_length(pitch), format_length(light_field.pitch)));
+}
+
 // The method gives every ray one wave, so rays farther apart than a hogel's lobes would leave gaps.
 void require_enough_directions(const LightFieldGrid& light_field, double wavelength) {
     const double step = wavelength / light_field.pitch;
@@ -94,6 +109,7 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
         throw Error(ErrorCode::usage,
                     fmt::format("the light field has {} channels, so there is no channel {}", front.channels, channel));
     require_supported(faces, options);
+    require_hogels_that_diffract(front, wavelength, options.pitch);
     const std::size_t n = samples_per_hogel(front, options.pitch);
     const double pitch = front.pitch / static_cast<double>(n);
     if (faces.size() == 1) require_diffraction(front, wavelength, pitch);

@@ -181,5 +181,31 @@ TEST(MakeHologram, frequencies_need_a_pitch_that_diffracts_them_and_no_added_pha
     expect_refused(exact, options_for(PhaseAdded{}, 1.2_um), "uniform in sines");
 }
 
+// A hogel of width d tells directions apart that differ by λ/d in their sines, which lie between -1 and 1.
+TEST(HologramGrid, refuses_waves_longer_than_two_hogels_and_hogels_without_samples) {
+    LightFieldGrid grid;
+    grid.hogels_s = grid.hogels_t = 4;
+    grid.pitch = 10_um;
+    grid.directions_u = grid.directions_v = 4;
+    grid.view = field_of_view(1_deg);
+    const auto refusal = [&](double wavelength, double pitch) -> std::string {
+        HologramOptions options;
+        options.channel = {wavelength, 0};
+        options.pitch = pitch;
+        try {
+            hologram_grid({&grid, 1}, options);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal(20_um, 5_um), "");
+    EXPECT_NE(refusal(20.1_um, 5_um).find("expected at most twice the hogel, 20 um"), std::string::npos);
+    EXPECT_NE(refusal(1_m, 5_um).find("a wavelength of 1 m"), std::string::npos);
+    EXPECT_EQ(refusal(1_um, 20_um), "");
+    EXPECT_NE(refusal(1_um, 20.1_um).find("without samples"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hogel::hologram

@@ -26,6 +26,10 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
           samples_(samples),
           pitch_(light_field.pitch / static_cast<double>(samples)),
           cells_(light_field.step_u(), light_field.step_v(), options.seed, options.channel.index),
+          reference_cosine_(1 / std::sqrt(1 + light_field.center_u() * light_field.center_u() +
+                                          light_field.center_v() * light_field.center_v())),
+          shallowest_(std::max(SurfaceCells::shallowest,
+                               light_field.pitch / (4 * std::max(light_field.half_u(), light_field.half_v())))),
           fft_(samples, samples) {
         if (exact) waves_.emplace(samples);
         for (std::size_t l = 0; l < light_field.directions_v; ++l)
@@ -61,10 +65,11 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
             for (std::size_t k = 0; k < light_field_.directions_u; ++k, ++amplitudes, ++depths) {
                 if (*amplitudes == 0) continue;
                 const Wave wave = wave_of(k, l, *depths, s, t, place.look);
+                const auto amplitude = static_cast<float>(*amplitudes * wave.share);
                 if (waves_)
-                    add_exactly(*amplitudes, wave, spectrum);
+                    add_exactly(amplitude, wave, spectrum);
                 else
-                    add(*amplitudes, wave, hogel);
+                    add(amplitude, wave, hogel);
             }
         if (waves_)
             waves_->transform(spectrum, hogel);
@@ -76,26 +81,30 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
     struct Wave {
         double columns, rows;  // frequency in cycles per sample, along a row and down a column
         double cycles;         // phase at the hogel's centre
+        double share;          // of the ray's amplitude
     };
 
     Wave wave_of(std::size_t k, std::size_t l, double depth, double s, double t, std::size_t look) const {
         double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));
-        double cycles = 0;
+        double cycles = 0, share = 1;
         if (std::isfinite(depth)) {
-            // Exactly on the plane all rays of a hogel would meet one point; the minimum depth keeps their phases
-            // independent.
-            if (std::abs(depth) < SurfaceCells::shallowest) depth = std::copysign(SurfaceCells::shallowest, depth);
+            // So near the plane every cell is seen by one hogel only, and its depth makes no difference but that the
+            // rays of the hogel meet different cells.
+            if (std::abs(depth) < shallowest_) depth = shallowest_;
             const SurfaceCell cell = cells_.find(s + U * depth, t + V * depth, depth, look);
+            share = 1 / std::sqrt(cell.crowding);
             U = (cell.x - s) / cell.depth;
             V = (cell.y - t) / cell.depth;
-            cycles = cell.cycles + cell.depth * std::sqrt(1 + U * U + V * V) / wavelength_;
+            // A cell has its phase where it would meet the hologram along the middle of the fan, so the depth in it
+            // makes a difference by its defocus only, and a tilted or an inexact surface shines as an even one does.
+            cycles = cell.cycles + cell.depth * (std::sqrt(1 + U * U + V * V) - reference_cosine_) / wavelength_;
         } else {
             // A ray that meets nothing is treated as one to a distant surface, of which neighbouring hogels see
             // different cells.
             cycles = cells_.find(s + U, t + V, 1.0, look).cycles;
         }
         const double to_frequency = pitch_ / (wavelength_ * std::sqrt(1 + U * U + V * V));
-        return {-U * to_frequency, V * to_frequency, cycles};
+        return {-U * to_frequency, V * to_frequency, cycles, share};
     }
 
     // Whether a wave, of a cell at the border of the field of view, is beyond what the pitch can sample.
@@ -127,6 +136,8 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
     std::size_t samples_;
     double pitch_;
     SurfaceCells cells_;
+    double reference_cosine_;  // cos θ in the middle of the fan of directions
+    double shallowest_;        // metres; smaller depths count as this one
     math::Fft2 fft_;
     std::optional<PlaneWaveSum> waves_;  // if every ray has its exact frequency
     std::vector<float> shares_;          // [direction]: ΔU ΔV cos³θ

@@ -36,6 +36,7 @@ constexpr std::size_t max_seen = std::size_t{1} << 24;
 std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
     std::vector<LensPoint> points;
     for (std::size_t i = 0; i < count; ++i) {
+        if (i % 65536 == 0) core::throw_if_stopped();
         const double radius = 0.5 * pupil * std::sqrt((static_cast<double>(i) + 0.5) / static_cast<double>(count));
         const double angle = 2 * std::numbers::pi * van_der_corput(i, 2);
         points.push_back({radius * std::cos(angle), radius * std::sin(angle), van_der_corput(i + 1, 3) - 0.5,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/units.h"
 
@@ -54,8 +55,7 @@ Image CapturedEye::photograph(const Camera& camera) const {
     if (defocus_blur(camera) > blur_ * rounding)
         throw Error(ErrorCode::usage, fmt::format("light was captured for focuses nearer to the hologram than {}",
                                                   format_length(camera.focus_depth)));
-    const SineGrid& sines = film_.sines();
-    Array<float, 2> intensity({sines.size_y, sines.size_x});
+    Array<float, 2> intensity = film_.unexposed();
     for (const auto& look : looks_) film_.expose(look, camera, intensity);
     Image picture(camera.picture.width, camera.picture.height, 1);
     film_.develop(intensity, camera, Rectangle(plane_), 1 / static_cast<double>(looks_.size()), picture);

@@ -20,7 +20,7 @@ class CapturedEye {
   private:
     friend std::vector<CapturedEye> capture(const FieldSource&, std::span<const Camera>, const PhotographOptions&,
                                             const Progress&);
-    CapturedEye(const FieldGrid& hologram, const narrow_band::NarrowBand& band, double pupil, double blur)
+    CapturedEye(const FieldGrid& hologram, const narrow_band::BandGrid& band, double pupil, double blur)
         : plane_(hologram.plane),
           eye_(band.geometry.eye()),
           pupil_(pupil),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/photograph.h"
-#include "hogel/image/film.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,9 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/image/film.h"
+#include "hogel/optics/eye_light.h"
+#include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/units.h"
@@ -38,19 +40,50 @@ class Window final : public FieldSource {
     FieldGrid grid_;
 };
 
+// Eyes whose bands are computed from the samples of a field.
+class SampledEyes final : public EyeDrawing {
+  public:
+    SampledEyes(const FieldSource& field, std::span<const Eye> eyes) : field_(field) {
+        for (const Eye& eye : eyes) bands_.emplace_back(field.grid(), eye.position, eye.pupil);
+    }
+    const narrow_band::BandGrid& band(std::size_t eye) const override { return bands_[eye]; }
+    std::vector<std::vector<Array<std::complex<float>, 2>>> draw(std::size_t first_look, std::size_t looks,
+                                                                 const Progress& progress) const override {
+        return narrow_band::draw_narrow_bands(field_, bands_, first_look, looks, progress);
+    }
+
+  private:
+    const FieldSource& field_;
+    std::vector<narrow_band::NarrowBand> bands_;
+};
+
+// The drawing of a window by the hogels that the whole field knows; null where the samples are to be used.
+std::unique_ptr<EyeDrawing> draw_hogels(const FieldSource& whole, const Region& region, std::span<const Eye> eyes,
+                                        LightFrom from) {
+    if (from == LightFrom::samples) return nullptr;
+    std::unique_ptr<EyeDrawing> drawing;
+    if (const auto* hogels = dynamic_cast<const EyeLight*>(&whole)) drawing = hogels->eye_drawing(region, eyes);
+    if (!drawing && from == LightFrom::hogels)
+        throw Error(ErrorCode::usage,
+                    "a photograph from hogels needs a stereogram that is made on demand, by Fourier transforms of "
+                    "hogels with at least twice as many samples as the eye takes in; from samples would do");
+    return drawing;
+}
+
 // One pass of cameras over one window: adds the window's light to their pictures.
-void photograph_window(const FieldSource& window, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes,
-                       const Rectangle& shown, std::size_t looks_at_once, std::span<Image> images,
-                       const Progress& progress) {
-    std::vector<narrow_band::NarrowBand> bands;
+void photograph_window(const FieldSource& whole, const PhotographPlan::Window& part, std::span<const Camera> cameras,
+                       const std::vector<SharedEye>& eyes, LightFrom from, std::size_t looks_at_once,
+                       std::span<Image> images, const Progress& progress) {
+    const Window window(whole, part.region);
+    std::vector<Eye> looking;
+    for (const SharedEye& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil});
+    std::unique_ptr<EyeDrawing> drawing = draw_hogels(whole, part.region, looking, from);
+    if (!drawing) drawing = std::make_unique<SampledEyes>(window, looking);
     std::vector<film::Film> films;
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
     for (std::size_t e = 0; e < eyes.size(); ++e) {
-        bands.emplace_back(window.grid(), cameras[eyes[e].members.front()].eye, eyes[e].pupil);
-        films.emplace_back(bands.back(), window.grid(), eyes[e].pupil, eyes[e].blur);
-        const SineGrid& sines = films.back().sines();
-        for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
-            intensities[e].emplace_back(Shape<2>{sines.size_y, sines.size_x});
+        films.emplace_back(drawing->band(e), window.grid(), eyes[e].pupil, eyes[e].blur);
+        for (std::size_t c = 0; c < eyes[e].members.size(); ++c) intensities[e].push_back(films.back().unexposed());
     }
     const std::size_t looks = window.looks();
     for (std::size_t first = 0; first < looks; first += looks_at_once) {
@@ -59,7 +92,7 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
             progress.report((static_cast<double>(first) + done * static_cast<double>(count)) /
                             static_cast<double>(looks));
         };
-        auto drawn = narrow_band::draw_narrow_bands(window, bands, first, count, [&](double fraction) {
+        auto drawn = drawing->draw(first, count, [&](double fraction) {
             report(0.9 * fraction);
             return true;
         });
@@ -76,7 +109,8 @@ void photograph_window(const FieldSource& window, std::span<const Camera> camera
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
             const std::size_t camera = eyes[e].members[c];
-            films[e].develop(intensities[e][c], cameras[camera], shown, 1 / static_cast<double>(looks), images[camera]);
+            films[e].develop(intensities[e][c], cameras[camera], part.shown, 1 / static_cast<double>(looks),
+                             images[camera]);
         }
 }
 
@@ -130,8 +164,8 @@ void photograph_into(const FieldSource& hologram, std::span<const Camera> camera
             const bool seen = std::ranges::any_of(
                 pass, [&](std::size_t i) { return Rectangle(cameras[i].picture).meets(window.shown); });
             if (seen)
-                photograph_window(Window(hologram, window.region), cameras, group_by_eye(cameras, pass), window.shown,
-                                  looks_at_once, pictures, [&](double fraction) {
+                photograph_window(hologram, window, cameras, group_by_eye(cameras, pass), options.from, looks_at_once,
+                                  pictures, [&](double fraction) {
                                       return !progress || progress((static_cast<double>(done) + fraction) / parts);
                                   });
             ++done;

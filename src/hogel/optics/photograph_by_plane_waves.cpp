@@ -15,6 +15,7 @@
 #include "hogel/optics/elements.h"
 #include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/photograph_plan.h"
+#include "hogel/optics/sine_grid.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/optics/tilt.h"
 #include "hogel/photograph.h"
@@ -26,8 +27,17 @@ using namespace optics;
 
 namespace {
 
-// The factor by which the pupil is widened when directions are selected, so that its sharp edge diffracts correctly.
+// The factor by which the pupil is widened when directions are selected.
 constexpr double edge_margin = 1.1;
+
+// The distance over which directions beyond the widened pupil fade out: twice the width of Fresnel's fringes of a sharp
+// selection, which would reach into the pupil.
+double fade_width(double wavelength, double distance) { return 2 * std::sqrt(wavelength * distance); }
+
+// The resolution cells that the hologram must hold side by side. Where there are fewer, light that spreads from the
+// small opening returns on the other side of the window: root mean square errors against the direct sum of a hologram
+// of random phases are 9 % with 4.3 cells, 17 % with 3, 35 % with 2.
+constexpr double min_cells = 4;
 
 struct Chain {
     const FieldSource& hologram;
@@ -49,8 +59,12 @@ Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pu
 // finest wave of its intensity, which is interpolated.
 std::size_t film_samples(std::size_t columns, double size, double pupil, double distance, double wavelength) {
     const double intensity = 3 * edge_margin * pupil / (wavelength * distance) * size;
-    return math::good_fft_size(
-        static_cast<std::size_t>(std::ceil(std::max(edge_margin * static_cast<double>(columns), intensity))) + 16);
+    // The opening itself is sampled, too.
+    constexpr double samples_of_pupil = 16;
+    const double opening = samples_of_pupil * size / pupil;
+    return math::good_fft_size(static_cast<std::size_t>(std::ceil(
+                                   std::max({edge_margin * static_cast<double>(columns), intensity, opening}))) +
+                               16);
 }
 
 // The wave at the lens of one eye, just before its opening, restricted to the directions between the hologram and the
@@ -59,7 +73,8 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
                       const Progress& progress) {
     const Grid& plane = chain.hologram.grid().plane;
     const Vec3 lens = cameras[eye.members.front()].eye;
-    const double pupil = edge_margin * eye.pupil;
+    const double wavelength = chain.hologram.grid().wavelength, fade = fade_width(wavelength, lens.z);
+    const double inner = edge_margin * eye.pupil, pupil = inner + 2 * fade;
     // The window is padded for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
     // around to the other side, and padded again for a plane that is tilted later.
     double spread = std::max(1.0, chain.options.film_distance / lens.z);
@@ -67,10 +82,10 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
         for (const Vec3& corner : corners(plane))
             spread = std::max(spread, (is_tilted(cameras[i]) ? 2 : 1) * focus_ratio(cameras[i], corner.x, corner.y));
     const Grid window = padded(plane, spread * (plane.size_x() + pupil), spread * (plane.size_y() + pupil));
-    const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, chain.hologram.grid().wavelength);
+    const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, wavelength);
     Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress);
-    propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + pupil),
-                      0.5 * (plane.size_y() + pupil)});
+    propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + inner),
+                      0.5 * (plane.size_y() + inner), fade, fade});
     return waves;
 }
 
@@ -140,13 +155,27 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
         const auto bent = static_cast<std::size_t>(size * edge_margin * camera.pupil / (wavelength * focal_length));
         return film_samples(columns + bent, size, camera.pupil, b, wavelength);
     };
-    const std::size_t width = samples(at_lens.width(), window.size_x());
-    const std::size_t height = samples(at_lens.height(), window.size_y());
-    double area = 0;
+    // The wave repeats in the directions with a period of the wavelength by the pitch.
+    const SineRanges sines = sines_of(ViewGeometry(camera.eye, wavelength), hologram);
+    const double blur = defocus_blur(camera), cell = wavelength / camera.pupil;
+    const SpreadWindow followed(sines.x.span(), sines.y.span(), blur, cell);
+    const auto enough = [&](std::size_t columns, double size, double span) {
+        const double period = span + followed.stop + 0.5 * blur;
+        const auto count = static_cast<std::size_t>(std::ceil(size * period / wavelength));
+        return std::max(samples(columns, size), math::good_fft_size(count));
+    };
+    const std::size_t width = enough(at_lens.width(), window.size_x(), sines.x.span());
+    const std::size_t height = enough(at_lens.height(), window.size_y(), sines.y.span());
+    const double area = 0.25 * std::numbers::pi * camera.pupil * camera.pupil *
+                        (1 - light_left_out(followed, sines.x.span(), sines.y.span(), cell));
     Spectrum behind = [&] {
         Wave lens = wave_of(at_lens, width, height, options.scratch);
-        area = circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil);
-        if (b > 0) thin_lens(lens, camera.eye.x, camera.eye.y, edge_margin * camera.pupil, focal_length);
+        circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil, PupilEdge(followed, wavelength));
+        if (b > 0)
+            thin_lens(lens, camera.eye.x, camera.eye.y, edge_margin * camera.pupil, focal_length);
+        else
+            weigh_alike(lens, camera.eye.x, camera.eye.y,
+                        in_focus(camera, hologram.center_x, hologram.center_y) - camera.eye);
         const Grid& plane = lens.grid().plane;
         const Band whole{lens.carrier_x - 0.5 / plane.pitch_x, lens.carrier_x + 0.5 / plane.pitch_x,
                          lens.carrier_y - 0.5 / plane.pitch_y, lens.carrier_y + 0.5 / plane.pitch_y};
@@ -155,9 +184,10 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     // The distance to propagate, and the magnification of the picture there.
     const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
     const double pupil = edge_margin * camera.pupil * (b > 0 ? 1 / larger : 1);
+    const double fade = larger * fade_width(wavelength, R);
     propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
                        distance / R * (camera.eye.y - hologram.center_y), 0.5 * larger * (hologram.size_x() + pupil),
-                       0.5 * larger * (hologram.size_y() + pupil)});
+                       0.5 * larger * (hologram.size_y() + pupil), fade, fade});
     const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
     if (is_tilted(camera)) {
         const Orientation axes = stand(camera);
@@ -173,7 +203,7 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
     const double R = camera.eye.z, m = focus_ratio(camera, picture.center_x, picture.center_y);
     const double larger = m * std::abs(focused.scale);
     const auto points = [&](double pixel, double sample) {
-        return static_cast<std::size_t>(std::max(2.0, std::ceil(pixel * larger / sample)));
+        return 2 * static_cast<std::size_t>(std::max(1.0, std::ceil(0.5 * pixel * larger / sample)));
     };
     const std::size_t sub_x = points(picture.pitch_x, plane.pitch_x), sub_y = points(picture.pitch_y, plane.pitch_y);
     const View<const std::complex<float>, 2> samples = focused.wave.samples.view();
@@ -183,17 +213,15 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
             double sum = 0;
             for (std::size_t b = 0; b < sub_y; ++b)
                 for (std::size_t a = 0; a < sub_x; ++a) {
-                    const double x = picture.x(static_cast<double>(column) +
-                                               (static_cast<double>(a) + 0.5) / static_cast<double>(sub_x) - 0.5);
-                    const double y = picture.y(static_cast<double>(row) +
-                                               (static_cast<double>(b) + 0.5) / static_cast<double>(sub_y) - 0.5);
+                    const double x = picture.x(static_cast<double>(column) + film::gauss_place(a, sub_x));
+                    const double y = picture.y(static_cast<double>(row) + film::gauss_place(b, sub_y));
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
-                    // Cubic interpolation may fall below zero between dark samples.
+                    // Interpolation may fall below zero between dark samples.
                     const double value = std::max(
-                        0.0f, film::cubic_at(samples.extent(0), samples.extent(1),
-                                             plane.row(plane.center_y + dot(aside, focused.axes.y)),
-                                             plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
+                        0.0f, film::smooth_at(samples.extent(0), samples.extent(1),
+                                              plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                              plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
                     const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
                     sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
                 }
@@ -227,9 +255,9 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
             const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
             const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
             const std::complex<float> slow =
-                film::cubic_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
-                               plane.column(plane.center_x + right),
-                               [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
+                film::smooth_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
+                                plane.column(plane.center_x + right),
+                                [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
             const double cycles =
                 wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
             result(row, column) = slow * phasor(cycles);
@@ -243,6 +271,7 @@ void require_photographable(const FieldSource& hologram, std::span<const Camera>
         throw Error(ErrorCode::usage, fmt::format("a film {} m behind its lens: it must be positive and finite", film));
     for (const Camera& camera : cameras) {
         require_light_towards(hologram.grid(), camera);
+        require_resolution(hologram.grid(), camera, min_cells);
         if (film > 0 && film < camera.pupil)
             throw Error(ErrorCode::usage,
                         fmt::format("a film {} behind a thin lens of {}: nearer than the lens is wide",

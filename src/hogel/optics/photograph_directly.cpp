@@ -4,6 +4,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/image/film.h"
+#include "hogel/math/quadrature.h"
 #include "hogel/photograph.h"
 
 namespace hogel {
@@ -13,20 +14,31 @@ using Complex = std::complex<double>;
 
 struct PupilPoint {
     Vec3 position;
+    double area;
     Complex field;
 };
 
-// The points of a square grid that are inside the pupil's disc.
-std::vector<PupilPoint> pupil_grid(const Camera& camera, std::size_t across) {
+// Points on rings around the pupil's centre, at the radii of a quadrature by Gauss and Legendre, as far apart on a ring
+// as the rings are, and some more for the smoothness of waves around a ring. The sum over them of a wave whose phase
+// changes by much less than a cycle from one to the next is exact, unlike that over a square grid, in which the disc
+// has a jagged rim.
+std::vector<PupilPoint> pupil_points(const Camera& camera, std::size_t across) {
     std::vector<PupilPoint> points;
-    const double step = camera.pupil / static_cast<double>(across);
-    for (std::size_t j = 0; j < across; ++j)
-        for (std::size_t i = 0; i < across; ++i) {
-            const double x = (static_cast<double>(i) + 0.5) * step - 0.5 * camera.pupil;
-            const double y = (static_cast<double>(j) + 0.5) * step - 0.5 * camera.pupil;
-            if (std::hypot(x, y) <= 0.5 * camera.pupil)
-                points.push_back({{camera.eye.x + x, camera.eye.y + y, camera.eye.z}, 0});
+    const double half = 0.25 * camera.pupil;
+    const math::Quadrature radii = math::gauss_legendre((across + 1) / 2, half);
+    for (std::size_t i = 0; i < radii.points.size(); ++i) {
+        const double radius = half + radii.points[i];
+        const double around = std::numbers::pi * static_cast<double>(across) * radius / (2 * half);
+        const std::size_t count = 16 + static_cast<std::size_t>(std::ceil(around));
+        const double step = 2 * std::numbers::pi / static_cast<double>(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const double angle = (static_cast<double>(k) + 0.5 * static_cast<double>(i % 2)) * step;
+            points.push_back(
+                {{camera.eye.x + radius * std::cos(angle), camera.eye.y + radius * std::sin(angle), camera.eye.z},
+                 radii.weights[i] * radius * step,
+                 0});
         }
+    }
     return points;
 }
 
@@ -38,9 +50,9 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
     const FieldGrid& grid = hologram.grid();
     const Grid& plane = grid.plane;
     const double k = 2 * std::numbers::pi / grid.wavelength;
-    std::vector<PupilPoint> pupil = pupil_grid(camera, pupil_points_across);
-    const double step = camera.pupil / static_cast<double>(pupil_points_across);
-    const double pupil_area = static_cast<double>(pupil.size()) * step * step;
+    std::vector<PupilPoint> pupil = pupil_points(camera, pupil_points_across);
+    const double pupil_area = 0.25 * std::numbers::pi * camera.pupil * camera.pupil;
+    const math::Quadrature within = math::gauss_legendre(subpixels, 0.5);
 
     Image image;
     image::load_film({&camera, 1}, 1, hologram.provenance(), {&image, 1});
@@ -59,26 +71,22 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
             pupil[i].field = sum * plane.pitch_x * plane.pitch_y / Complex(0, grid.wavelength);
         });
         // A perfect lens: waves from a point p of the plane in focus arrive in phase at the image of p on the film.
-        const double points_a_pixel = static_cast<double>(subpixels * subpixels);
         core::parallel_for(camera.picture.height, [&](std::size_t row) {
             for (std::size_t column = 0; column < camera.picture.width; ++column)
                 for (std::size_t b = 0; b < subpixels; ++b)
                     for (std::size_t a = 0; a < subpixels; ++a) {
-                        const auto within = [&](std::size_t sub) {
-                            return (static_cast<double>(sub) + 0.5) / static_cast<double>(subpixels) - 0.5;
-                        };
-                        const Vec3 on_hologram{camera.picture.x(static_cast<double>(column) + within(a)),
-                                               camera.picture.y(static_cast<double>(row) + within(b)), 0};
+                        const Vec3 on_hologram{camera.picture.x(static_cast<double>(column) + within.points[a]),
+                                               camera.picture.y(static_cast<double>(row) + within.points[b]), 0};
                         const Vec3 p =
                             camera.eye + focus_ratio(camera, on_hologram.x, on_hologram.y) * (on_hologram - camera.eye);
                         Complex film = 0;
                         for (const PupilPoint& q : pupil)
-                            film += q.field * std::polar(step * step, -k * length(q.position - p));
+                            film += q.field * std::polar(q.area, -k * length(q.position - p));
                         // Radiance of a diffuse surface: |film|² cos θ / (λ² · area of the pupil).
                         const double cosine = camera.eye.z / length(camera.eye - on_hologram);
                         image.pixels(row, column, 0) += static_cast<float>(
-                            std::norm(film) * cosine / (grid.wavelength * grid.wavelength * pupil_area) /
-                            points_a_pixel / static_cast<double>(hologram.looks()));
+                            within.weights[a] * within.weights[b] * std::norm(film) * cosine /
+                            (grid.wavelength * grid.wavelength * pupil_area) / static_cast<double>(hologram.looks()));
                     }
         });
     }

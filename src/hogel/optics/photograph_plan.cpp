@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/optics/photograph_plan.h"
+#include "hogel/optics/narrow_band/narrow_band.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include <tuple>
 
 #include "hogel/core/parallel.h"
+#include "hogel/photograph.h"
 #include "hogel/units.h"
 
 namespace hogel::optics {
@@ -69,7 +71,7 @@ Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std:
         const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
                             2 * narrow_band::NarrowBand::margin;
         bytes.a_look += 8.0 * static_cast<double>(core::default_in_flight()) * tile * tile;
-        bytes.fixed += 4.0 * static_cast<double>(film.sines.samples()) * static_cast<double>(eye.members.size());
+        bytes.fixed += film.intensity_bytes() * static_cast<double>(eye.members.size());
         largest = std::max(largest, film.pupil_bytes() + film.work_bytes());
     }
     bytes.fixed += largest;
@@ -144,10 +146,23 @@ std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks) cons
     return 1 + static_cast<std::size_t>(std::min(spare / bytes_a_look, static_cast<double>(looks)));
 }
 
+void require_resolution(const FieldGrid& hologram, const Camera& camera, double cells) {
+    const double cell = resolution_cell(camera, hologram.wavelength);
+    const double side = std::max(hologram.plane.size_x(), hologram.plane.size_y());
+    if (cells * cell <= side) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("a pupil of {} at {} resolves no more than {} in light of {}; expected at most {}, as the "
+                            "hologram is {} wide; a pupil of {} would do",
+                            format_length(camera.pupil), format_length(camera.eye.z), format_length(cell),
+                            format_length(hologram.wavelength), format_length(side / cells), format_length(side),
+                            format_length(camera.pupil * cells * cell / side)));
+}
+
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                                 PhotographPlan::Windows windows) {
     for (const Camera& camera : cameras) {
         validate(camera);
+        require_resolution(hologram, camera);
         narrow_band::NarrowBand(hologram, camera.eye,
                                 camera.pupil);  // throws where the pupil is too wide for the pitch
     }

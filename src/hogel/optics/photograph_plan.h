@@ -29,6 +29,10 @@ struct PhotographPlan {
     enum class Windows { one, many };
 };
 
+/// Throws Error(usage) for a pupil that resolves fewer than `cells` points side by side on the hologram. With less than
+/// one a photograph shows one blur, and the waves that enter the pupil are no narrow band.
+void require_resolution(const FieldGrid& hologram, const Camera& camera, double cells = 1);
+
 /// The plan with the least work. Throws Error(usage) if there is none, naming a pupil that would be possible.
 /// @param windows  whether the hologram may be divided into windows
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,

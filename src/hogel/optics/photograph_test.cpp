@@ -76,8 +76,9 @@ TEST_P(NarrowBandCamera, agrees_with_direct_summation) {
     camera.picture = {26, 26, 20_um, 20_um, 0, 0};
     const Image fast = photograph(field, std::span(&camera, 1))[0];
     const Image direct = photograph_directly(field, camera, 64, 3);
-    EXPECT_GT(correlation(fast, direct), 0.9995);
-    EXPECT_NEAR(sum(fast) / sum(direct), 1, 0.02);
+    // Where the plane in focus is tilted, the film blends pictures of neighbouring defocuses.
+    EXPECT_GT(correlation(fast, direct), 0.9998);
+    EXPECT_NEAR(sum(fast) / sum(direct), 1, c.slope_x == 0 ? 3e-3 : 8e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(PointsEyesAndFocuses, NarrowBandCamera,
@@ -162,9 +163,8 @@ TEST(PhotographByPlaneWaves, equals_the_narrow_band_camera) {
     const auto narrow = photograph(field, cameras), full = photograph_by_plane_waves(field, cameras);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         // Off the axis it would be 0.9994 without the distortion of the pupil's disc in the plane of frequencies.
-        EXPECT_GT(correlation(narrow[c], full[c]), 0.9997) << c;
-        // In the narrow band, light that leaves the film at one side wraps around to the other.
-        EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 7e-3) << c;
+        EXPECT_GT(correlation(narrow[c], full[c]), 0.99997) << c;
+        EXPECT_NEAR(sum(narrow[c]) / sum(full[c]), 1, 2e-3) << c;
     }
 }
 
@@ -256,7 +256,7 @@ TEST(Photograph, window_by_window_is_the_same_picture) {
     }
     cameras[1].focus_depth = 0.2_mm;
     const auto whole = photograph(field, cameras);
-    const PhotographOptions little{std::size_t{40} << 20};
+    const PhotographOptions little{.memory = std::size_t{40} << 20};
     const PhotographPlan plan = plan_photographs(grid, cameras, double(little.memory));
     EXPECT_LE(plan.bytes, double(little.memory));
     EXPECT_GT(plan.windows.size(), 1u);
@@ -328,6 +328,46 @@ TEST(Photograph, names_a_pupil_that_would_do_where_one_is_too_wide_for_the_pitch
         EXPECT_EQ(error.code(), ErrorCode::usage);
         EXPECT_NE(std::string(error.what()).find("pupil of 1."), std::string::npos) << error.what();
     }
+}
+
+TEST(Photograph, of_a_pupil_that_resolves_nothing_is_refused_by_both_cameras) {
+    Field hologram(FieldGrid{{64, 64, 10_um, 10_um, 0, 0}, 500_nm});
+    for (auto& sample : hologram.samples.elements()) sample = 1;
+    Camera camera;
+    camera.eye = {0, 0, 0.3};
+    camera.picture = {8, 8, 80_um, 80_um, 0, 0};
+    // λR/A is the hologram's width for a pupil of 500 nm 0.3 m/0.64 mm = 0.234375 mm.
+    const auto refusal = [&](double pupil, bool full) -> std::string {
+        camera.pupil = pupil;
+        try {
+            if (full)
+                photograph_by_plane_waves(hologram, {&camera, 1});
+            else
+                photograph(hologram, {&camera, 1});
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage);
+            return error.what();
+        }
+        return "";
+    };
+    for (const double pupil : {1_nm, 1_um, 0.234_mm}) {
+        EXPECT_NE(refusal(pupil, false).find("a pupil of 0.234375 mm would do"), std::string::npos) << pupil;
+        EXPECT_NE(refusal(pupil, true).find("a pupil of 0.9375 mm would do"), std::string::npos) << pupil;
+    }
+    // The smallest that is not refused shows what the direct sum does, within 5 %.
+    const auto expect_equal = [&](const Image& picture) {
+        const Image direct = photograph_directly(hologram, camera, 60, 2);
+        double error = 0, energy = 0;
+        for (std::size_t i = 0; i < direct.pixels.size(); ++i) {
+            error += std::pow(picture.pixels.data()[i] - direct.pixels.data()[i], 2);
+            energy += std::pow(direct.pixels.data()[i], 2);
+        }
+        EXPECT_LT(std::sqrt(error / energy), 0.05);
+    };
+    camera.pupil = 0.24_mm;
+    expect_equal(photograph(hologram, {&camera, 1})[0]);
+    camera.pupil = 0.94_mm;
+    expect_equal(photograph_by_plane_waves(hologram, {&camera, 1})[0]);
 }
 
 }  // namespace

@@ -6,18 +6,10 @@
 #include <limits>
 
 #include "hogel/math/fft.h"
+#include "hogel/optics/pupil_edge.h"
 
 namespace hogel::optics {
 namespace {
-
-struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-
-    void include(double v) {
-        low = std::min(low, v);
-        high = std::max(high, v);
-    }
-};
 
 // The minimum rate of change of the sines over the plane, per metre.
 double min_slope(const ViewGeometry& geometry, const Grid& plane) {
@@ -43,37 +35,40 @@ double defocus_blur(const Camera& camera) {
     return camera.pupil / R * max_change;
 }
 
-SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, double blur) {
-    // The directions of the whole plane, found along its edge.
-    const ViewGeometry& geometry = band.geometry;
-    Range x, y;
-    for (int i = 0; i <= 64; ++i) {
-        const double across = plane.center_x + plane.size_x() * (i / 64.0 - 0.5);
-        const double along = plane.center_y + plane.size_y() * (i / 64.0 - 0.5);
+SineRanges sines_of(const ViewGeometry& geometry, const Grid& plane) {
+    // They are extreme on the edge of the plane.
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    SineRanges sines{{infinite, -infinite}, {infinite, -infinite}};
+    const auto include = [&](double x, double y) {
+        const double nx = geometry.sine_x(x, y), ny = geometry.sine_y(x, y);
+        sines.x = {std::min(sines.x.low, nx), std::max(sines.x.high, nx)};
+        sines.y = {std::min(sines.y.low, ny), std::max(sines.y.high, ny)};
+    };
+    for (int i = 0; i <= 64; ++i)
         for (double end : {-0.5, 0.5}) {
-            const double edge_x = plane.center_x + plane.size_x() * end, edge_y = plane.center_y + plane.size_y() * end;
-            x.include(geometry.sine_x(across, edge_y));
-            x.include(geometry.sine_x(edge_x, along));
-            y.include(geometry.sine_y(across, edge_y));
-            y.include(geometry.sine_y(edge_x, along));
+            include(plane.center_x + plane.size_x() * (i / 64.0 - 0.5), plane.center_y + plane.size_y() * end);
+            include(plane.center_x + plane.size_x() * end, plane.center_y + plane.size_y() * (i / 64.0 - 0.5));
         }
-    }
+    return sines;
+}
+
+SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, double pupil, double blur) {
     SineGrid grid;
-    // Nowhere coarser than the band, which is sampled finely enough for the pupil and its intensity, so that nothing
-    // aliases.
-    grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(geometry, plane);
-    // Light out of focus spreads by the blur, light in focus by some resolution cells of four samples each. The margin
-    // keeps both from wrapping around to the other side.
-    constexpr double margin = 64;
-    const auto choose = [&](const Range& range, std::size_t& size, double& first) {
-        const double wanted = (range.high - range.low + blur) / grid.step + margin;
-        size = math::good_fft_size(static_cast<std::size_t>(std::ceil(wanted)));
+    const SineRanges sines = sines_of(band.geometry, plane);
+    grid.x = sines.x;
+    grid.y = sines.y;
+    // Nowhere coarser than the band, so that nothing aliases.
+    grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(band.geometry, plane);
+    const SpreadWindow window(grid.x.span(), grid.y.span(), blur, band.geometry.wavelength() / pupil);
+    const auto choose = [&](const SineGrid::Range& range, std::size_t& size, double& first) {
+        const double wanted = (range.span() + window.stop + 0.5 * blur) / grid.step;
+        size = math::good_fft_size(static_cast<std::size_t>(std::ceil(wanted)) + 1);
         // Rows at distances of large powers of two map to the same cache sets, which is ten times slower.
         while (size % 128 == 0) size = math::good_fft_size(size + 1);
         first = 0.5 * (range.low + range.high) - 0.5 * static_cast<double>(size - 1) * grid.step;
     };
-    choose(x, grid.size_x, grid.first_x);
-    choose(y, grid.size_y, grid.first_y);
+    choose(grid.x, grid.size_x, grid.first_x);
+    choose(grid.y, grid.size_y, grid.first_y);
     return grid;
 }
 

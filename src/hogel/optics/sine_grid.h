@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "hogel/camera.h"
-#include "hogel/optics/narrow_band/narrow_band.h"
+#include "hogel/optics/narrow_band/band_grid.h"
 
 namespace hogel::optics {
 
@@ -15,12 +16,28 @@ struct SineGrid {
     double first_x = 0, first_y = 0;     ///< sine of the first sample; n_x grows with the column, n_y with the row
     double step = 0;                     ///< between samples
 
-    std::size_t samples() const { return size_x * size_y; }
+    struct Range {
+        double low = 0, high = 0;
+        double span() const { return high - low; }
+    };
+    Range x, y;  ///< the sines of the hologram
+
+    double period_x() const { return static_cast<double>(size_x) * step; }
+    double period_y() const { return static_cast<double>(size_y) * step; }
+    /// The distance that light may reach beyond the hologram, in sines, without wrapping around to its other side.
+    double room() const { return std::min(period_x() - x.span(), period_y() - y.span()); }
 };
 
-/// A grid that covers what the eye sees of a plane, no coarser than its band, with a margin for light out of focus.
-/// @param blur  the spread of light out of focus in the sines, see defocus_blur()
-SineGrid sine_grid(const narrow_band::NarrowBand& band, const Grid& plane, double blur);
+/// A grid no coarser than its band, with room beside what the eye sees of a plane for all light that a camera follows.
+/// @param pupil  the widest, metres
+/// @param blur   the spread of light out of focus in the sines, see defocus_blur()
+SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, double pupil, double blur);
+
+/// The sines of a plane.
+struct SineRanges {
+    SineGrid::Range x, y;
+};
+SineRanges sines_of(const ViewGeometry& geometry, const Grid& plane);
 
 /// The largest width in the picture, in direction sines, of the blur disc of a point of the hologram plane.
 double defocus_blur(const Camera& camera);

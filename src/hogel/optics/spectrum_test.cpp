@@ -241,7 +241,7 @@ TEST(Elements, names_a_lens_that_would_do_where_one_is_too_steep_for_the_samples
         EXPECT_NE(std::string(error.what()).find("3.165 mm"), std::string::npos) << error.what();
     }
     EXPECT_THROW(thin_lens(wave, 0, 0, 1_mm, 0), Error);
-    EXPECT_THROW(circular_aperture(wave, 0, 0, -1_mm), Error);
+    EXPECT_THROW(circular_aperture(wave, 0, 0, -1_mm, PupilEdge({0.1, 0.1, 0, 1e-3}, wavelength)), Error);
 }
 
 // A Gaussian beam on a plane tilted about both axes, with and without propagation in between, and back.

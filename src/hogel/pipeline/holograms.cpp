@@ -19,6 +19,9 @@ void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequ
     // enters a lens.
     const Channel& shortest = *std::ranges::min_element(request.channels, {}, &Channel::wavelength);
     const FieldGrid hologram = hologram_grid(faces, request.options(shortest));
+    // The longest has the fewest directions and the coarsest detail.
+    const Channel& longest = *std::ranges::max_element(request.channels, {}, &Channel::wavelength);
+    if (&longest != &shortest) require_photographs(hologram_grid(faces, request.options(longest)), cameras);
     require_photographs(hologram, cameras);
     for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
@@ -60,15 +63,17 @@ Fields make_holograms(const LightField& light_field, const HologramRequest& requ
     return holograms;
 }
 
-std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
-                                      const std::optional<PlaneWaveCameraOptions>& full, const Progress& progress) {
+std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
+                                      const Progress& progress) {
     const core::StopScope scope(progress);
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
     for (std::size_t c = 0; c < colours; ++c) {
         const Progress part = progress.part(c, colours);
-        const std::vector<Image> seen = full ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
-                                             : photograph(*holograms[c], cameras, PhotographOptions(), part);
+        const auto* full = std::get_if<PlaneWaveCameraOptions>(&with);
+        const std::vector<Image> seen =
+            full != nullptr ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
+                            : photograph(*holograms[c], cameras, std::get<PhotographOptions>(with), part);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             if (c == 0) {
                 pictures[i] = Image(seen[i].width(), seen[i].height(), colours);

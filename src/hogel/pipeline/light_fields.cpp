@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/part.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
 #include "hogel/render/cache_spacing.h"
@@ -26,6 +27,12 @@ void require_file(const std::string& name) {
     if (name.find_first_of("./") != std::string::npos)
         throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
     scenes().find(name);  // throws, naming the nearest scene
+}
+
+// What the request alone says that this build cannot do.
+void require_built_in(const LightFieldRequest& request) {
+    if (renderers().find(request.renderer).casts_rays)
+        core::require_part("Embree", fmt::format("the renderer '{}'", request.renderer));
 }
 
 }  // namespace
@@ -56,6 +63,7 @@ InputKind input_kind(const std::string& name) {
 
 Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {
     const core::StopScope scope(progress);
+    require_built_in(request);
     if (scenes().look_up(name) != nullptr) return make_scene(name, request.grid.width(), progress);
     require_file(name);
     Scene scene = import_scene(name);
@@ -68,6 +76,7 @@ Scene load_scene(const std::string& name, const LightFieldRequest& request, cons
 std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFieldRequest& request,
                                                const Progress& progress) {
     const core::StopScope scope(progress);
+    require_built_in(request);
     auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, request.shading, progress));
     shaded->fronts_only = request.cull_back_faces;
     if (request.cache_spacing > 0)

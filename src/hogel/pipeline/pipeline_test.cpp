@@ -165,5 +165,26 @@ TEST_F(Pipeline, what_does_not_fit_is_refused_with_the_numbers) {
     EXPECT_NE(message({0, 1e18, 1}, folder_ / "a").find("of disk"), std::string::npos);
 }
 
+TEST(Plan, of_photographs_by_rays_grows_with_the_points_of_the_pupil) {
+    const std::vector<LightFieldGrid> grids = LightFieldRequest().grids();
+    const Camera camera = camera_for(20e-3, 20e-3);
+    const Plan few = plan_ray_photographs(grids, {&camera, 1}, {1 << 10});
+    const Plan many = plan_ray_photographs(grids, {&camera, 1}, {1 << 20});
+    EXPECT_NEAR(many.seconds / few.seconds, 1024, 1e-6);
+    EXPECT_NEAR(many.memory - few.memory, 32.0 * ((1 << 20) - (1 << 10)), 1);
+    EXPECT_EQ(many.disk, 0);
+    EXPECT_THROW(require_resources(plan_ray_photographs(grids, {&camera, 1}, {std::size_t{1} << 40}), "it"), Error);
+}
+
+TEST(Plan, of_oblique_projections_does_not_shrink_with_the_hogels) {
+    LightFieldRequest request;
+    request.renderer = "oblique";
+    request.grid.hogels_s = request.grid.hogels_t = 1;
+    const Scene scene = load_scene("sphere", request);
+    const LightField rendered = render_light_field(scene, request);
+    EXPECT_GT(plan_light_field(rendered, request, 10'000'000).seconds,
+              100 * plan_light_field(rendered, request, 10'000).seconds);
+}
+
 }  // namespace
 }  // namespace hogel::pipeline

@@ -14,7 +14,6 @@
 
 #include "hogel/error.h"
 #include "hogel/optics/photograph_plan.h"
-#include "hogel/optics/spectrum.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 
@@ -30,8 +29,15 @@ constexpr double seconds_a_sample = 5e-9, seconds_a_sample_and_eye = 1.8e-9;
 // Seconds per sample to compress a light field with the coder hogel to 40 dB, including the search for the step: 126e-9
 // for the pumpkin and 251e-9 for the church, at 48 x 48 directions. Other coders were not measured.
 constexpr double seconds_a_coded_sample = 190e-9;
-// Seconds per sample of a propagated field, in a window 2.5 times as large along each side; of 2560 x 2560 samples.
-constexpr double seconds_a_propagated_sample = 160e-9;
+// Seconds per operation that propagation_method() counts.
+constexpr double seconds_a_propagation_operation = 0.35e-9;
+
+// Seconds per point of the pupil and hogel, and per point of the pupil and pixel, of a photograph by rays in three
+// colours; of 200 x 200 hogels and pictures of 16 x 16 to 800 x 800 pixels. Bytes per point of the pupil.
+constexpr double seconds_a_seen_hogel = 45e-9, seconds_a_seen_pixel = 23e-9, bytes_a_lens_point = 32;
+// Seconds per triangle for each parallel projection of the renderer oblique, which draws one for each direction of each
+// region however few hogels it has.
+constexpr double seconds_a_projected_triangle = 40e-9;
 
 // Seconds per ray that gathers reflected light (440e-9 for the pumpkin, 490e-9 for the church), and bytes per triangle
 // of the result, while it is computed and in a file.
@@ -97,6 +103,9 @@ Plan plan_light_field(const LightField& rendered, const LightFieldRequest& reque
         const double each = seconds_a_ray + seconds_a_ray_and_million_triangles * 1e-6 * static_cast<double>(triangles);
         plan.seconds += on_all_threads(rays * static_cast<double>(request.samples.count()) * each *
                                        (request.renderer == defaults.renderer ? 1 : other_renderers));
+        if (request.renderer == "oblique")
+            plan.seconds += static_cast<double>(grid.directions()) * static_cast<double>(request.samples.count()) *
+                            static_cast<double>(regions * triangles) * seconds_a_projected_triangle / at_once;
     }
     return plan;
 }
@@ -134,6 +143,24 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
             std::max(camera_bytes, optics::plan_photographs(grid, cameras, static_cast<double>(options.memory)).bytes);
     }
     plan.memory += camera_bytes;
+    return plan;
+}
+
+Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
+                          const RayPhotographOptions& options) {
+    Plan plan;
+    double hogels = 0;
+    for (const LightFieldGrid& face : faces) hogels += static_cast<double>(face.hogels());
+    const auto points = static_cast<double>(std::max<std::size_t>(options.pupil_samples, 1));
+    for (const Camera& camera : cameras) {
+        const auto pixels = static_cast<double>(camera.picture.samples());
+        plan.memory +=
+            points * bytes_a_lens_point + pixels * static_cast<double>(faces.front().channels) * sizeof(float);
+        plan.seconds += on_all_threads(points * (hogels * seconds_a_seen_hogel + pixels * seconds_a_seen_pixel));
+    }
+    // Blocks of hogels that are being read, and what the points see of one.
+    constexpr double block = 64 << 20;
+    plan.memory += (static_cast<double>(thread_count()) + 1) * block;
     return plan;
 }
 
@@ -175,18 +202,21 @@ Plan plan_compression(const LightField& light_field, const CompressionOptions& o
     return plan;
 }
 
-Plan plan_propagation(std::span<const FieldGrid> fields, const PropagateOptions& options) {
+Plan plan_propagation(std::span<const FieldGrid> fields, double distance, const PropagateOptions& options) {
     Plan plan;
     for (const FieldGrid& field : fields) {
-        const Grid& plane = field.plane;
-        const Grid window = optics::padded(plane, 2.5 * plane.size_x(), 2.5 * plane.size_y());
-        // The spectrum and the wave computed from it.
-        const double bytes = 2 * static_cast<double>(window.samples()) * sizeof(std::complex<float>);
-        const double kept = std::min(bytes, static_cast<double>(options.scratch.memory));
-        const double result = static_cast<double>(plane.samples()) * sizeof(std::complex<float>);
-        plan.memory = std::max(plan.memory, kept);
-        plan.disk += result + (bytes - kept);
-        plan.seconds += on_all_threads(static_cast<double>(plane.samples()) * seconds_a_propagated_sample);
+        const PropagationMethod method = propagation_method(field, distance, options);
+        const bool in_file = method.bytes > static_cast<double>(options.scratch.memory);
+        const double result =
+            static_cast<double>(options.output.value_or(field.plane).samples()) * sizeof(std::complex<float>);
+        // Besides the work array, every thread transforms sixteen lines at a time, padded to about three times their
+        // frequencies. Pages of a file stay in memory where there is room, but the system may take that back.
+        const double lines = 3 * 16 * static_cast<double>(std::max(method.frequencies_x, method.frequencies_y)) *
+                             sizeof(std::complex<float>) * static_cast<double>(thread_count());
+        plan.memory =
+            std::max(plan.memory, std::min(method.bytes, static_cast<double>(options.scratch.memory)) + lines);
+        plan.disk += result + (in_file ? method.bytes : 0);
+        plan.seconds += on_all_threads(method.operations * seconds_a_propagation_operation);
     }
     return plan;
 }

@@ -4,6 +4,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/optics/film/film.h"
+#include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/film/kernels.h"
 #include "hogel/optics/film/lens.h"
 
@@ -13,14 +14,13 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
                    Image& image) const {
     const Grid& picture = camera.picture;
     const Vec3 eye = band_.geometry.eye();
-    // About one point per film sample in each pixel.
-    const double film_pitch = size_.sines.step * eye.z;
-    const auto points = [&](double pitch) {
-        return static_cast<std::size_t>(std::max(2.0, std::ceil(pitch / film_pitch)));
+    // Gauss' two points in each part of a pixel that is about two film samples wide.
+    const auto points = [&](double pitch, double film_step) {
+        return 2 * static_cast<std::size_t>(std::max(1.0, std::ceil(0.5 * pitch / (film_step * eye.z))));
     };
-    const std::size_t sub_x = points(picture.pitch_x), sub_y = points(picture.pitch_y);
+    const std::size_t sub_x = points(picture.pitch_x, size_.x.step), sub_y = points(picture.pitch_y, size_.y.step);
     const auto place = [](std::size_t pixel, std::size_t point, std::size_t count) {
-        return static_cast<double>(pixel) + (static_cast<double>(point) + 0.5) / static_cast<double>(count) - 0.5;
+        return static_cast<double>(pixel) + gauss_place(point, count);
     };
     // The range of pixels that are shown, for each point within a pixel.
     struct Columns {
@@ -43,27 +43,25 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
     const auto scale = static_cast<float>(weight / (area * eye.z * static_cast<double>(sub_x * sub_y)));
     // A pixel's mean is taken first down the film's columns, on each of which n_x is constant and n_y = √(1 − n_x²) ·
     // (y − c_y)/√((y − c_y)² + c_z²), and then along the row.
-    std::vector<double> slopes(size_.sines.size_x);
+    std::vector<double> slopes(size_.x.count);
     for (std::size_t i = 0; i < slopes.size(); ++i) {
-        const double nx = size_.sines.first_x + static_cast<double>(i) * size_.sines.step;
+        const double nx = size_.x.low + static_cast<double>(i) * size_.x.step;
         slopes[i] = std::sqrt(1 - nx * nx);
     }
     core::parallel_for(picture.height, [&](std::size_t row) {
-        std::vector<float> line(size_.sines.size_x), pixels(picture.width);
+        std::vector<float> line(size_.x.count), pixels(picture.width);
         for (std::size_t b = 0; b < sub_y; ++b) {
             const double y = picture.y(place(row, b, sub_y)), dy = y - eye.y;
             if (!(y >= shown.bottom && y < shown.top)) continue;
-            add_down_columns(
-                intensity.data(), size_.sines.size_x, size_.sines.size_y,
-                {slopes, dy / std::hypot(dy, eye.z) / size_.sines.step, -size_.sines.first_y / size_.sines.step}, 1,
-                line);
+            add_down_columns(intensity.data(), size_.x.count, size_.y.count,
+                             {slopes, dy / std::hypot(dy, eye.z) / size_.y.step, -size_.y.low / size_.y.step}, 1, line);
         }
         const double dy = picture.y(static_cast<double>(row)) - eye.y;
         for (std::size_t a = 0; a < sub_x; ++a) {
             const Columns& c = columns[a];
             add_along_line(line,
                            {picture.x(place(c.begin, a, sub_x)) - eye.x, picture.pitch_x, dy * dy + eye.z * eye.z,
-                            1 / size_.sines.step, -size_.sines.first_x / size_.sines.step},
+                            1 / size_.x.step, -size_.x.low / size_.x.step},
                            scale, std::span(pixels).subspan(c.begin, c.end - c.begin));
         }
         for (std::size_t column = 0; column < picture.width; ++column) image.pixels(row, column, 0) += pixels[column];

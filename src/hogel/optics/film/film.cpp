@@ -7,6 +7,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/film/lens.h"
+#include "hogel/optics/film/resample.h"
 #include "hogel/optics/lines.h"
 
 namespace hogel::optics::film {
@@ -21,81 +22,120 @@ const InterpolationTable& interpolation() {
 
 std::size_t across(std::ptrdiff_t reach) { return static_cast<std::size_t>(2 * reach + 1); }
 
+// Samples of the film per resolution cell, for SixPoint.
+constexpr double film_density = 3.2;
+
+FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std::size_t frequencies, double cells) {
+    FilmAxis axis;
+    const double wanted = std::ceil(film_density * period * cells);
+    axis.size = math::good_fft_size(std::max(frequencies, static_cast<std::size_t>(wanted)));
+    axis.step = period / static_cast<double>(axis.size);
+    const double last = static_cast<double>(axis.size);
+    const double begin = std::clamp(std::floor((seen.low - first) / axis.step) - SixPoint::taps, 0.0, last),
+                 end = std::clamp(std::ceil((seen.high - first) / axis.step) + SixPoint::taps, 0.0, last);
+    axis.first = static_cast<std::size_t>(begin);
+    axis.count = static_cast<std::size_t>(end) - axis.first;
+    axis.low = first + begin * axis.step;
+    return axis;
+}
+
 }  // namespace
 
-FilmSize::FilmSize(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur)
-    : sines(sine_grid(band, hologram.plane, blur)),
-      reach_x(pupil_reach(pupil, band.geometry.eye().z, pupil_step(hologram.wavelength, sines.size_x, sines.step),
-                          sines.size_x)),
-      reach_y(pupil_reach(pupil, band.geometry.eye().z, pupil_step(hologram.wavelength, sines.size_y, sines.step),
-                          sines.size_y)),
-      band_rows(band.plane.height) {}
+FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur)
+    : sines(sine_grid(band, hologram.plane, pupil, blur)), band_rows(band.plane.height) {
+    const double wavelength = hologram.wavelength;
+    const PupilEdge edge(spread_window(sines, wavelength, pupil, blur), wavelength);
+    const double radius = frequency_radius(pupil, band.geometry.eye().z) + edge.reach();
+    const auto reach = [&](double period, std::size_t size) {
+        return std::min(static_cast<std::ptrdiff_t>(radius / pupil_step(wavelength, period)) + 1,
+                        static_cast<std::ptrdiff_t>(size - 1) / 2);
+    };
+    reach_x = reach(sines.period_x(), sines.size_x);
+    reach_y = reach(sines.period_y(), sines.size_y);
+    x = film_axis(sines.first_x, sines.period_x(), sines.x, across(reach_x), pupil / wavelength);
+    y = film_axis(sines.first_y, sines.period_y(), sines.y, across(reach_y), pupil / wavelength);
+    // The kernel of the resampling reaches a few samples beyond the band.
+    Grid around = band.plane;
+    around.width += 2 * InterpolationTable::taps;
+    around.height += 2 * InterpolationTable::taps;
+    const SineRanges lit = sines_of(band.geometry, around);
+    const auto index = [&](double sine, double first, std::size_t size) {
+        return static_cast<std::size_t>(std::clamp(std::ceil((sine - first) / sines.step), 0.0, double(size)));
+    };
+    lit_left = index(lit.x.low, sines.first_x, sines.size_x);
+    lit_right = index(lit.x.high, sines.first_x, sines.size_x);
+    lit_low = index(lit.y.low, sines.first_y, sines.size_y);
+    lit_high = index(lit.y.high, sines.first_y, sines.size_y);
+}
 
 double FilmSize::pupil_bytes() const {
     return static_cast<double>(sizeof(Complex) * across(reach_x) * across(reach_y));
 }
 
 double FilmSize::work_bytes() const {
-    const std::size_t to_pupil = sines.size_x * (band_rows + across(reach_y)), to_film = sines.size_y * across(reach_x);
+    const std::size_t to_pupil = (lit_right - lit_left) * band_rows + sines.size_x * across(reach_y),
+                      to_film = y.count * across(reach_x);
     return static_cast<double>(sizeof(Complex) * std::max(to_pupil, to_film)) + pupil_bytes();
 }
 
-Film::Film(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur)
+double FilmSize::intensity_bytes() const { return static_cast<double>(sizeof(float) * x.count * y.count); }
+
+Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur)
     : band_(band),
       hologram_(hologram),
       size_(band, hologram, pupil, blur),
       along_(size_.sines.size_x),
-      down_(size_.sines.size_y) {}
+      down_(size_.sines.size_y),
+      film_along_(size_.x.size),
+      film_down_(size_.y.size) {}
 
 Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
     const Grid& plane = band_.plane;
+    const SineGrid& sines = size_.sines;
     const InterpolationTable& table = interpolation();
     // Two passes, each along one axis: first to uniform n_x on the band's rows, then down the columns, on which n_x is
     // constant, to uniform n_y. The intermediate result is transposed, so that both passes run along memory.
-    Array<Complex, 2> columns({size_.sines.size_x, plane.height});
+    const std::size_t lit_columns = size_.lit_right - size_.lit_left, lit_rows = size_.lit_high - size_.lit_low;
+    Array<Complex, 2> columns({lit_columns, plane.height});
     const Vec3 eye = band_.geometry.eye();
-    // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
-    std::vector<double> slopes(size_.sines.size_x);
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-        const double nx = size_.sines.first_x + static_cast<double>(i) * size_.sines.step;
-        slopes[i] = nx / std::sqrt(1 - nx * nx);
-    }
-    const double middle_x = plane.column(eye.x), middle_y = plane.row(eye.y);
+    const double left = sines.first_x + static_cast<double>(size_.lit_left) * sines.step,
+                 low = sines.first_y + static_cast<double>(size_.lit_low) * sines.step;
     core::parallel_for(blocks_of(plane.height), [&](std::size_t block) {
-        for (std::size_t row = block * lines_together; row < std::min((block + 1) * lines_together, plane.height);
-             ++row) {
-            const double reach = std::hypot(plane.y(static_cast<double>(row)) - eye.y, eye.z) / plane.pitch_x;
-            for (std::size_t i = 0; i < size_.sines.size_x; ++i)
-                columns(i, row) = table.at(&band(row, 0), plane.width, middle_x + slopes[i] * reach);
+        const std::size_t first = block * lines_together, count = std::min(lines_together, plane.height - first);
+        Array<Complex, 2> lines({count, stride_of(lit_columns)});
+        for (std::size_t r = 0; r < count; ++r) {
+            // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
+            const double reach = std::hypot(plane.y(static_cast<double>(first + r)) - eye.y, eye.z);
+            resample_tangents({&band(first + r, 0), plane.width},
+                              {left, sines.step, 1, reach / plane.pitch_x, plane.column(eye.x)}, table,
+                              {&lines(r, 0), lit_columns});
         }
+        for (std::size_t i = 0; i < lit_columns; ++i)
+            for (std::size_t r = 0; r < count; ++r) columns(i, first + r) = lines(r, i);
     });
     // Transforms each column and keeps only the frequencies within the pupil.
-    Array<Complex, 2> half({across(size_.reach_y), size_.sines.size_x});
-    const double reach = eye.z / plane.pitch_y;
-    core::parallel_for(blocks_of(size_.sines.size_x), [&](std::size_t block) {
-        const std::size_t first = block * lines_together, count = std::min(lines_together, size_.sines.size_x - first);
-        Array<Complex, 2> lines({count, stride_of(size_.sines.size_y)});
+    Array<Complex, 2> half({across(size_.reach_y), sines.size_x});
+    core::parallel_for(blocks_of(lit_columns), [&](std::size_t block) {
+        const std::size_t first = block * lines_together, count = std::min(lines_together, lit_columns - first);
+        Array<Complex, 2> lines({count, stride_of(sines.size_y)});
         for (std::size_t c = 0; c < count; ++c) {
-            const std::size_t i = first + c;
-            const double nx = size_.sines.first_x + static_cast<double>(i) * size_.sines.step;
-            for (std::size_t j = 0; j < size_.sines.size_y; ++j) {
-                const double ny = size_.sines.first_y + static_cast<double>(j) * size_.sines.step;
-                lines(c, j) =
-                    table.at(&columns(i, 0), plane.height, middle_y - reach * ny / std::sqrt(1 - nx * nx - ny * ny));
-            }
+            const double nx = left + static_cast<double>(first + c) * sines.step;
+            resample_tangents({&columns(first + c, 0), plane.height},
+                              {low, sines.step, 1 - nx * nx, -eye.z / plane.pitch_y, plane.row(eye.y)}, table,
+                              {&lines(c, size_.lit_low), lit_rows});
             down_.forward(&lines(c, 0));
         }
         for (std::ptrdiff_t k = -size_.reach_y; k <= size_.reach_y; ++k)
             for (std::size_t c = 0; c < count; ++c)
-                half(k + size_.reach_y, first + c) = lines(c, wrapped(k, size_.sines.size_y));
+                half(k + size_.reach_y, size_.lit_left + first + c) = lines(c, wrapped(k, sines.size_y));
     });
     Array<Complex, 2> wave({across(size_.reach_y), across(size_.reach_x)});
     core::parallel_for(wave.extent(0), [&](std::size_t row) {
-        Array<Complex, 1> line({size_.sines.size_x});
+        Array<Complex, 1> line({sines.size_x});
         std::ranges::copy(half[row].elements(), line.data());
         along_.forward(line.data());
         for (std::ptrdiff_t k = -size_.reach_x; k <= size_.reach_x; ++k)
-            wave(row, k + size_.reach_x) = line(wrapped(k, size_.sines.size_x));
+            wave(row, k + size_.reach_x) = line(wrapped(k, sines.size_x));
     });
     return wave;
 }
@@ -111,8 +151,8 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
     const std::ptrdiff_t reach_x = std::min(lens.reach_x(), size_.reach_x),
                          reach_y = std::min(lens.reach_y(), size_.reach_y);
     const std::size_t width = across(reach_x);
-    Array<Complex, 2> opening({across(reach_y), width}), columns({size_.sines.size_y, width});
-    std::vector<float> share(size_.sines.size_x);
+    Array<Complex, 2> opening({across(reach_y), width}), columns({size_.y.count, width});
+    std::vector<float> share(size_.x.count);
     for (std::size_t b = 0; b < lens.nodes_y; ++b)
         for (std::size_t a = 0; a < lens.nodes_x; ++a) {
             core::parallel_for(opening.extent(0), [&](std::size_t y) {
@@ -128,31 +168,31 @@ void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<
             // First the few columns of the opening, then each row, whose intensity is added at once.
             core::parallel_for(blocks_of(width), [&](std::size_t block) {
                 const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
-                Array<Complex, 2> lines({count, stride_of(size_.sines.size_y)});
+                Array<Complex, 2> lines({count, stride_of(size_.y.size)});
                 for (std::size_t y = 0; y < opening.extent(0); ++y) {
-                    const std::size_t at = wrapped(static_cast<std::ptrdiff_t>(y) - reach_y, size_.sines.size_y);
+                    const std::size_t at = wrapped(static_cast<std::ptrdiff_t>(y) - reach_y, size_.y.size);
                     for (std::size_t c = 0; c < count; ++c) lines(c, at) = opening(y, first + c);
                 }
-                for (std::size_t c = 0; c < count; ++c) down_.backward(&lines(c, 0));
-                for (std::size_t j = 0; j < size_.sines.size_y; ++j)
-                    for (std::size_t c = 0; c < count; ++c) columns(j, first + c) = lines(c, j);
+                for (std::size_t c = 0; c < count; ++c) film_down_.backward(&lines(c, 0));
+                for (std::size_t j = 0; j < size_.y.count; ++j)
+                    for (std::size_t c = 0; c < count; ++c) columns(j, first + c) = lines(c, size_.y.first + j);
             });
-            for (std::size_t i = 0; i < size_.sines.size_x; ++i)
-                share[i] = weight(i, size_.sines.size_x, a, lens.nodes_x);
-            core::parallel_for(blocks_of(size_.sines.size_y), [&](std::size_t block) {
-                Array<Complex, 1> line({size_.sines.size_x});
-                for (std::size_t j = block * lines_together;
-                     j < std::min((block + 1) * lines_together, size_.sines.size_y); ++j) {
-                    const float down = weight(j, size_.sines.size_y, b, lens.nodes_y);
+            for (std::size_t i = 0; i < size_.x.count; ++i) share[i] = weight(i, size_.x.count, a, lens.nodes_x);
+            core::parallel_for(blocks_of(size_.y.count), [&](std::size_t block) {
+                Array<Complex, 1> line({size_.x.size});
+                for (std::size_t j = block * lines_together; j < std::min((block + 1) * lines_together, size_.y.count);
+                     ++j) {
+                    const float down = weight(j, size_.y.count, b, lens.nodes_y);
                     if (down == 0) continue;
                     std::ranges::fill(line.elements(), Complex(0));
                     const auto middle = static_cast<std::size_t>(reach_x);
                     std::copy_n(&columns(j, middle), middle + 1, line.data());
-                    std::copy_n(&columns(j, 0), middle, line.data() + size_.sines.size_x - middle);
-                    along_.backward(line.data());
+                    std::copy_n(&columns(j, 0), middle, line.data() + size_.x.size - middle);
+                    film_along_.backward(line.data());
                     float* row = &intensity(j, 0);
-                    for (std::size_t i = 0; i < size_.sines.size_x; ++i)
-                        row[i] += down * share[i] * (line(i).real() * line(i).real() + line(i).imag() * line(i).imag());
+                    const Complex* seen = line.data() + size_.x.first;
+                    for (std::size_t i = 0; i < size_.x.count; ++i)
+                        row[i] += down * share[i] * (seen[i].real() * seen[i].real() + seen[i].imag() * seen[i].imag());
                 }
             });
         }

@@ -4,39 +4,55 @@
 #include "hogel/camera.h"
 #include "hogel/image.h"
 #include "hogel/math/fft.h"
-#include "hogel/optics/narrow_band/narrow_band.h"
+#include "hogel/optics/narrow_band/band_grid.h"
 #include "hogel/optics/sine_grid.h"
 
 namespace hogel::optics::film {
 
+/// One axis of the film that is exposed: samples of a transform of `size` over the period of the sines, of which those
+/// that see the hologram are kept.
+struct FilmAxis {
+    std::size_t size = 0;  ///< of the transform
+    std::size_t first = 0, count = 0;
+    double low = 0, step = 0;  ///< sine of the first that is kept, and between samples
+};
+
 /// The size of one eye's film.
 struct FilmSize {
-    SineGrid sines;
+    SineGrid sines;                           ///< at which the band is resampled
     std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< of the pupil, in steps of the transform's frequencies
+    FilmAxis x, y;
+    /// The columns and the rows of the sines that the band lights, [begin, end).
+    std::size_t lit_left = 0, lit_right = 0, lit_low = 0, lit_high = 0;
     std::size_t band_rows = 0;
 
-    FilmSize(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
+    FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur);
     /// Bytes of a pupil's wave, and the maximum that Film::pupil_wave() and expose() need in addition to their results.
     double pupil_bytes() const;
     double work_bytes() const;
+    /// Bytes of a camera's intensities.
+    double intensity_bytes() const;
 };
 
 /// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
 /// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
 /// section 4). The pupil covers a quarter of the band in x and in y, so its wave is small, and both transforms are
-/// limited to it. Each step works on all threads.
+/// limited to it. The period of the sines is so wide that no light that a camera follows wraps around (SpreadWindow);
+/// of the sines only those that the band lights are computed, and of the film only what sees the hologram. Each step
+/// works on all threads.
 class Film {
   public:
     /// @param pupil  the widest of the cameras that will be used, at most that of the band
     /// @param blur   the widest defocus_blur() of these cameras
-    Film(const narrow_band::NarrowBand& band, const FieldGrid& hologram, double pupil, double blur);
+    Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur);
 
-    const SineGrid& sines() const { return size_.sines; }
+    /// A film that is not exposed yet.
+    Array<float, 2> unexposed() const { return Array<float, 2>({size_.y.count, size_.x.count}); }
 
-    /// The wave over the pupil, [row][column] of frequencies −reach … reach of a transform of sines() samples.
+    /// The wave over the pupil, [row][column] of frequencies −reach … reach of a transform of the sines.
     Array<std::complex<float>, 2> pupil_wave(View<const std::complex<float>, 2> band) const;
 
-    /// Adds the intensity on a camera's film in the film's sampling, [sines().size_y][sines().size_x].
+    /// Adds the intensity on a camera's film, of the shape of unexposed().
     void expose(View<const std::complex<float>, 2> pupil_wave, const Camera& camera, View<float, 2> intensity) const;
 
     /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane.
@@ -45,10 +61,11 @@ class Film {
                  Image& picture) const;
 
   private:
-    narrow_band::NarrowBand band_;
+    narrow_band::BandGrid band_;
     FieldGrid hologram_;
     FilmSize size_;
-    math::Fft1 along_, down_;
+    math::Fft1 along_, down_;            // of the sines
+    math::Fft1 film_along_, film_down_;  // of the film
 };
 
 }  // namespace hogel::optics::film

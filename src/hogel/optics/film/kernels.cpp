@@ -12,7 +12,7 @@ void add_down_columns_plain(const float* values, std::size_t stride, std::size_t
                             float weight, std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
         const double row = places.offset + places.scale * places.slopes[i];
-        out[i] += weight * cubic_at(height, row, [&](std::size_t j) { return values[j * stride + i]; });
+        out[i] += weight * smooth_at(height, row, [&](std::size_t j) { return values[j * stride + i]; });
     }
 }
 
@@ -20,7 +20,7 @@ void add_along_line_plain(std::span<const float> line, const LinePlaces& places,
     for (std::size_t k = 0; k < out.size(); ++k) {
         const double d = places.first + places.pitch * static_cast<double>(k), r = std::sqrt(d * d + places.square);
         const float value =
-            cubic_at(line.size(), places.offset + places.scale * (d / r), [&](std::size_t i) { return line[i]; });
+            smooth_at(line.size(), places.offset + places.scale * (d / r), [&](std::size_t i) { return line[i]; });
         out[k] += weight * static_cast<float>(r * r * r) * std::max(value, 0.0f);
     }
 }

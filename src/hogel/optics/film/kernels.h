@@ -6,9 +6,8 @@
 
 namespace hogel::optics::film {
 
-/// The inner loops that resample a film to a picture. Plain and fast twins agree to rounding. Both use Catmull–Rom
-/// interpolation between four neighbours, because linear interpolation would be too coarse for intensities, which have
-/// two samples per period of their finest wave. Values outside are zero.
+/// The inner loops that resample a film to a picture, by SixPoint interpolation. Plain and fast twins agree to
+/// rounding. Values are zero where a neighbour would be outside.
 
 /// out[i] += weight · the value of column i of `values` (`height` rows of `stride` floats) at row
 /// offset + scale · slopes[i].

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/optics/film/kernels.h"
+#include "hogel/optics/film/resample.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "hogel/core/test_targets.h"
@@ -48,24 +50,43 @@ TEST_P(FilmKernels, vector_and_plain_lines_agree) {
     }
 }
 
-// Cubic interpolation reproduces parabolas exactly, except outside, where values are zero.
-TEST_P(FilmKernels, keep_parabolas) {
+// Constants are kept, and waves up to the frequency of a film's intensities, 1/3.2 cycles a sample; where a neighbour
+// is missing, values are zero.
+TEST_P(FilmKernels, keep_waves) {
     std::vector<float> line(40);
-    for (std::size_t i = 0; i < line.size(); ++i) line[i] = 3 + 0.01f * static_cast<float>(i * i);
-    for (double at : {1.0, 5.25, 20.5, 36.99}) {
-        std::vector<float> value(1);
-        add_along_line(line, {0, 0, 1, 1, at}, 1, value);  // d = 0: at the offset itself, r = 1
-        EXPECT_NEAR(value[0], 3 + 0.01 * at * at, 1e-4) << at;
-        std::vector<float> down(1);
-        const double slope = 1;
-        add_down_columns(line.data(), 1, line.size(), {std::span(&slope, 1), at - 2, 2}, 1, down);
-        EXPECT_NEAR(down[0], 3 + 0.01 * at * at, 1e-4) << at;
+    for (const auto& [frequency, tolerance] : {std::pair{0.0, 2e-6}, {0.05, 3e-3}, {0.2, 3e-3}, {0.25, 2e-2}}) {
+        const auto wave = [&](double at) { return 3 + std::cos(6.283185307179586 * frequency * at); };
+        for (std::size_t i = 0; i < line.size(); ++i) line[i] = static_cast<float>(wave(static_cast<double>(i)));
+        for (double at : {2.0, 5.25, 20.5, 36.99}) {
+            std::vector<float> value(1);
+            add_along_line(line, {0, 0, 1, 1, at}, 1, value);  // d = 0: at the offset itself, r = 1
+            EXPECT_NEAR(value[0], wave(at), tolerance) << at;
+            std::vector<float> down(1);
+            const double slope = 1;
+            add_down_columns(line.data(), 1, line.size(), {std::span(&slope, 1), at - 2, 2}, 1, down);
+            EXPECT_NEAR(down[0], wave(at), tolerance) << at;
+        }
     }
-    for (double at : {-3.0, 0.5, 38.5, 1e9}) {
+    for (double at : {-3.0, 1.9, 37.1, 1e9}) {
         std::vector<float> value(1);
         add_along_line(line, {0, 0, 1, 1, at}, 1, value);
         EXPECT_EQ(value[0], 0) << at;
     }
+}
+
+// Positions inside, at both ends and outside, going forwards and backwards.
+TEST_P(FilmKernels, vector_and_plain_resampling_agree) {
+    const InterpolationTable table;
+    std::vector<std::complex<float>> line;
+    for (float value : noise(90)) line.emplace_back(value, 0.3f - value * value);
+    for (const double scale : {55.0, -70.0})
+        for (std::size_t count = 0; count <= 150; ++count) {
+            const TangentPlaces places{-0.8, 1.6 / static_cast<double>(count + 1), 1.2, scale, 44.3};
+            std::vector<std::complex<float>> fast(count), plain(count);
+            resample_tangents(line, places, table, fast);
+            resample_tangents_plain(line, places, table, plain);
+            for (std::size_t i = 0; i < count; ++i) EXPECT_LT(std::abs(fast[i] - plain[i]), 1e-5f) << count << ' ' << i;
+        }
 }
 
 }  // namespace

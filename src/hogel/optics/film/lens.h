@@ -8,6 +8,7 @@
 
 #include "hogel/camera.h"
 #include "hogel/optics/phase_walk.h"
+#include "hogel/optics/pupil_edge.h"
 #include "hogel/optics/sine_grid.h"
 
 namespace hogel::optics::film {
@@ -26,15 +27,14 @@ inline double path(double sine_x, double sine_y, double distance_z, double delta
 /// enters the pupil at δ has a frequency that differs from δ/λ by at most 3δ²/4Rλ, for eyes up to 55° off the axis.
 inline double frequency_radius(double pupil, double distance) { return 0.5 * pupil * (1 + 0.75 * pupil / distance); }
 
-/// frequency_radius() in steps of that plane.
-inline std::ptrdiff_t pupil_reach(double pupil, double distance, double step, std::size_t size) {
-    return std::min(static_cast<std::ptrdiff_t>(frequency_radius(pupil, distance) / step) + 1,
-                    static_cast<std::ptrdiff_t>(size - 1) / 2);
-}
+/// The distance in the pupil's plane, metres, between the frequencies of a transform over a range of sines.
+inline double pupil_step(double wavelength, double period) { return wavelength / period; }
 
-/// The distance in the pupil's plane, metres, between the frequencies of a transform of `size` samples.
-inline double pupil_step(double wavelength, std::size_t size, double sine_step) {
-    return wavelength / (static_cast<double>(size) * sine_step);
+/// The window of the point spread of a camera on a film.
+inline SpreadWindow spread_window(const SineGrid& sines, double wavelength, double pupil, double blur) {
+    SpreadWindow window(sines.x.span(), sines.y.span(), blur, wavelength / pupil);
+    window.fit(sines.room() - 0.5 * blur);
+    return window;
 }
 
 /// A camera's lens at the frequencies of the transform. Around the direction n, light that enters the pupil at δ has
@@ -49,36 +49,33 @@ class FilmLens {
           wavelength_(wavelength),
           camera_(camera),
           radius_(0.5 * camera.pupil),
-          step_x_(pupil_step(wavelength, sines.size_x, sines.step)),
-          step_y_(pupil_step(wavelength, sines.size_y, sines.step)) {
-        nodes_x = nodes_for(span_x(), 0);
-        nodes_y = nodes_for(0, span_y());
+          step_x_(pupil_step(wavelength, sines.period_x())),
+          step_y_(pupil_step(wavelength, sines.period_y())),
+          window_(spread_window(sines, wavelength, camera.pupil, defocus_blur(camera))),
+          edge_(window_, wavelength) {
+        nodes_x = nodes_for(sines.x.span(), 0);
+        nodes_y = nodes_for(0, sines.y.span());
     }
 
     std::size_t nodes_x = 1, nodes_y = 1;
 
     // The sine in the middle of a node's part of the film.
     double node_x(std::size_t i) const {
-        return sines_.first_x + span_x() * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes_x);
+        return sines_.x.low + sines_.x.span() * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes_x);
     }
     double node_y(std::size_t j) const {
-        return sines_.first_y + span_y() * (static_cast<double>(j) + 0.5) / static_cast<double>(nodes_y);
+        return sines_.y.low + sines_.y.span() * (static_cast<double>(j) + 0.5) / static_cast<double>(nodes_y);
     }
 
-    // The largest offset of the disc from the middle of the pupil, in steps.
-    std::ptrdiff_t reach_x() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_x_, sines_.size_x); }
-    std::ptrdiff_t reach_y() const { return pupil_reach(camera_.pupil, camera_.eye.z, step_y_, sines_.size_y); }
+    // The largest offset from the middle of the pupil that passes light, in steps.
+    std::ptrdiff_t reach_x() const { return reach(step_x_, sines_.size_x); }
+    std::ptrdiff_t reach_y() const { return reach(step_y_, sines_.size_y); }
 
-    // Area of the sampled opening, m².
+    // The area, m², by which intensities are divided: that of the disc. Where the window is narrower than the hologram,
+    // the light that it leaves out is made up for by what is in it.
     double area() const {
-        const Direction middle(sines_.first_x + 0.5 * span_x(), sines_.first_y + 0.5 * span_y());
-        double sum = 0;
-        for (std::ptrdiff_t row = -reach_y(); row <= reach_y(); ++row)
-            for (std::ptrdiff_t column = -reach_x(); column <= reach_x(); ++column) {
-                const double inside = passes(middle, static_cast<double>(column), static_cast<double>(row));
-                sum += inside * inside;
-            }
-        return sum * step_x_ * step_y_;
+        const double lost = light_left_out(window_, sines_.x.span(), sines_.y.span(), wavelength_ / camera_.pupil);
+        return std::numbers::pi * radius_ * radius_ * (1 - lost);
     }
 
     // Calls emit(column offset, factor) along a row of the pupil, for light from the direction (n_x, n_y).
@@ -87,7 +84,7 @@ class FilmLens {
         const Direction from(nx, ny);
         const double scale = 1 / (static_cast<double>(sines_.size_x) * static_cast<double>(sines_.size_y));
         const double dy = step_y_ * static_cast<double>(row);
-        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + std::max(step_x_, step_y_);
+        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach();
         if (std::abs(dy) > widest) return;
         const auto last =
             std::min(reach_x(), static_cast<std::ptrdiff_t>(std::sqrt(widest * widest - dy * dy) / step_x_));
@@ -129,19 +126,19 @@ class FilmLens {
     }
 
     // The amplitude transmission at a frequency (in steps). Within the disc it is (cos θ_n/cos θ_m)², which combines
-    // the density of frequencies there and the intensity of light from a nearer point. The edge falls over one sample,
-    // so that the disc has its area on a coarse grid too.
+    // the density of frequencies there and the intensity of light from a nearer point.
     double passes(const Direction& n, double column, double row) const {
-        const double edge = std::max(step_x_, step_y_);
         const Place at = place(n, step_x_ * column, step_y_ * row);
         const double weight = n.cosine * n.cosine / (at.cosine * at.cosine);
-        const double square = at.x * at.x + at.y * at.y, inner = std::max(radius_ - 0.5 * edge, 0.0);
-        if (square < inner * inner) return weight;
-        return weight * std::clamp((radius_ - std::sqrt(square)) / edge + 0.5, 0.0, 1.0);
+        const double square = at.x * at.x + at.y * at.y, inner = radius_ - edge_.reach();
+        if (inner > 0 && square < inner * inner) return weight;
+        return weight * edge_.transmission(radius_ - std::sqrt(square));
     }
 
-    double span_x() const { return static_cast<double>(sines_.size_x) * sines_.step; }
-    double span_y() const { return static_cast<double>(sines_.size_y) * sines_.step; }
+    std::ptrdiff_t reach(double step, std::size_t size) const {
+        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach();
+        return std::min(static_cast<std::ptrdiff_t>(widest / step) + 1, static_cast<std::ptrdiff_t>(size - 1) / 2);
+    }
 
     // Phase in cycles, for a plane in focus `ratio` times as far away as the hologram.
     double defocus(double nx, double ny, double ratio, double dx, double dy) const {
@@ -161,7 +158,7 @@ class FilmLens {
     }
 
     std::size_t nodes_for(double ux, double uy) const {
-        const double mid_x = sines_.first_x + 0.5 * span_x(), mid_y = sines_.first_y + 0.5 * span_y();
+        const double mid_x = 0.5 * (sines_.x.low + sines_.x.high), mid_y = 0.5 * (sines_.y.low + sines_.y.high);
         double change = 0;
         for (double a : {0.0, 0.25, 0.5, 0.75}) {
             const double dx = radius_ * std::cos(std::numbers::pi * a), dy = radius_ * std::sin(std::numbers::pi * a);
@@ -179,6 +176,8 @@ class FilmLens {
     double wavelength_;
     const Camera& camera_;
     double radius_, step_x_, step_y_;
+    SpreadWindow window_;
+    PupilEdge edge_;
 };
 
 }  // namespace hogel::optics::film

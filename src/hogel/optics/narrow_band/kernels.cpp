@@ -1,14 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/optics/narrow_band/kernels.h"
 
+#include <cmath>
+
+#include "hogel/optics/phase_walk.h"
+
 namespace hogel::optics::narrow_band {
 
-void weighted_rows_plain(const std::complex<float>* rows, std::size_t stride,
-                         std::span<const std::complex<float>> weights, std::span<std::complex<float>> out) {
-    for (std::size_t x = 0; x < out.size(); ++x) {
-        std::complex<float> sum = 0;
-        for (std::size_t r = 0; r < weights.size(); ++r) sum += weights[r] * rows[r * stride + x];
-        out[x] = sum;
+void decimated_columns_plain(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+                             std::size_t out_stride, std::size_t count) {
+    for (std::size_t m = 0; m < count; ++m)
+        for (std::size_t x = 0; x < how.width; ++x) {
+            std::complex<float> sum = 0;
+            for (std::size_t k = 0; k < how.taps.size(); ++k) {
+                const std::ptrdiff_t r = how.first + static_cast<std::ptrdiff_t>(m * how.step + k);
+                if (r < 0 || r >= static_cast<std::ptrdiff_t>(how.phases.size())) continue;
+                const auto row = static_cast<std::size_t>(r);
+                sum += how.taps[k] * times(how.phases[row], rows[row * how.stride + x]);
+            }
+            out[m * out_stride + x] = sum;
+        }
+}
+
+void path_phases_plain(const PathPhases& paths, std::span<std::complex<float>> out) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double d = paths.first + static_cast<double>(i) * paths.pitch;
+        out[i] = std::complex<float>(unit_phasor(std::sqrt(d * d + paths.square) / paths.wavelength - paths.off));
     }
 }
 
@@ -22,10 +39,7 @@ void decimated_line_plain(const std::complex<float>* line, std::size_t step, std
 }
 
 void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out) {
-    // Written out, because the product of std::complex checks for infinities.
-    for (std::size_t x = 0; x < out.size(); ++x)
-        out[x] = {a[x].real() * b[x].real() - a[x].imag() * b[x].imag(),
-                  a[x].real() * b[x].imag() + a[x].imag() * b[x].real()};
+    for (std::size_t x = 0; x < out.size(); ++x) out[x] = times(a[x], b[x]);
 }
 
 }  // namespace hogel::optics::narrow_band

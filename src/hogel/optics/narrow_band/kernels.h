@@ -11,11 +11,27 @@ namespace hogel::optics::narrow_band {
 
 /// The inner loops of the narrow-band camera. Plain and fast twins agree to rounding.
 
-/// out[x] = Σ_r weights[r] · rows[r·stride + x], for every x of `out`: the low-pass down the columns of a tile.
-void weighted_rows_plain(const std::complex<float>* rows, std::size_t stride,
-                         std::span<const std::complex<float>> weights, std::span<std::complex<float>> out);
-void weighted_rows(const std::complex<float>* rows, std::size_t stride, std::span<const std::complex<float>> weights,
-                   std::span<std::complex<float>> out);
+/// The low-pass down the columns of a tile, which keeps every step-th row:
+/// out[m·out_stride + x] = Σ_k taps[k] · phases[r] · rows[r·stride + x], r = first + m·step + k, over the rows
+/// 0 … phases.size() − 1, for every m < count and x < width. `first` may be negative.
+struct ColumnDecimation {
+    std::size_t width = 0, stride = 0, step = 1;
+    std::ptrdiff_t first = 0;
+    std::span<const float> taps;
+    std::span<const std::complex<float>> phases;
+};
+void decimated_columns_plain(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+                             std::size_t out_stride, std::size_t count);
+void decimated_columns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+                       std::size_t out_stride, std::size_t count);
+
+/// out[i] = e^{2πi (√(d² + square)/wavelength − off)}, d = first + i · pitch: the phase of the paths from the points of
+/// a line, in float precision.
+struct PathPhases {
+    double first = 0, pitch = 0, square = 0, wavelength = 1, off = 0;
+};
+void path_phases_plain(const PathPhases& paths, std::span<std::complex<float>> out);
+void path_phases(const PathPhases& paths, std::span<std::complex<float>> out);
 
 /// out[n] = Σ_k taps[2k] · line[n·step + k]: the low-pass along a line that keeps every step-th value. Each tap is
 /// stored twice, for the real and the imaginary part.

@@ -6,6 +6,9 @@
 // Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "hogel/optics/narrow_band/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,10 +18,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 // A vector of one lane cannot hold a complex number.
-void WeightedRows(const std::complex<float>* rows, std::size_t stride, std::span<const std::complex<float>> weights,
-                  std::span<std::complex<float>> out) {
-    weighted_rows_plain(rows, stride, weights, out);
+void DecimatedColumns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+                      std::size_t out_stride, std::size_t count) {
+    decimated_columns_plain(rows, how, out, out_stride, count);
 }
+
+void MakePathPhases(const PathPhases& paths, std::span<std::complex<float>> out) { path_phases_plain(paths, out); }
 
 void DecimatedLine(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
                    std::span<std::complex<float>> out) {
@@ -37,35 +42,105 @@ HWY_INLINE V join(D d, V a, V b) {
     return hn::MulAdd(sign, hn::Shuffle2301(b), a);
 }
 
+// The maximum number of outputs to which one row contributes, as many as LowPass is wide.
+constexpr std::size_t max_outputs = 9;
+
+// Decimates `vectors` vectors of columns. Rows are taken one after the other; each is multiplied by its phase and added
+// to the outputs that it contributes to, which stay in registers. After `step` rows the first output is complete.
 template <std::size_t vectors>
-HWY_INLINE void rows_block(const float* rows, std::size_t stride, std::span<const std::complex<float>> weights,
-                           float* out) {
+HWY_INLINE void columns_block(const float* rows, const ColumnDecimation& how, const float* by_row, float* out,
+                              std::size_t out_stride, std::size_t count) {
     const hn::ScalableTag<float> d;
     const std::size_t lanes = hn::Lanes(d);
     using V = hn::Vec<decltype(d)>;
-    V a[vectors], b[vectors];
-    for (std::size_t i = 0; i < vectors; ++i) a[i] = b[i] = hn::Zero(d);
-    for (std::size_t r = 0; r < weights.size(); ++r) {
-        const V re = hn::Set(d, weights[r].real()), im = hn::Set(d, weights[r].imag());
+    V sums[max_outputs][vectors];
+    for (auto& sum : sums)
+        for (V& part : sum) part = hn::Zero(d);
+    const auto height = static_cast<std::ptrdiff_t>(how.phases.size());
+    const auto step = static_cast<std::ptrdiff_t>(how.step);
+    // Rows that only outputs before the first need are skipped with it.
+    const std::ptrdiff_t groups = static_cast<std::ptrdiff_t>(count + max_outputs) - 1;
+    for (std::ptrdiff_t g = 0; g < groups; ++g) {
+        const std::ptrdiff_t from = how.first + g * step;
+        for (std::ptrdiff_t r = std::max<std::ptrdiff_t>(from, 0); r < std::min(from + step, height); ++r) {
+            const float* taps = by_row + static_cast<std::size_t>(r - from) * max_outputs;
+            const std::complex<float> phase = how.phases[static_cast<std::size_t>(r)];
+            const V re = hn::Set(d, phase.real()), im = hn::Set(d, phase.imag());
+            const float* row = rows + 2 * static_cast<std::size_t>(r) * how.stride;
+            V z[vectors];
+            for (std::size_t i = 0; i < vectors; ++i) {
+                const V value = hn::LoadU(d, row + i * lanes);
+                z[i] = join(d, hn::Mul(re, value), hn::Mul(im, value));
+            }
+            for (std::size_t t = 0; t < max_outputs; ++t) {
+                const V tap = hn::Set(d, taps[t]);
+                for (std::size_t i = 0; i < vectors; ++i) sums[t][i] = hn::MulAdd(tap, z[i], sums[t][i]);
+            }
+        }
+        const std::ptrdiff_t done = g - static_cast<std::ptrdiff_t>(max_outputs) + 1;
+        if (done >= 0)
+            for (std::size_t i = 0; i < vectors; ++i)
+                hn::StoreU(sums[0][i], d, out + 2 * static_cast<std::size_t>(done) * out_stride + i * lanes);
         for (std::size_t i = 0; i < vectors; ++i) {
-            const V z = hn::LoadU(d, rows + r * stride + i * lanes);
-            a[i] = hn::MulAdd(re, z, a[i]);
-            b[i] = hn::MulAdd(im, z, b[i]);
+            for (std::size_t t = 0; t + 1 < max_outputs; ++t) sums[t][i] = sums[t + 1][i];
+            sums[max_outputs - 1][i] = hn::Zero(d);
         }
     }
-    for (std::size_t i = 0; i < vectors; ++i) hn::StoreU(join(d, a[i], b[i]), d, out + i * lanes);
 }
 
-void WeightedRows(const std::complex<float>* rows, std::size_t stride, std::span<const std::complex<float>> weights,
-                  std::span<std::complex<float>> out) {
-    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
+void DecimatedColumns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+                      std::size_t out_stride, std::size_t count) {
+    if (how.taps.size() > max_outputs * how.step) return decimated_columns_plain(rows, how, out, out_stride, count);
+    // Row j of a group of `step` rows is tap j + (max_outputs − 1 − t)·step of output t, counted from the oldest.
+    std::vector<float> by_row(how.step * max_outputs);
+    for (std::size_t j = 0; j < how.step; ++j)
+        for (std::size_t t = 0; t < max_outputs; ++t) {
+            const std::size_t k = j + (max_outputs - 1 - t) * how.step;
+            if (k < how.taps.size()) by_row[j * max_outputs + t] = how.taps[k];
+        }
+    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>()), floats = 2 * how.width;
     const auto* in = reinterpret_cast<const float*>(rows);
-    auto* to = reinterpret_cast<float*>(out.data());
-    const std::size_t floats = 2 * out.size();
+    auto* to = reinterpret_cast<float*>(out);
     std::size_t x = 0;
-    for (; x + 4 * lanes <= floats; x += 4 * lanes) rows_block<4>(in + x, 2 * stride, weights, to + x);
-    for (; x + lanes <= floats; x += lanes) rows_block<1>(in + x, 2 * stride, weights, to + x);
-    if (x < floats) weighted_rows_plain(rows + x / 2, stride, weights, out.subspan(x / 2));
+    // Two vectors where there are registers for them.
+    if constexpr (HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86)
+        for (; x + 2 * lanes <= floats; x += 2 * lanes)
+            columns_block<2>(in + x, how, by_row.data(), to + x, out_stride, count);
+    for (; x + lanes <= floats; x += lanes) columns_block<1>(in + x, how, by_row.data(), to + x, out_stride, count);
+    if (x == floats) return;
+    ColumnDecimation rest = how;
+    rest.width = (floats - x) / 2;
+    decimated_columns_plain(rows + x / 2, rest, out + x / 2, out_stride, count);
+}
+
+void MakePathPhases(const PathPhases& paths, std::span<std::complex<float>> out) {
+    const hn::ScalableTag<double> dd;
+    const hn::Rebind<float, decltype(dd)> df;
+    const std::size_t lanes = hn::Lanes(dd);
+    const auto steps = hn::Iota(dd, 0);
+    const auto frequency = hn::Set(dd, 1 / paths.wavelength);
+    std::size_t i = 0;
+    for (; i + lanes <= out.size(); i += lanes) {
+        const auto x = hn::MulAdd(hn::Add(steps, hn::Set(dd, static_cast<double>(i))), hn::Set(dd, paths.pitch),
+                                  hn::Set(dd, paths.first));
+        const auto cycles =
+            hn::MulSub(hn::Sqrt(hn::MulAdd(x, x, hn::Set(dd, paths.square))), frequency, hn::Set(dd, paths.off));
+        // Half of the angle, −π/2 … π/2, by the series of its sine and cosine, and doubled.
+        const auto half = hn::Mul(hn::DemoteTo(df, hn::Sub(cycles, hn::Round(cycles))), hn::Set(df, 3.14159265f));
+        const auto square = hn::Mul(half, half);
+        auto sine = hn::Set(df, -1.0f / 39916800), cosine = hn::Set(df, 1.0f / 479001600);
+        for (float c : {1.0f / 362880, -1.0f / 5040, 1.0f / 120, -1.0f / 6, 1.0f})
+            sine = hn::MulAdd(sine, square, hn::Set(df, c));
+        for (float c : {-1.0f / 3628800, 1.0f / 40320, -1.0f / 720, 1.0f / 24, -0.5f, 1.0f})
+            cosine = hn::MulAdd(cosine, square, hn::Set(df, c));
+        sine = hn::Mul(sine, half);
+        const auto twice = hn::Add(sine, sine);
+        hn::StoreInterleaved2(hn::NegMulAdd(twice, sine, hn::Set(df, 1.0f)), hn::Mul(twice, cosine), df,
+                              reinterpret_cast<float*>(&out[i]));
+    }
+    PathPhases rest = paths;
+    rest.first += static_cast<double>(i) * paths.pitch;
+    path_phases_plain(rest, out.subspan(i));
 }
 
 void DecimatedLine(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
@@ -114,13 +189,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace hogel::optics::narrow_band {
 
-HWY_EXPORT(WeightedRows);
+HWY_EXPORT(DecimatedColumns);
+HWY_EXPORT(MakePathPhases);
 HWY_EXPORT(DecimatedLine);
 HWY_EXPORT(Multiply);
 
-void weighted_rows(const std::complex<float>* rows, std::size_t stride, std::span<const std::complex<float>> weights,
-                   std::span<std::complex<float>> out) {
-    HWY_DYNAMIC_DISPATCH(WeightedRows)(rows, stride, weights, out);
+void decimated_columns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+                       std::size_t out_stride, std::size_t count) {
+    HWY_DYNAMIC_DISPATCH(DecimatedColumns)(rows, how, out, out_stride, count);
+}
+
+void path_phases(const PathPhases& paths, std::span<std::complex<float>> out) {
+    HWY_DYNAMIC_DISPATCH(MakePathPhases)(paths, out);
 }
 
 void decimated_line(const std::complex<float>* line, std::size_t step, std::span<const float> taps,

@@ -23,15 +23,35 @@ std::vector<Complex> noise(std::size_t count) {
     return values;
 }
 
-// Widths around every multiple of a vector, so that each remainder loop runs.
-TEST_P(NarrowBandKernels, vector_and_plain_rows_agree) {
+// Widths around every multiple of a vector, so that each remainder loop runs; kernels that reach beyond the tile on
+// both sides, and some with more taps than stay in registers.
+TEST_P(NarrowBandKernels, vector_and_plain_columns_agree) {
     const std::size_t rows = 37, stride = 150;
-    const std::vector<Complex> tile = noise(rows * stride), weights = noise(rows);
-    for (std::size_t width = 0; width <= 140; ++width) {
-        std::vector<Complex> fast(width), plain(width);
-        weighted_rows(&tile[1], stride, weights, fast);
-        weighted_rows_plain(&tile[1], stride, weights, plain);
-        for (std::size_t x = 0; x < width; ++x) EXPECT_LT(std::abs(fast[x] - plain[x]), 1e-5f) << width << " " << x;
+    const std::vector<Complex> tile = noise(rows * stride), phases = noise(rows);
+    for (std::size_t step : {1u, 3u, 5u, 8u})
+        for (std::size_t taps : {step, 9 * step + 1, 10 * step, 11 * step}) {
+            std::vector<float> weights;
+            for (const Complex& value : noise(taps)) weights.push_back(value.real());
+            for (std::size_t width = 0; width <= 40; ++width) {
+                const std::size_t count = (rows + taps) / step;
+                const ColumnDecimation how{width, stride, step, 3 - static_cast<std::ptrdiff_t>(taps), weights, phases};
+                std::vector<Complex> fast(count * 41), plain(count * 41);
+                decimated_columns(&tile[1], how, fast.data(), 41, count);
+                decimated_columns_plain(&tile[1], how, plain.data(), 41, count);
+                for (std::size_t i = 0; i < fast.size(); ++i)
+                    ASSERT_LT(std::abs(fast[i] - plain[i]), 2e-5f) << step << ' ' << taps << ' ' << width << ' ' << i;
+            }
+        }
+}
+
+// Paths of hundreds of thousands of wavelengths.
+TEST_P(NarrowBandKernels, vector_and_plain_phases_agree) {
+    for (std::size_t count = 0; count <= 70; ++count) {
+        const PathPhases paths{-0.02, 1.6e-6 * static_cast<double>(count), 0.09, 532e-9, 1234.56};
+        std::vector<Complex> fast(count), plain(count);
+        path_phases(paths, fast);
+        path_phases_plain(paths, plain);
+        for (std::size_t i = 0; i < count; ++i) EXPECT_LT(std::abs(fast[i] - plain[i]), 1e-6f) << count << ' ' << i;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/narrow_band/kernels.h"
@@ -72,7 +73,9 @@ class TilePass {
         // The phase removed down the columns is that of the tile's middle column for the first eye.
         const double middle = plane.x(static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5);
         const auto column_phase = [&](double y) { return lead_.geometry.cycles(middle, y); };
-        weigh_rows(plane, column_phase);
+        demodulation_.reserve(region.height);
+        for (std::size_t r = 0; r < region.height; ++r)
+            demodulation_.push_back(Complex(unit_phasor(column_phase(plane.y(static_cast<double>(region.y0 + r))))));
         for (std::size_t eye : group_) phases_.push_back(remaining_phases(plane, eyes_[eye], column_phase));
         prepare_line_taps();
     }
@@ -81,58 +84,34 @@ class TilePass {
     void add(View<const Complex, 2> tile, std::vector<Contribution>& contributions) const {
         const std::size_t rows = rows_.end - rows_.first, columns = columns_.end - columns_.first;
         for (Contribution& contribution : contributions) contribution.looks.emplace_back(Shape<2>{rows, columns});
-        std::vector<Complex> down(region_.width);
+        Array<Complex, 2> down({rows, region_.width});
+        decimated_columns(
+            tile.data(),
+            {region_.width, region_.width, lead_.factor,
+             lead_.first_tap(rows_.first) - static_cast<std::ptrdiff_t>(region_.y0), lead_.taps, demodulation_},
+            down.data(), region_.width, rows);
         // Padding before and after the line, so that every kernel fits completely.
         std::vector<Complex> line(before_ + region_.width + after_);
-        for (std::size_t m = 0; m < rows; ++m) {
-            const RowWeights& weights = row_weights_[m];
-            weighted_rows(&tile(weights.first, 0), region_.width, weights.values, down);
+        for (std::size_t m = 0; m < rows; ++m)
             for (std::size_t e = 0; e < group_.size(); ++e) {
-                multiply(down.data(), phases_[e].view()[m].data(), std::span(line).subspan(before_, region_.width));
+                multiply(&down(m, 0), phases_[e].view()[m].data(), std::span(line).subspan(before_, region_.width));
                 decimated_line(line.data(), lead_.factor, line_taps_, contributions[e].looks.back()[m].elements());
             }
-        }
     }
 
     Contribution empty_contribution() const { return {rows_, columns_, {}}; }
 
   private:
-    struct RowWeights {
-        std::size_t first = 0;  // row of the tile
-        std::vector<Complex> values;
-    };
-
-    template <class Phase>
-    void weigh_rows(const Grid& plane, const Phase& phase) {
-        std::vector<Complex> demodulation(region_.height);
-        for (std::size_t r = 0; r < region_.height; ++r)
-            demodulation[r] = Complex(unit_phasor(phase(plane.y(static_cast<double>(region_.y0 + r)))));
-        for (std::size_t m = rows_.first; m < rows_.end; ++m) {
-            // The taps that are inside the tile.
-            const std::ptrdiff_t offset = lead_.first_tap(m) - static_cast<std::ptrdiff_t>(region_.y0);
-            const auto begin = std::max<std::ptrdiff_t>(offset, 0);
-            const auto end = std::min(offset + static_cast<std::ptrdiff_t>(lead_.taps.size()),
-                                      static_cast<std::ptrdiff_t>(region_.height));
-            RowWeights& weights = row_weights_.emplace_back();
-            weights.first = static_cast<std::size_t>(begin);
-            for (std::ptrdiff_t r = begin; r < end; ++r)
-                weights.values.push_back(lead_.taps[static_cast<std::size_t>(r - offset)] *
-                                         demodulation[static_cast<std::size_t>(r)]);
-        }
-    }
-
     // e^{ik|x−c|} without the phase already removed, at every hologram column and band row of the tile.
     template <class Phase>
     Array<Complex, 2> remaining_phases(const Grid& plane, const NarrowBand& eye, const Phase& taken) const {
         Array<Complex, 2> phases({rows_.end - rows_.first, region_.width});
         for (std::size_t m = 0; m < phases.extent(0); ++m) {
             const double y = plane.y(eye.hologram_index(rows_.first + m)), off = taken(y);
-            walk_phase(
-                region_.width,
-                [&](double step) {
-                    return eye.geometry.cycles(plane.x(static_cast<double>(region_.x0) + step), y) - off;
-                },
-                [&](std::size_t x, std::complex<double> value) { phases(m, x) = Complex(value); });
+            const Vec3 c = eye.geometry.eye();
+            path_phases({plane.x(static_cast<double>(region_.x0)) - c.x, plane.pitch_x,
+                         (y - c.y) * (y - c.y) + c.z * c.z, eye.geometry.wavelength(), off},
+                        phases[m].elements());
         }
         return phases;
     }
@@ -151,7 +130,7 @@ class TilePass {
     Region region_;
     const NarrowBand& lead_;
     Reach rows_, columns_;
-    std::vector<RowWeights> row_weights_;    // one per band row
+    std::vector<Complex> demodulation_;      // one per row of the tile
     std::vector<Array<Complex, 2>> phases_;  // one per eye, [band row][hologram column]
     std::vector<float> line_taps_;
     std::size_t before_ = 0, after_ = 0;
@@ -168,7 +147,8 @@ std::vector<Region> tiles(const Grid& plane) {
 
 }  // namespace
 
-NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geometry(eye, hologram.wavelength) {
+NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil)
+    : BandGrid{ViewGeometry(eye, hologram.wavelength), {}} {
     const Grid& full = hologram.plane;
     const double needed = half_band(hologram, eye, pupil) * (1 + guard) / LowPass::pass;  // samples per metre
     const double pitch = std::max(full.pitch_x, full.pitch_y);
@@ -191,7 +171,7 @@ NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil) : geom
     if (factor == 1) {
         taps = {1};
     } else {
-        const auto count = static_cast<std::size_t>(std::ceil(2 * LowPass::half_width * step)) + 1;
+        const auto count = static_cast<std::size_t>(std::ceil(2 * LowPass::half_width * step));
         taps.resize(count);
         const double first = static_cast<double>(first_tap(margin)) - hologram_index(margin);
         double sum = 0;
@@ -235,10 +215,14 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
 
     std::vector<std::vector<Array<Complex, 2>>> bands(eyes.size());
     for (std::size_t eye = 0; eye < eyes.size(); ++eye)
-        for (std::size_t look = 0; look < looks; ++look)
+        for (std::size_t look = 0; look < looks; ++look) {
+            core::throw_if_stopped();  // many looks are gigabytes, which the system clears
             bands[eye].emplace_back(Shape<2>{eyes[eye].plane.height, eyes[eye].plane.width});
+        }
 
     const std::vector<Region> regions = tiles(plane);
+    // Kept from tile to tile, because the system clears new memory.
+    core::ObjectPool<Array<Complex, 1>> tile_memory;
     using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
     core::parallel_ordered<Contributions>(
         regions.size(), core::default_in_flight(),
@@ -249,8 +233,11 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
                 passes.emplace_back(plane, eyes, group, regions[i]);
                 contributions.emplace_back(group.size(), passes.back().empty_contribution());
             }
-            Array<Complex, 2> tile({regions[i].height, regions[i].width});
+            auto memory = tile_memory.take();
+            if (memory->size() < regions[i].samples()) *memory = Array<Complex, 1>({regions[i].samples()});
+            const View<Complex, 2> tile(memory->data(), {regions[i].height, regions[i].width});
             for (std::size_t look = 0; look < looks; ++look) {
+                core::throw_if_stopped();
                 hologram.read(regions[i], first_look + look, tile);
                 for (std::size_t g = 0; g < groups.size(); ++g) passes[g].add(tile, contributions[g]);
             }

@@ -5,19 +5,14 @@
 #include <vector>
 
 #include "hogel/field.h"
-#include "hogel/optics/view_geometry.h"
+#include "hogel/optics/narrow_band/band_grid.h"
 
 namespace hogel::optics::narrow_band {
 
-/// The sampling of one eye's narrow band of a hologram.
-///
-/// Light from the hologram point x that enters a pupil of diameter A around c has, after multiplication by
-/// e^{+ik|x−c|}, a frequency of at most A/(2λr) (docs/notation.md section 4; r the distance). So the demodulated field
-/// can be low-passed and decimated by `factor`.
-struct NarrowBand {
-    ViewGeometry geometry;
+/// A narrow band that is computed from the samples of a hologram: the demodulated field is low-passed and decimated by
+/// `factor`.
+struct NarrowBand : BandGrid {
     std::size_t factor = 1;   ///< samples of the hologram per sample of the band, in x and in y
-    Grid plane;               ///< samples of the band; extends beyond the hologram by the kernel's half width
     std::vector<float> taps;  ///< the low-pass: band sample b is Σ_k taps[k] · hologram sample (first_tap(b) + k)
 
     /// Throws Error(usage) if the field is sampled too coarsely to separate the pupil's light from the rest.

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram/eye/hogel_basis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/hologram/eye/symmetric_matrix.h"
+#include "hogel/math/quadrature.h"
+
+namespace hogel::hologram::eye {
+namespace {
+
+using math::Quadrature;
+
+constexpr double pi = std::numbers::pi;
+
+// Relative to the strongest, the amplitude below which a function is left out, and the error of the band's samples up
+// to which nodes are added.
+constexpr double tolerance = 3e-4;
+
+// Nodes beyond either end of a hogel, at most.
+constexpr std::size_t max_beyond = 8;
+
+// Σ_j e^{2πiy(j−c)/n}.
+double dirichlet(double y, std::size_t samples) {
+    const auto n = static_cast<double>(samples);
+    const double below = std::sin(pi * y / n);
+    if (std::abs(below) > 1e-9) return std::sin(pi * y) / below;
+    const double turns = std::round(y / n);  // the limit there is ±n
+    return std::fmod(std::abs(turns) * (n - 1), 2) == 0 ? n : -n;
+}
+
+// The samples a(b), real, for which Σ_b a(b) cos 2πκx_b (or sin) is closest to f(κ) for |κ| ≤ κ_m.
+class Fit {
+  public:
+    Fit(const Quadrature& quadrature, std::span<const double> places, bool odd)
+        : quadrature_(quadrature), waves_({quadrature.points.size(), places.size()}) {
+        Array<double, 2> normal({places.size(), places.size()});
+        for (std::size_t i = 0; i < quadrature.points.size(); ++i) {
+            for (std::size_t b = 0; b < places.size(); ++b) {
+                const double angle = 2 * pi * quadrature.points[i] * places[b];
+                waves_(i, b) = odd ? std::sin(angle) : std::cos(angle);
+            }
+            for (std::size_t a = 0; a < places.size(); ++a)
+                for (std::size_t b = 0; b < places.size(); ++b)
+                    normal(a, b) += quadrature.weights[i] * waves_(i, a) * waves_(i, b);
+        }
+        normal_ = eigensystem(std::move(normal));
+    }
+
+    std::vector<double> samples(std::span<const double> function) const {
+        const std::size_t nodes = waves_.extent(1);
+        std::vector<double> right(nodes), result(nodes);
+        for (std::size_t i = 0; i < function.size(); ++i)
+            for (std::size_t b = 0; b < nodes; ++b) right[b] += quadrature_.weights[i] * waves_(i, b) * function[i];
+        for (std::size_t e = 0; e < nodes; ++e) {
+            // Combinations of nodes that hardly send light into the pupil stay zero, so that no sample becomes large.
+            if (normal_.values[e] < 1e-9 * normal_.values[0]) break;
+            double along = 0;
+            for (std::size_t b = 0; b < nodes; ++b) along += normal_.vectors(e, b) * right[b];
+            for (std::size_t b = 0; b < nodes; ++b) result[b] += along / normal_.values[e] * normal_.vectors(e, b);
+        }
+        return result;
+    }
+
+    /// ∫ |Σ_b a(b) cos 2πκx_b − f(κ)|² dκ
+    double error(std::span<const double> samples, std::span<const double> function) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < function.size(); ++i) {
+            double value = -function[i];
+            for (std::size_t b = 0; b < samples.size(); ++b) value += samples[b] * waves_(i, b);
+            sum += quadrature_.weights[i] * value * value;
+        }
+        return sum;
+    }
+
+  private:
+    const Quadrature& quadrature_;
+    Array<double, 2> waves_;  // [point][node]
+    Eigensystem normal_;
+};
+
+}  // namespace
+
+HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band)
+    : samples_(samples), per_hogel_(nodes_per_hogel) {
+    const Quadrature quadrature =
+        math::gauss_legendre(20 + static_cast<std::size_t>(std::ceil(6 * half_band)), half_band);
+    const std::size_t points = quadrature.points.size();
+    Array<double, 2> kernel({points, points});
+    for (std::size_t i = 0; i < points; ++i)
+        for (std::size_t j = 0; j < points; ++j)
+            kernel(i, j) = std::sqrt(quadrature.weights[i] * quadrature.weights[j]) *
+                           dirichlet(quadrature.points[i] - quadrature.points[j], samples) /
+                           static_cast<double>(samples);
+    const Eigensystem prolate = eigensystem(std::move(kernel));
+    // An eigenvalue is the power that random samples have in its function.
+    double power = 0, left_out = 0;
+    for (std::size_t k = 0; k < points; ++k) {
+        const double value = std::max(prolate.values[k], 0.0);
+        power += value;
+        if (value >= tolerance * tolerance * prolate.values[0])
+            functions_ = k + 1;
+        else
+            left_out += value;
+    }
+    Array<double, 2> functions({functions_, points});
+    for (std::size_t k = 0; k < functions_; ++k)
+        for (std::size_t i = 0; i < points; ++i)
+            functions(k, i) = prolate.vectors(k, i) / std::sqrt(quadrature.weights[i]);
+
+    double misfit = 0;
+    for (before_ = 1; before_ <= max_beyond; ++before_) {
+        std::vector<double> places;
+        for (std::size_t b = 0; b < per_hogel_ + 2 * before_; ++b) places.push_back(place(b));
+        const Fit even(quadrature, places, false), odd(quadrature, places, true);
+        spread_ = Array<float, 2>({places.size(), functions_});
+        misfit = 0;
+        for (std::size_t k = 0; k < functions_; ++k) {
+            const Fit& fit = k % 2 == 0 ? even : odd;
+            const std::vector<double> own = fit.samples(functions[k].elements());
+            misfit += prolate.values[k] * fit.error(own, functions[k].elements());
+            for (std::size_t b = 0; b < own.size(); ++b)
+                spread_(b, k) =
+                    static_cast<float>(own[b] * static_cast<double>(per_hogel_) / static_cast<double>(samples_));
+        }
+        if (misfit <= tolerance * tolerance * power || before_ == max_beyond) break;
+    }
+    error_ = std::sqrt((misfit + left_out) / power);
+    tabulate(functions, quadrature.points, quadrature.weights);
+}
+
+void HogelBasis::tabulate(View<const double, 2> functions, std::span<const double> points,
+                          std::span<const double> shares) {
+    table_ = Array<float, 3>({fractions, functions_, 2 * samples_});
+    Array<double, 2> weighted(functions.shape());
+    for (std::size_t k = 0; k < functions_; ++k)
+        for (std::size_t i = 0; i < points.size(); ++i) weighted(k, i) = shares[i] * functions(k, i);
+    // Frequencies n apart have the same weights, or opposite ones if n is even.
+    const float again = samples_ % 2 == 0 ? -1.0f : 1.0f;
+    std::vector<double> sums(functions_);
+    for (std::size_t fraction = 0; fraction < fractions; ++fraction)
+        for (std::size_t m = 0; m < samples_; ++m) {
+            const double y = static_cast<double>(m) + static_cast<double>(fraction) / static_cast<double>(fractions);
+            std::ranges::fill(sums, 0.0);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const double value = dirichlet(y - points[i], samples_);
+                for (std::size_t k = 0; k < functions_; ++k) sums[k] += weighted(k, i) * value;
+            }
+            for (std::size_t k = 0; k < functions_; ++k) {
+                table_(fraction, k, m) = static_cast<float>(sums[k]);
+                table_(fraction, k, samples_ + m) = again * table_(fraction, k, m);
+            }
+        }
+}
+
+HogelBasis::Weights HogelBasis::weights(double frequency) const {
+    const double steps = std::round(frequency * static_cast<double>(fractions));
+    const double whole = std::floor(steps / static_cast<double>(fractions));
+    const auto fraction = static_cast<std::size_t>(steps - whole * static_cast<double>(fractions));
+    const auto n = static_cast<double>(samples_);
+    const double turns = std::floor(whole / n);
+    const auto first = static_cast<std::size_t>(whole - turns * n);
+    const bool opposite = samples_ % 2 == 0 && std::fmod(std::abs(turns), 2) != 0;
+    return {steps / static_cast<double>(fractions), opposite ? -1.0f : 1.0f, &table_(fraction, 0, first), 2 * samples_};
+}
+
+}  // namespace hogel::hologram::eye

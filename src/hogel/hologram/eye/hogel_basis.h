@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "hogel/array.h"
+
+namespace hogel::hologram::eye {
+
+/// The few numbers that a hogel is worth to an eye, along one axis.
+///
+/// Samples u_j of a hogel, j = 0 … n−1, demodulated towards the eye, send light of frequency κ (cycles per hogel) to a
+/// point of the pupil: S(κ) = Σ_j u_j e^{−2πiκ(j−c)/n} with c = (n−1)/2. Within the pupil |κ| ≤ κ_m, which is one or
+/// two cycles, so S is a sum of a few prolate spheroidal functions v_k, the eigenfunctions of the kernel Σ_j
+/// e^{2πi(κ−κ')(j−c)/n} over |κ| ≤ κ_m: S(κ) ≈ Σ_k s_k v_k(κ), s_k = ∫ v_k S. They are real, alternately even and odd.
+///
+/// - A wave e^{2πi(m+ν)(j−c)/n} has the coefficients s_k = D_k(m + ν) = ∫ v_k(κ) sin π(m+ν−κ) / sin(π(m+ν−κ)/n) dκ.
+/// - A band of `nodes_per_hogel` samples to a hogel has the light s_k v_k if its samples at the nodes b are
+///   i^{k mod 2} s_k spread(b, k).
+class HogelBasis {
+  public:
+    /// @param samples          n
+    /// @param nodes_per_hogel  samples of the band to a hogel, more than 4 κ_m
+    /// @param half_band        κ_m
+    HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band);
+
+    std::size_t samples() const { return samples_; }
+    std::size_t functions() const { return functions_; }
+    /// The samples of the band that a hogel lights, and how many of them are before the hogel.
+    std::size_t nodes() const { return spread_.extent(0); }
+    std::size_t before() const { return before_; }
+    /// The position of a node from the middle of the hogel, in hogels.
+    double place(std::size_t node) const {
+        return (static_cast<double>(node) - static_cast<double>(before_) + 0.5) / static_cast<double>(per_hogel_) - 0.5;
+    }
+
+    /// [node][function]
+    View<const float, 2> spread() const { return spread_; }
+
+    /// D_k(m + ν) for m = 0 … n−1, for ν rounded to a 64th: k's weights begin at first + k · stride.
+    struct Weights {
+        double frequency;  ///< ν as rounded
+        float sign;        ///< factor of all weights
+        const float* first;
+        std::size_t stride;
+    };
+    Weights weights(double frequency) const;
+    static constexpr std::size_t fractions = 64;
+
+    /// The relative error of S over |κ| ≤ κ_m, root mean square over waves of all frequencies.
+    double error() const { return error_; }
+
+  private:
+    void tabulate(View<const double, 2> functions, std::span<const double> points, std::span<const double> shares);
+
+    std::size_t samples_, per_hogel_, functions_ = 0, before_ = 0;
+    double error_ = 0;
+    Array<float, 2> spread_;
+    Array<float, 3> table_;  // [64ths of ν][function][0 … 2n − 1]
+};
+
+}  // namespace hogel::hologram::eye

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "hogel/array.h"
+#include "hogel/hologram/eye/hogel_basis.h"
+
+namespace hogel::hologram::eye {
+
+/// Numbers that are processed together: rows of waves, and nodes of a band.
+inline constexpr std::size_t lanes = 16;
+constexpr std::size_t padded(std::size_t count) { return (count + lanes - 1) / lanes * lanes; }
+
+/// e^{iπm(n−1)/n} for m = 0 … n−1, with which a wave's phase is counted from the middle of a hogel rather than from its
+/// first sample; zero up to padded(n).
+struct MiddlePhases {
+    explicit MiddlePhases(std::size_t samples);
+    std::vector<float, CacheLineAllocator<float>> re, im;
+};
+
+/// What is the same for all looks of a hogel seen by an eye.
+struct HogelView {
+    HogelBasis::Weights columns, rows;  ///< of the direction of the eye, along a row and down a column
+    /// What is left of the demodulation, [node down][part][node across], the last axis padded; the parts are real and
+    /// imaginary.
+    View<const float, 3> phases;
+};
+
+/// A place in a band whose real and imaginary parts are apart: `part` floats from one to the other, `row` from a row to
+/// the next. Values are added up to padded(nodes) from `first` on.
+struct BandPlace {
+    float* first;
+    std::size_t part, row;
+};
+
+/// Adds to a band what a hogel's waves send to an eye: E D_y C D_xᵀ Eᵀ, times the phases of the view, with C the waves
+/// times the phases of `middle`, D the weights of the view and E = basis.spread() with a factor i for odd functions.
+/// Plain and fast twins agree to rounding.
+/// @param waves  as HogelWaves::waves() gives them
+void project_plain(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
+                   const BandPlace& band);
+void project(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
+             const BandPlace& band);
+
+}  // namespace hogel::hologram::eye

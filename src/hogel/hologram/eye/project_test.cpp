@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram/eye/project.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hogel/core/test_targets.h"
+#include "hogel/hologram/hogel_synthesis.h"
+
+namespace hogel::hologram::eye {
+namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(EyeProjection);
+
+// Sides of hogels with and without a rest, bands with more functions and nodes than a vector holds.
+TEST_P(EyeProjection, vector_and_plain_projection_agree) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    struct Size {
+        std::size_t samples, per_hogel;
+        double half_band;
+    };
+    for (const Size& size :
+         {Size{16, 1, 0.2}, Size{32, 5, 1.1}, Size{27, 4, 0.9}, Size{64, 24, 5.2}, Size{40, 14, 3.1}}) {
+        const HogelBasis basis(size.samples, size.per_hogel, size.half_band);
+        const std::size_t n = size.samples, nodes = basis.nodes(), across = padded(nodes);
+        Array<float, 1> waves({HogelWaves::size(n)});
+        for (std::size_t row = 0; row < n; ++row)
+            for (std::size_t column = 0; column < n; ++column)
+                for (std::size_t part : {0, 1})
+                    waves((row / 16 * n + column) * 32 + part * 16 + row % 16) = normal(random);
+        Array<float, 3> phases({nodes, 2, across});
+        for (std::size_t y = 0; y < nodes; ++y)
+            for (std::size_t x = 0; x < nodes; ++x)
+                for (std::size_t part : {0, 1}) phases(y, part, x) = normal(random);
+        const HogelView view{basis.weights(3.3), basis.weights(-77.2), phases};
+        const std::size_t row = across + 3, part = row * nodes;
+        std::vector<float> fast(2 * part, 1.0f), plain(2 * part, 1.0f);
+        const MiddlePhases middle(n);
+        project(basis, middle, view, waves.data(), {fast.data(), part, row});
+        project_plain(basis, middle, view, waves.data(), {plain.data(), part, row});
+        float largest = 0;
+        for (float value : plain) largest = std::max(largest, std::abs(value));
+        EXPECT_GT(largest, 1.5f);
+        for (std::size_t i = 0; i < fast.size(); ++i) ASSERT_NEAR(fast[i], plain[i], 2e-5f * largest) << n << " " << i;
+    }
+}
+
+}  // namespace
+}  // namespace hogel::hologram::eye

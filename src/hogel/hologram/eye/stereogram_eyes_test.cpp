@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "hogel/core/random.h"
+#include "hogel/error.h"
+#include "hogel/hologram.h"
+#include "hogel/hologram/test_light_fields.h"
+#include "hogel/optics/eye_light.h"
+#include "hogel/optics/phase_walk.h"
+#include "hogel/photograph.h"
+#include "hogel/resources.h"
+#include "hogel/units.h"
+
+namespace hogel::hologram {
+namespace {
+
+using namespace literals;
+using Wide = std::complex<double>;
+
+// Stripes across a tilted plane, so that neighbouring hogels and directions differ.
+double stripes(Vec3 hogel, Vec3 direction) {
+    const double depth = -0.4e-3;
+    const double x = hogel.x + depth * direction.x / direction.z, y = hogel.y + depth * direction.y / direction.z;
+    return 0.6 + 0.4 * std::sin(2 * std::numbers::pi * (x / 90e-6 + y / 140e-6));
+}
+
+LightField striped(const LightFieldGrid& grid) { return light_field_of_faces({&grid, 1}, stripes); }
+
+const optics::EyeLight& eye_light(const FieldSource& hologram) {
+    return dynamic_cast<const optics::EyeLight&>(hologram);
+}
+
+// The light that samples on a grid send to points of the pupil, without a common factor: point q of the pupil, in units
+// of the frequency that it has after demodulation, from the whole field or from an eye's band, which is demodulated.
+Wide light_at(View<const std::complex<float>, 2> samples, const Grid& plane, const optics::ViewGeometry& geometry,
+              bool demodulated, double qx, double qy) {
+    Wide sum = 0;
+    for (std::size_t row = 0; row < plane.height; ++row)
+        for (std::size_t column = 0; column < plane.width; ++column) {
+            const double x = plane.x(double(column)), y = plane.y(double(row));
+            const double cycles = (demodulated ? 0 : geometry.cycles(x, y)) - qx * x - qy * y;
+            sum += Wide(samples(row, column)) * optics::unit_phasor(cycles);
+        }
+    return sum * plane.pitch_x * plane.pitch_y;
+}
+
+struct Case {
+    std::string name;
+    LightField light_field;
+    HologramMethod method;
+    double pitch;
+    optics::Eye eye;
+};
+
+LightFieldGrid grid_of(std::size_t hogels, double pitch) {
+    return {hogels, hogels - 2, pitch, 24, 24, Perspective{0.15, 0.15}, 1};
+}
+
+std::vector<Case> cases() {
+    const LightField plain = striped(grid_of(8, 48_um));
+    const auto hemicube = hemicube_of({5, 4, 24_um, 12, 12, Perspective{1, 1}, 1}, stripes);
+    return {
+        {"in the middle", plain, Fourier{}, 1.5_um, {{0, 0, 30_mm}, 1_mm}},
+        {"oblique", plain, Fourier{}, 1.5_um, {{4_mm, -3_mm, 30_mm}, 1.4_mm}},
+        {"far from both axes", plain, Fourier{}, 1.5_um, {{9_mm, -8_mm, 30_mm}, 1_mm}},
+        {"near", plain, Fourier{}, 1.5_um, {{0.4_mm, 0.7_mm, 6_mm}, 0.3_mm}},
+        {"phases shared by hogels", plain, Fourier{Phases::fixed}, 1.5_um, {{1_mm, 2_mm, 30_mm}, 1_mm}},
+        {"designed phases", plain, Fourier{Phases::designed}, 1.5_um, {{1_mm, 2_mm, 30_mm}, 1_mm}},
+        {"averages of amplitudes",
+         plain,
+         Fourier{Phases::random, LobeAverage::amplitude},
+         1.5_um,
+         {{1_mm, 2_mm, 30_mm}, 1_mm}},
+        {"hogels that are no power of two", striped(grid_of(7, 45_um)), Fourier{}, 1.5_um, {{2_mm, 1_mm, 30_mm}, 1_mm}},
+        {"odd hogels", striped(grid_of(7, 40.5_um)), Fourier{}, 1.5_um, {{-2_mm, 1_mm, 30_mm}, 1_mm}},
+        {"hemicube", hemicube, Fourier{}, 0.5_um, {{12_mm, 5_mm, 25_mm}, 0.9_mm}},
+        {"a tiny pupil", plain, Fourier{}, 1.5_um, {{1_mm, 1_mm, 30_mm}, 50_um}},
+    };
+}
+
+TEST(StereogramEyes, send_the_light_of_the_samples_into_the_pupil) {
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        HologramOptions options{{532_nm, 0}, c.pitch, c.method, 2, 7};
+        const auto hologram = make_hologram(c.light_field, options);
+        const Grid& plane = hologram->grid().plane;
+        const Region all{0, 0, plane.width, plane.height};
+        const auto drawing = eye_light(*hologram).eye_drawing(all, {&c.eye, 1});
+        ASSERT_TRUE(drawing);
+        const optics::narrow_band::BandGrid& band = drawing->band(0);
+        const auto bands = drawing->draw(0, 2, {});
+        for (std::size_t look : {0, 1}) {
+            Array<std::complex<float>, 2> field({plane.height, plane.width});
+            hologram->read(all, look, field);
+            double wrong = 0, light = 0;
+            for (double radius : {0.0, 0.5, 1.0})
+                for (int turn = 0; turn < 8; ++turn) {
+                    const double edge = 0.5 * c.eye.pupil / (532e-9 * std::hypot(c.eye.position.x, c.eye.position.z));
+                    const double qx = radius * edge * std::cos(turn), qy = radius * edge * std::sin(turn);
+                    const Wide truth = light_at(field, plane, band.geometry, false, qx, qy);
+                    wrong += std::norm(light_at(bands[0][look], band.plane, band.geometry, true, qx, qy) - truth);
+                    light += std::norm(truth);
+                }
+            EXPECT_LT(std::sqrt(wrong / light), 2e-3);
+        }
+    }
+}
+
+TEST(StereogramEyes, draw_a_window_as_a_part_of_the_whole) {
+    const LightField light_field = striped(grid_of(8, 48_um));
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 1, 1});
+    const optics::Eye eye{{1_mm, 2_mm, 30_mm}, 1_mm};
+    const Region part{40, 33, 90, 70};  // cuts hogels 1 to 4 and 1 to 3
+    const auto window = eye_light(*hologram).eye_drawing(part, {&eye, 1});
+    ASSERT_TRUE(window);
+    const auto band = window->draw(0, 1, {});
+    Array<std::complex<float>, 2> field({96, 128});
+    hologram->read({32, 32, 128, 96}, 0, field);
+    const Grid plane = hogel::part(hologram->grid().plane, {32, 32, 128, 96});
+    const Wide truth = light_at(field, plane, window->band(0).geometry, false, 1e4, -2e4);
+    const Wide drawn = light_at(band[0][0], window->band(0).plane, window->band(0).geometry, true, 1e4, -2e4);
+    EXPECT_LT(std::abs(drawn - truth), 2e-3 * std::abs(truth));
+}
+
+TEST(StereogramEyes, do_not_depend_on_threads_or_on_other_eyes) {
+    const LightField light_field = striped(grid_of(40, 48_um));
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 3, 1});
+    const std::vector<optics::Eye> eyes{{{1_mm, 2_mm, 30_mm}, 1_mm}, {{-3_mm, 0, 40_mm}, 0.5_mm}};
+    const Region all{0, 0, hologram->grid().plane.width, hologram->grid().plane.height};
+    const auto draw = [&](std::span<const optics::Eye> some, std::size_t first, std::size_t looks) {
+        return eye_light(*hologram).eye_drawing(all, some)->draw(first, looks, {});
+    };
+    const auto both = draw(eyes, 0, 3);
+    const ThreadLimit single(1);
+    const auto one = draw({&eyes[1], 1}, 1, 2);
+    for (std::size_t look : {0, 1})
+        EXPECT_TRUE(std::ranges::equal(both[1][look + 1].elements(), one[0][look].elements()));
+}
+
+Camera camera(double pupil) {
+    Camera camera;
+    camera.eye = {2_mm, -1_mm, 30_mm};
+    camera.pupil = pupil;
+    camera.picture = {64, 64, 30_um, 30_um, 0, 0};
+    return camera;
+}
+
+TEST(StereogramEyes, give_the_photograph_of_the_samples) {
+    const LightField light_field = striped(grid_of(40, 48_um));
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 4, 1});
+    std::vector<Camera> cameras(2, camera(1_mm));
+    cameras[1].focus_depth = -1_mm;
+    const auto seen = photograph(*hologram, cameras, {.from = LightFrom::hogels});
+    const auto truth = photograph(*hologram, cameras, {.from = LightFrom::samples});
+    const auto cheaper = photograph(*hologram, cameras);
+    for (std::size_t i : {0, 1}) {
+        double wrong = 0, light = 0;
+        for (std::size_t p = 0; p < truth[i].pixels.size(); ++p) {
+            const double difference = double(seen[i].pixels.data()[p]) - double(truth[i].pixels.data()[p]);
+            wrong += difference * difference;
+            light += double(truth[i].pixels.data()[p]) * double(truth[i].pixels.data()[p]);
+        }
+        EXPECT_LT(std::sqrt(wrong / light), 0.01);
+        EXPECT_NEAR(mean_of(seen[i]) / mean_of(truth[i]), 1, 2e-3);
+        EXPECT_TRUE(std::ranges::equal(cheaper[i].pixels.elements(), seen[i].pixels.elements()));
+    }
+}
+
+TEST(StereogramEyes, are_refused_where_there_are_none) {
+    const LightField light_field = striped(grid_of(8, 48_um));
+    const auto basis = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Basis{}, 1, 1});
+    const Camera one = camera(1_mm);
+    EXPECT_THROW(photograph(*basis, {&one, 1}, {.from = LightFrom::hogels}), Error);
+    EXPECT_NO_THROW(photograph(*basis, {&one, 1}));
+    // A pupil that takes in more than half of a hogel's waves.
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 1, 1});
+    const Camera wide = camera(4.5_mm);
+    EXPECT_THROW(photograph(*hologram, {&wide, 1}, {.from = LightFrom::hogels}), Error);
+    EXPECT_NO_THROW(photograph(*hologram, {&wide, 1}));
+}
+
+}  // namespace
+}  // namespace hogel::hologram

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hogel/array.h"
+#include "hogel/field.h"
+#include "hogel/optics/narrow_band/band_grid.h"
+
+namespace hogel::optics {
+
+/// An eye and the widest pupil, metres, through which it looks.
+struct Eye {
+    Vec3 position;
+    double pupil = 0;
+};
+
+/// Draws the light of a part of a hologram towards several eyes.
+class EyeDrawing {
+  public:
+    virtual ~EyeDrawing() = default;
+    /// The sampling of the narrow band of an eye.
+    virtual const narrow_band::BandGrid& band(std::size_t eye) const = 0;
+    /// The narrow bands of looks [first_look, first_look + looks): [eye][look][row][column], as from
+    /// draw_narrow_bands(). They do not depend on the number of threads.
+    virtual std::vector<std::vector<Array<std::complex<float>, 2>>> draw(std::size_t first_look, std::size_t looks,
+                                                                         const Progress& progress) const = 0;
+};
+
+/// A source of fields that knows the light towards an eye without computing its samples: a stereogram, of whose hogels
+/// each sends an eye no more than a few numbers.
+class EyeLight {
+  public:
+    virtual ~EyeLight() = default;
+    /// The light of a part of the hologram; null where computing the samples costs less. Hogels that the part cuts
+    /// belong to it.
+    virtual std::unique_ptr<EyeDrawing> eye_drawing(const Region& part, std::span<const Eye> eyes) const = 0;
+};
+
+}  // namespace hogel::optics

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/optics/pupil_edge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/math/bessel.h"
+
+namespace hogel::optics {
+namespace {
+
+// Kaiser's β for a ripple of 2·10⁻³ of the window.
+constexpr double beta = 5;
+
+}  // namespace
+
+SpreadWindow::SpreadWindow(double span_x, double span_y, double blur, double cell) {
+    constexpr double max_cells = 128, min_fade = 40;
+    flat = std::min(std::hypot(span_x, span_y) + 0.5 * blur, max_cells * cell);
+    stop = flat + std::max(0.5 * flat, min_fade * cell);
+}
+
+void SpreadWindow::fit(double room) {
+    if (stop <= room) return;
+    flat *= room / stop;
+    stop = room;
+}
+
+double light_left_out(const SpreadWindow& window, double span_x, double span_y, double cell) {
+    const auto beyond = [&](double sines) {
+        return 2 / (std::numbers::pi * std::numbers::pi * std::max(sines / cell, 1.0));
+    };
+    return std::max(0.0, beyond(0.5 * (window.flat + window.stop)) - beyond(0.25 * (span_x + span_y)));
+}
+
+PupilEdge::PupilEdge(const SpreadWindow& window, double wavelength) {
+    // Cycles per metre of the pupil.
+    const double middle = 0.5 * (window.flat + window.stop) / wavelength,
+                 fade = (window.stop - window.flat) / wavelength;
+    reach_ = std::sqrt(1 + beta * beta / (std::numbers::pi * std::numbers::pi)) / fade;
+    const auto turns = 2 * reach_ * middle;
+    const std::size_t steps = 256 * static_cast<std::size_t>(std::ceil(turns + 4));
+    scale_ = static_cast<double>(steps) / (2 * reach_);
+    // Integrates sin(2π·middle·u)/(πu) times the Kaiser window by the midpoint rule.
+    table_.resize(steps + 1);
+    for (std::size_t i = 0; i < steps; ++i) {
+        const double u = (static_cast<double>(i) + 0.5) / scale_ - reach_, x = u / reach_;
+        const double turn = 2 * std::numbers::pi * middle * u;
+        const double sinc = std::abs(turn) < 1e-9 ? 1 : std::sin(turn) / turn;
+        table_[i + 1] = table_[i] + sinc * math::bessel_i0(beta * std::sqrt(std::max(0.0, 1 - x * x)));
+    }
+    for (double& value : table_) value /= table_.back();
+}
+
+}  // namespace hogel::optics
