@@ -9,6 +9,17 @@ install(TARGETS hogel EXPORT hogelTargets
         ARCHIVE COMPONENT development)
 if(TARGET hogel_cli)
   install(TARGETS hogel_cli COMPONENT program)
+  # Manual pages say what the program's help says, so that they need a program that runs here.
+  if(NOT CMAKE_CROSSCOMPILING AND NOT HOGEL_SANITIZE)
+    set(manual ${PROJECT_BINARY_DIR}/manual)
+    add_custom_command(
+      OUTPUT ${manual}/hogel.1.gz
+      COMMAND python3 ${PROJECT_SOURCE_DIR}/cmake/package/manual.py $<TARGET_FILE:hogel_cli> ${manual}
+      DEPENDS hogel_cli ${PROJECT_SOURCE_DIR}/cmake/package/manual.py
+      COMMENT "Writing manual pages" VERBATIM)
+    add_custom_target(hogel_manual ALL DEPENDS ${manual}/hogel.1.gz)
+    install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  endif()
 endif()
 hogel_install_headers(${CMAKE_INSTALL_INCLUDEDIR})
 

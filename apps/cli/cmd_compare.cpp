@@ -78,7 +78,7 @@ void add_compare(Command& command, Session& session) {
     command.number("--min-sqnr", options->min_sqnr, "DB", "Exit with status 1 below this ratio of signal to error");
     command.number(
         "--exposure", options->exposure, "NUMBER",
-        "What linear values of pictures are multiplied by\n(default: 1, or less where A is brighter than white)");
+        "What linear values of pictures are multiplied by (default: 1, or less where A is brighter than white)");
     add_json_flag(command, session);
     command.work([options, &session] { return compare_files(*options, session); });
 }

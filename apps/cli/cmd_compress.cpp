@@ -127,8 +127,8 @@ void add_method_options(Command& command, Options& options) {
     const Option no_depth = command.flag("--no-depth", options.no_depth, "Leave the depth of the rays out");
     command
         .positive_length("--depth-error", options.depth_error,
-                         "The depth of every ray within this of what it was (default: the pitch of the hogels over\n"
-                         "32,000 times the tangent of the steepest ray, and no more than a 1,000th of the range of\n"
+                         "The depth of every ray within this of what it was (default: the pitch of the hogels over "
+                         "32,000 times the tangent of the steepest ray, and no more than a 1,000th of the range of "
                          "depths; exact with --lossless)")
         .no_default()
         .excludes(no_depth);
@@ -138,8 +138,8 @@ void add_method_options(Command& command, Options& options) {
 void add_mapping_options(Command& command, Options& options) {
     const Option tone =
         command.choice("--tone", options.tone, tones, "none|histogram",
-                       "Code the light field along a curve of its luminance, made of its histogram, which is undone\n"
-                       "when it is read: for high ranges, to keep what the eye sees. --sqnr and --step then speak of\n"
+                       "Code the light field along a curve of its luminance, made of its histogram, which is undone "
+                       "when it is read: for high ranges, to keep what the eye sees. --sqnr and --step then speak of "
                        "the light field along the curve");
     command
         .number("--tone-decades", options.tone_decades, "N",
@@ -148,7 +148,7 @@ void add_mapping_options(Command& command, Options& options) {
         .needs(tone);
     command
         .number("--chrominance", options.compression.chrominance, "F",
-                "Code the two channels of chrominance so many times as coarsely as luminance (1 to 1024); --sqnr\n"
+                "Code the two channels of chrominance so many times as coarsely as luminance (1 to 1024); --sqnr "
                 "and --step then speak of colours whose chrominance is divided by it")
         .range(1, 1024);
 }

@@ -72,7 +72,7 @@ void add_decompress(Command& command, Session& session) {
     command.text("-o,--output", options->output, "FILE", "Light field to write, HDF5").required();
     command
         .count("--layers", options->layers,
-               "Decode the first layers alone: coarser, and the rest of the file may be missing\n(hogel info says "
+               "Decode the first layers alone: coarser, and the rest of the file may be missing (hogel info says "
                "how many there are; default: all)")
         .no_default();
     const Option single = command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");

@@ -201,8 +201,10 @@ void add_photo_options(Command& command, Options& options) {
                   "Photographs averaged against speckle, unless of a hologram file");
     command.text("--exposure", options.exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto");
     command.choice("--display", options.display, {"intensity", "log", "phase"}, "intensity|log|phase",
-                   "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
-                   "through the middle of the lens, from -pi to pi");
+                   "What a photograph by waves shows:"
+                   "\nintensity: linear light"
+                   "\nlog: four decades of it from black to white"
+                   "\nphase: its phase beside that of light through the middle of the lens, from -pi to pi");
     command.choice("--camera", options.camera, {"auto", "eye", "narrow", "full"}, "auto|eye|narrow|full",
                    "How waves are photographed:"
                    "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
@@ -210,7 +212,7 @@ void add_photo_options(Command& command, Options& options) {
                    "\nnarrow: the band that enters the lens, from all samples, tile by tile"
                    "\nfull: plane waves to the lens and back, exact and slow");
     command.length("--film-distance", options.film_distance,
-                   "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens");
+                   "From a thin lens to its film, for the full camera, with its aberrations; 0mm: a perfect lens");
     const Option geometric =
         command.flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
     command.flag("--wave", options.wave, "By waves, through the hologram (default for a scene)").excludes(geometric);

@@ -164,7 +164,9 @@ struct CommandLine::Impl {
             "Lengths and angles have units: 16mm, 1.6um, 633nm, 20deg.\n"
             "SCENE is a mesh file (glTF, OBJ, PLY, STL and more) or the name of a built-in scene;\n"
             "depths are positive behind the hologram and negative in front of it.\n"
-            "'hogel help COMMAND' explains a command. Begin with:\n"
+            "'hogel help COMMAND' explains a command.\n"
+            "\n"
+            "Examples:\n"
             "  hogel make pumpkin -o pumpkin");
     }
 

@@ -17,6 +17,10 @@ done | sort | uniq -d >"$work/twice"
 mkdir "$work/tarball"
 tar -C "$work/tarball" --strip-components=1 -xzf "$packages"/hogel-*.tar.gz
 
+for page in "$work"/debs/usr/share/man/man1/hogel{,-make}.1.gz "$work"/tarball/share/man/man1/hogel{,-make}.1.gz; do
+    [ -s "$page" ] || fail "no manual page $page"
+done
+
 # hardened FILE: what dpkg-buildflags asks for is in it.
 hardened() {
     local dynamic symbols
