@@ -42,7 +42,6 @@ class SimplexRenderer final : public Renderer {
                 append_projected_volume(part, sides.front, grid_, tile.range, simplices, min_forward_);
                 if (!scene_->fronts_only)
                     append_projected_volume(part, sides.back, grid_, tile.range, simplices, min_forward_);
-                clip_to_view(simplices, grid_);
                 for (const Simplex<4>& simplex : simplices) scan_convert(index, simplex, tile.range, buffer);
             }
         }
@@ -59,8 +58,8 @@ class SimplexRenderer final : public Renderer {
     // Source: [K] 5.7.3, 5.7.4.
     void scan_convert(std::uint32_t index, const Simplex<4>& simplex, const HogelRange& range,
                       Array<NearestTriangle, 4>& buffer) const {
-        slice_at_samples(simplex, axis::v, [&](double v, const Simplex<3>& at_v) {
-            slice_at_samples(at_v, axis::u, [&](double u, const Simplex<2>& at_uv) {
+        slice_at_samples(simplex, axis::v, grid_.directions_v, [&](double v, const Simplex<3>& at_v) {
+            slice_at_samples(at_v, axis::u, grid_.directions_u, [&](double u, const Simplex<2>& at_uv) {
                 const SliceInHogels slice(at_uv);
                 const Span rows = slice.rows(range.nt);
                 if (rows.first == rows.end) return;

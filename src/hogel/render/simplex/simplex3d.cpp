@@ -44,7 +44,6 @@ class Simplex3dRenderer final : public Renderer {
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
                         if (line.front_visible || !scene_->fronts_only)
                             append_projected_volume(part, line, grid_, tile.range, simplices, min_forward_);
-                    clip_to_view(simplices, grid_);
                     for (const Simplex<3>& simplex : simplices) scan_convert(index, simplex, t, tile.range, buffer);
                 }
             }
@@ -59,8 +58,8 @@ class Simplex3dRenderer final : public Renderer {
     void scan_convert(std::uint32_t index, const Simplex<3>& simplex, std::size_t t, const HogelRange& range,
                       Array<NearestTriangle, 3>& buffer) const {
         const double hogel_t = grid_.t(static_cast<double>(range.t0 + t));
-        slice_at_samples(simplex, axis::v, [&](double v, const Simplex<2>& at_v) {
-            slice_at_samples(at_v, axis::u, [&](double u, const Simplex<1>& at_uv) {
+        slice_at_samples(simplex, axis::v, grid_.directions_v, [&](double v, const Simplex<2>& at_v) {
+            slice_at_samples(at_v, axis::u, grid_.directions_u, [&](double u, const Simplex<1>& at_uv) {
                 const double s0 = at_uv[0][axis::s] / at_uv[0][axis::q], s1 = at_uv[1][axis::s] / at_uv[1][axis::q];
                 const Span columns = samples_between(std::min(s0, s1), std::max(s0, s1), range.ns);
                 if (columns.first == columns.end) return;

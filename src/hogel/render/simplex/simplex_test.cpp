@@ -353,9 +353,35 @@ TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_sliced_there_once) 
     const auto at = [](double v) { return ProjectedPoint{0, v, 0, 0, 1}; };
     std::vector<double> values;
     const auto collect = [&](double value, const auto&) { values.push_back(value); };
-    slice_at_samples(std::array{at(0.5), at(2)}, axis::v, collect);
-    slice_at_samples(std::array{at(2), at(4)}, axis::v, collect);
+    slice_at_samples(std::array{at(0.5), at(2)}, axis::v, 9, collect);
+    slice_at_samples(std::array{at(2), at(4)}, axis::v, 9, collect);
     EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4}));
+}
+
+// A triangle just behind the hologram moves by thousands of directions from hogel to hogel. The work for its simplices is
+// bounded by the samples there are: three tetrahedra at each V, two triangles at each U.
+TEST(Slice, work_is_bounded_by_the_field_of_view) {
+    std::mt19937 random(6);
+    constexpr std::size_t samples = 4;
+    std::size_t slices = 0;
+    for (int i = 0; i < 200; ++i) {
+        Simplex<4> simplex = random_simplex(random);
+        for (ProjectedPoint& corner : simplex)
+            for (const std::size_t along : {axis::u, axis::v}) corner[along] = (corner[along] - 5) * 1e4;
+        std::size_t at_v = 0, at_uv = 0;
+        slice_at_samples(simplex, axis::v, samples, [&](double v, const Simplex<3>& tetrahedron) {
+            ASSERT_TRUE(v >= 0 && v < samples);
+            ++at_v;
+            slice_at_samples(tetrahedron, axis::u, samples, [&](double u, const Simplex<2>&) {
+                ASSERT_TRUE(u >= 0 && u < samples);
+                ++at_uv;
+            });
+        });
+        EXPECT_LE(at_v, 3 * samples);
+        EXPECT_LE(at_uv, 2 * samples * at_v);
+        slices += at_uv;
+    }
+    EXPECT_GE(slices, 1000);
 }
 
 // (s, t) = (S, T)/Q: the spans of rows, from the crossings of [K] 5.7.4, hold all samples of a slice and no others.

@@ -37,17 +37,7 @@ void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axi
     simplices.swap(kept);
 }
 
-template <std::size_t N>
-void clip_to_view(std::vector<std::array<ProjectedPoint, N>>& simplices, const LightFieldGrid& grid) {
-    clip(simplices, axis::u, static_cast<double>(grid.directions_u) - 0.5, false);
-    clip(simplices, axis::u, -0.5, true);
-    clip(simplices, axis::v, static_cast<double>(grid.directions_v) - 0.5, false);
-    clip(simplices, axis::v, -0.5, true);
-}
-
 template void clip(std::vector<Simplex<3>>&, std::size_t, double, bool);
 template void clip(std::vector<Simplex<4>>&, std::size_t, double, bool);
-template void clip_to_view(std::vector<Simplex<3>>&, const LightFieldGrid&);
-template void clip_to_view(std::vector<Simplex<4>>&, const LightFieldGrid&);
 
 }  // namespace hogel::render::simplex

@@ -48,12 +48,14 @@ void slice(const std::array<ProjectedPoint, N>& sorted, std::size_t axis, double
     }
 }
 
-/// Calls use(value, Simplex<N − 1>) for the slices of a simplex at all whole values of an axis. Source: [K] 5.7.3.
+/// Calls use(value, Simplex<N − 1>) for the slices of a simplex at the samples 0 to `samples` − 1 of an axis that it
+/// reaches. Source: [K] 5.7.3. Differs: [K] 5.7.2 first clips simplices to the field of view, which cuts one into up to
+/// six at each of four edges. No sample lies outside, so that leaving out the slices there is the same.
 template <std::size_t N, class Use>
-void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, const Use& use) {
+void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, std::size_t samples, const Use& use) {
     sort_along(axis, simplex);
-    const double last = std::floor(simplex.back()[axis]);
-    for (double value = std::floor(simplex.front()[axis]) + 1; value <= last; ++value)
+    const double last = std::min(std::floor(simplex.back()[axis]), static_cast<double>(samples) - 1);
+    for (double value = std::max(std::floor(simplex.front()[axis]) + 1, 0.0); value <= last; ++value)
         slice(simplex, axis, value, [&](const std::array<ProjectedPoint, N - 1>& piece) { use(value, piece); });
 }
 
@@ -61,9 +63,5 @@ void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, c
 /// (otherwise), as simplices. Source: [K] 5.6.2, fig. 5.18.
 template <std::size_t N>
 void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axis, double bound, bool keep_above);
-
-/// Clips to the field of view, whose edges are half a sample outside the first and the last sample. Source: [K] 5.7.2.
-template <std::size_t N>
-void clip_to_view(std::vector<std::array<ProjectedPoint, N>>& simplices, const LightFieldGrid& grid);
 
 }  // namespace hogel::render::simplex
