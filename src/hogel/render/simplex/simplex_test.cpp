@@ -358,8 +358,8 @@ TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_sliced_there_once) 
     EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4}));
 }
 
-// A triangle just behind the hologram moves by thousands of directions from hogel to hogel. The work for its simplices is
-// bounded by the samples there are: three tetrahedra at each V, two triangles at each U.
+// A triangle just behind the hologram moves by thousands of directions from hogel to hogel. The work for its simplices
+// is bounded by the samples there are: three tetrahedra at each V, two triangles at each U.
 TEST(Slice, work_is_bounded_by_the_field_of_view) {
     std::mt19937 random(6);
     constexpr std::size_t samples = 4;
