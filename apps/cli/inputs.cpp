@@ -113,9 +113,10 @@ LightFieldGrid RenderOptions::grid() const {
     grid.pitch = size / static_cast<double>(hogels.columns);
     grid.directions_u = directions.columns;
     grid.directions_v = directions.rows;
-    grid.view = with_options({{"full angle", "--fov"}, {"", "--fov, --toward"}}, [&] {
-        return hogel::field_of_view(field_of_view.across, field_of_view.down, toward.across, toward.down);
-    });
+    // The faces of a hemicube have ranges of their own, but for the height of a single row of directions.
+    const Angles view = hemicube ? Angles{defaults.field_of_view, defaults.field_of_view} : field_of_view;
+    grid.view = with_options({{"full angle", "--fov"}, {"", "--fov, --toward"}},
+                             [&] { return hogel::field_of_view(view.across, view.down, toward.across, toward.down); });
     if (frequencies > 0) {
         // As many frequencies j/d as fit into the field of view.
         const double step = frequencies / grid.pitch;
@@ -140,11 +141,15 @@ LightFieldRequest RenderOptions::request() const {
     request.cache_spacing = cache_spacing;
     request.grid = grid();
     request.hemicube = hemicube;
+    if (hemicube && field_of_view_given) {
+        request.hemicube_across = field_of_view.across;
+        request.hemicube_down = field_of_view.down;
+    }
     request.samples = {samples.columns, samples.rows};
     request.cull_back_faces = fronts_only;
     request.fit = !as_is;
     request.front = front;
-    with_options({{"", "--hemicube, --directions"}}, [&] { request.grids(); });
+    with_options({{"spans", "--hemicube, --fov"}, {"", "--hemicube, --directions"}}, [&] { request.grids(); });
     with_options({{"", "--samples"}}, [&] { finer(request.grid, request.samples); });
     return request;
 }
@@ -212,7 +217,8 @@ void add_render_options(Command& command, RenderOptions& options) {
                    "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
                    "makes 16");
     command.positive_length("--size", options.size, "Width of the hologram");
-    command.angles("--fov", options.field_of_view, "Field of view, the full angle; or across and down");
+    command.angles("--fov", options.field_of_view, "Field of view, the full angle; or across and down")
+        .sets(options.field_of_view_given);
     command.angles("--toward", options.toward,
                    "Where the middle of the view looks behind the hologram: angles to the right and up");
     command
@@ -229,8 +235,8 @@ void add_hemicube_option(Command& command, RenderOptions& options) {
     command.group(light_field_group);
     command
         .flag("--hemicube", options.hemicube,
-              "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides")
-        .excludes("--fov")
+              "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides; "
+              "with --fov of more than 90 degrees, shorter sides")
         .excludes("--toward");
 }
 

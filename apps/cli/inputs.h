@@ -25,6 +25,7 @@ struct RenderOptions {
     Counts samples{1, 1};  ///< per ray: along a hogel's side, along a side of a direction's cell
     double size = defaults.size;
     Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
+    bool field_of_view_given = false;  ///< otherwise a hemicube spans 180 degrees
     Angles toward;
     bool hemicube = false;
     double frequencies = 0;  ///< wavelength whose frequency grid gives the directions, metres; 0: perspective

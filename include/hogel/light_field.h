@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -157,12 +158,15 @@ HOGEL_API void require_perspective(const LightFieldGrid& grid, ErrorCode code, c
 /// Whether two light fields have the same hogels at the same positions and the same number of channels.
 HOGEL_API bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
 
-/// The grids of the five faces of a hemicube around the hogels of `grid`, front first; together they hold all
-/// directions with ζ > 0. The front has |U|, |V| <= 1 and as many directions as `grid`; a side has as many along the
-/// front's edge and half as many away from it. From one row of directions it makes a hemisquare, for horizontal
-/// parallax only: the front, left and right, each with the row V = 0. Throws Error(usage) unless the numbers of
-/// directions are even; the number of rows may also be one.
-HOGEL_API std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid);
+/// The grids of the five faces of a hemicube around the hogels of `grid`, front first. The front has |U|, |V| <= 1 and
+/// as many directions as `grid`; a side has as many along the front's edge, and away from it, at the front's spacing,
+/// as many as the full angles `across` and `down` take (radians, more than π/2 and at most π): half as many for π,
+/// where the faces hold all directions with ζ > 0. For less the sides shrink ([K] 4.1). From one row of directions it
+/// makes a hemisquare, for horizontal parallax only: the front, left and right, each with the row V = 0. Throws
+/// Error(usage) for other angles, and where a side would reach beyond the hologram plane: for π the numbers of
+/// directions must be even; the number of rows may also be one.
+HOGEL_API std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid, double across = std::numbers::pi,
+                                               double down = std::numbers::pi);
 
 /// A rectangle of hogels with all their directions, the unit of work.
 struct HogelRange {

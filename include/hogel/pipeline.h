@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <variant>
@@ -82,6 +83,8 @@ struct HOGEL_API LightFieldRequest {
     bool cull_back_faces = false;
     bool fit = true;                ///< whether a mesh file is scaled and moved to fill the hologram
     double front = defaults.front;  ///< share of a fitted mesh's depth in front of the plane: see Fit
+    /// Full angles that the faces of a hemicube span, radians.
+    double hemicube_across = std::numbers::pi, hemicube_down = std::numbers::pi;
 
     /// The grids of all faces. Throws Error(usage) if they are invalid.
     std::vector<LightFieldGrid> grids() const;

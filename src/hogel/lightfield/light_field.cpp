@@ -56,6 +56,22 @@ void copy_row(const float* from, float* to, std::size_t hogels, std::size_t dire
     std::copy_n(from, hogels * directions, to);
 }
 
+// The directions from the edge of a hemicube's front, which has `front` of them across 90 degrees, to the end of a full
+// angle.
+std::size_t directions_aside(std::size_t front, double angle) {
+    using std::numbers::pi;
+    if (!(angle > pi / 2 && angle <= pi))
+        throw Error(ErrorCode::usage,
+                    fmt::format("a hemicube spans more than 90 degrees and at most 180, not {:.6g}", angle * 180 / pi));
+    const double count = 0.5 * static_cast<double>(front) * (1 - 1 / std::tan(angle / 2));
+    const auto aside = static_cast<std::size_t>(std::ceil(count - 1e-9));
+    if (2 * aside > front)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a hemicube of {:.6g} degrees needs an even number of directions in front, not {}",
+                                angle * 180 / pi, front));
+    return std::max<std::size_t>(aside, 1);
+}
+
 }  // namespace
 
 void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
@@ -131,25 +147,27 @@ bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b) {
     return a.hogels_s == b.hogels_s && a.hogels_t == b.hogels_t && a.pitch == b.pitch && a.channels == b.channels;
 }
 
-std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid) {
+std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid, double across, double down) {
     const bool square = grid.directions_v == 1;
-    if (grid.directions_u % 2 != 0 || (grid.directions_v % 2 != 0 && !square))
-        throw Error(ErrorCode::usage, fmt::format("a hemicube needs even numbers of directions, not {}x{}",
-                                                  grid.directions_u, grid.directions_v));
+    const std::size_t aside = directions_aside(grid.directions_u, across),
+                      above = square ? 0 : directions_aside(grid.directions_v, down);
+    // The tangents ζ/|x| of a side: 1 at the front's edge, 0 in the hologram plane.
+    const double half_u = static_cast<double>(aside) / static_cast<double>(grid.directions_u),
+                 half_v = static_cast<double>(above) / static_cast<double>(grid.directions_v);
     std::vector<LightFieldGrid> faces;
     for (const Face face : all_faces) {
         if (square && (face == Face::top || face == Face::bottom)) continue;
         LightFieldGrid& g = faces.emplace_back(grid);
         DirectionRange range{1, square ? grid.half_v() : 1};
         if (face == Face::left || face == Face::right) {
-            g.directions_u /= 2;
-            range.half_u = 0.5;
-            range.center_u = face == Face::left ? 0.5 : -0.5;
+            g.directions_u = aside;
+            range.half_u = half_u;
+            range.center_u = face == Face::left ? 1 - half_u : half_u - 1;
         }
         if (face == Face::top || face == Face::bottom) {
-            g.directions_v /= 2;
-            range.half_v = 0.5;
-            range.center_v = face == Face::bottom ? 0.5 : -0.5;
+            g.directions_v = above;
+            range.half_v = half_v;
+            range.center_v = face == Face::bottom ? 1 - half_v : half_v - 1;
         }
         g.view = Perspective{range, face};
     }

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "hogel/error.h"
 #include "hogel/units.h"
@@ -286,6 +288,37 @@ TEST(Hemicube, has_every_direction_behind_the_hologram_in_one_face) {
                 EXPECT_GT(direction.z, 0);
                 EXPECT_TRUE(face.covers(direction));
             }
+}
+
+// Away from the front a side has as many directions as the angle takes, so that it ends there or less than a direction
+// farther.
+TEST(Hemicube, of_less_than_180_degrees_has_shorter_sides) {
+    LightFieldGrid grid = small_grid();
+    grid.directions_u = 9;  // odd numbers are no hindrance here
+    grid.directions_v = 6;
+    const double across = 2.2, down = 1.8;
+    const std::vector<LightFieldGrid> faces = hemicube(grid, across, down);
+    ASSERT_EQ(faces.size(), 5u);
+    EXPECT_EQ(faces[1].directions_u, 3u);
+    EXPECT_EQ(faces[3].directions_v, 1u);
+    const double end_x = 3, end_y = 1.5;  // |x|/ζ and |y|/ζ: 1/(1 − 2·3/9) and 1/(1 − 2·1/6)
+    EXPECT_GE(end_x, std::tan(across / 2));
+    EXPECT_LT(1 / (1 - 2. * 2 / 9), std::tan(across / 2));
+    EXPECT_GE(end_y, std::tan(down / 2));
+    for (double x = -1; x < 1; x += 0.0173)
+        for (double y = -1; y < 1; y += 0.0191) {
+            if (x * x + y * y >= 1) continue;
+            const double z = std::sqrt(1 - x * x - y * y), away_x = std::abs(x) / z, away_y = std::abs(y) / z;
+            const bool inside = std::max(away_x, away_y) <= 1 || (away_x >= away_y ? away_x <= end_x : away_y <= end_y);
+            const auto count = std::ranges::count_if(faces, [&](const LightFieldGrid& face) {
+                return face.covers({x, y, z});
+            });
+            ASSERT_EQ(count, inside ? 1 : 0) << x << " " << y;
+        }
+    EXPECT_EQ(hemicube(grid, across, 3.1).at(3).directions_v, 3u);
+    for (const double angle : {std::numbers::pi / 2, 1.0, 3.2, -2.0, std::nan("")})
+        EXPECT_THROW(hemicube(grid, across, angle), Error) << angle;
+    EXPECT_THROW(hemicube(grid), Error);  // nine directions cannot be halved
 }
 
 TEST(Hemicube, pictures_continue_each_other) {

@@ -39,7 +39,7 @@ void require_built_in(const LightFieldRequest& request) {
 
 std::vector<LightFieldGrid> LightFieldRequest::grids() const {
     validate(grid, ErrorCode::usage, "light field");
-    return hemicube ? hogel::hemicube(grid) : std::vector{grid};
+    return hemicube ? hogel::hemicube(grid, hemicube_across, hemicube_down) : std::vector{grid};
 }
 
 InputKind input_kind(const std::string& name) {
