@@ -47,28 +47,28 @@ Scene behind(Scene scene, double gap) {
     return scene;
 }
 
-std::string table(const std::vector<RegionTimes>& all, std::size_t max_side) {
-    std::string head = "| |", line = "|---|", rows;
+// The first two lines of a table.
+std::string table_head(std::size_t max_side, bool ratios) {
+    std::string head = "| |", line = "|---|";
     for (std::size_t side = 1; side <= max_side; side *= 2) {
         head += fmt::format(" {} |", side);
         line += "---|";
     }
-    const auto reference = std::ranges::find(all, "zbuffer", [](const RegionTimes& t) { return t.curve.name; });
-    const bool ratios = reference != all.end();
-    for (const auto& [curve, bytes, part] : all) {
-        rows += fmt::format("| `{}` |", curve.name);
-        std::size_t i = 0;
-        for (std::size_t side = 1; side <= max_side; side *= 2, ++i)
-            rows += i < curve.points.size() ? fmt::format(" {}{:.3g} |", part > 1 ? "≈ " : "", curve.points[i].second)
-                                            : " |";
-        if (ratios)
-            rows += curve.points.empty()
-                        ? " |"
-                        : fmt::format(" {:.3g} |", reference->curve.points.front().second / curve.points.back().second);
-        rows += fmt::format(" {} |\n", format_bytes(bytes));
-    }
-    return head + (ratios ? " times `zbuffer` |" : "") + " memory |\n" + line + (ratios ? "---|" : "") + "---|\n" +
-           rows;
+    return head + (ratios ? " times `zbuffer` |" : "") + " memory |\n" + line + (ratios ? "---|" : "") + "---|\n";
+}
+
+// A renderer's row of a table.
+// @param reference  the renderer with which the others are compared, or null
+std::string table_row(const RegionTimes& times, const RegionTimes* reference, std::size_t max_side) {
+    const auto& points = times.curve.points;
+    std::string row = fmt::format("| `{}` |", times.curve.name);
+    std::size_t i = 0;
+    for (std::size_t side = 1; side <= max_side; side *= 2, ++i)
+        row += i < points.size() ? fmt::format(" {}{:.3g} |", times.part > 1 ? "≈ " : "", points[i].second) : " |";
+    if (reference)
+        row += points.empty() ? " |"
+                              : fmt::format(" {:.3g} |", reference->curve.points.front().second / points.back().second);
+    return row + fmt::format(" {} |\n", format_bytes(times.bytes));
 }
 
 // Lines below the axis of a plot.
@@ -91,7 +91,22 @@ std::pair<std::string, std::size_t> named_scene(const std::string& name) {
     return {name.substr(0, colon), parse_count(name.substr(colon + 1), name)};
 }
 
-void measure_scene(const std::string& name, const std::vector<std::string>& algorithms, const RenderOptions& options,
+// The plot of what has been measured.
+void plot(const std::string& name, const std::string& title, const std::string& subtitle,
+          const std::vector<RegionTimes>& all, const RenderOptions& options) {
+    PlotText text{title, subtitle, "Side of the region (hogels)", "Time for each hogel (ms)"};
+    text.notes = notes(name, all);
+    std::vector<Curve> curves;
+    for (const RegionTimes& times : all) curves.push_back(times.curve);
+    const auto reference = std::ranges::find(curves, "zbuffer", &Curve::name);
+    if (const ThesisScene* known = thesis_scene(name); known && known->faster > 0 && reference != curves.end())
+        text.levels.emplace_back(fmt::format("{:g}:1, [K]", known->faster),
+                                 reference->points.front().second / known->faster);
+    options.write_plot("render", name, text, curves);
+}
+
+// Prints and plots each renderer as soon as it is measured, because a run that is interrupted has taken a while.
+void measure_scene(const std::string& name, std::vector<std::string> algorithms, const RenderOptions& options,
                    const Session& session) {
     LightFieldOptions light_field = options.light_field(render_defaults.hogels, render_defaults.directions);
     light_field.shading = options.shading_of(name);
@@ -99,32 +114,31 @@ void measure_scene(const std::string& name, const std::vector<std::string>& algo
     const LightFieldGrid grid = light_field.grid();
     const RegionLimits limits{options.max_side, options.seconds.value_or(render_defaults.seconds),
                               1e9 * options.gigabytes};
+    // The others are compared with it.
+    const auto zbuffer = std::ranges::find(algorithms, "zbuffer");
+    const bool ratios = zbuffer != algorithms.end();
+    if (ratios) std::rotate(algorithms.begin(), zbuffer, zbuffer + 1);
     const auto scene = bench_scene(session, name, light_field);
     const std::string title =
         fmt::format("{}, {} triangles, shading '{}'", name, scene->triangles.size(), light_field.shading);
     const std::string subtitle = fmt::format(
         "{}x{} directions over {:.4g} degrees, hogels {} apart; one core", grid.directions_u, grid.directions_v,
         light_field.field_of_view.across * 180 / std::numbers::pi, format_length(grid.pitch));
+    fmt::print("{}; {}.\nMilliseconds a hogel against the side of the region in hogels.\n\n{}", title, subtitle,
+               table_head(limits.side, ratios));
     std::vector<RegionTimes> all;
-    std::vector<Curve> curves;
     for (const std::string& algorithm : algorithms) {
+        std::fflush(stdout);
         stop_if_interrupted();
         session.detail(fmt::format("{}: {}", name, algorithm));
         all.push_back(time_regions(algorithm, scene, grid, limits));
-        curves.push_back(all.back().curve);
-        session.detail(fmt::format("{} hogels a side at most, {}", 1 << (curves.back().points.size() - 1),
+        fmt::print("{}", table_row(all.back(), ratios ? &all.front() : nullptr, limits.side));
+        session.detail(fmt::format("{} hogels a side at most, {}", 1 << (all.back().curve.points.size() - 1),
                                    format_bytes(all.back().bytes)));
+        plot(name, title, subtitle, all, options);
     }
-    fmt::print("{}; {}.\nMilliseconds a hogel against the side of the region in hogels.\n\n{}\n", title, subtitle,
-               table(all, limits.side));
+    fmt::print("\n");
     std::fflush(stdout);
-    PlotText text{title, subtitle, "Side of the region (hogels)", "Time for each hogel (ms)"};
-    text.notes = notes(name, all);
-    const auto reference = std::ranges::find(curves, "zbuffer", &Curve::name);
-    if (const ThesisScene* known = thesis_scene(name); known && known->faster > 0 && reference != curves.end())
-        text.levels.emplace_back(fmt::format("{:g}:1, [K]", known->faster),
-                                 reference->points.front().second / known->faster);
-    options.write_plot("render", name, text, curves);
 }
 
 }  // namespace
