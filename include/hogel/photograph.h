@@ -26,6 +26,10 @@ enum class LightFrom {
 struct PhotographOptions {
     std::size_t memory = std::size_t{2} << 30;  ///< bytes that a photograph may use, without the pictures
     LightFrom from = LightFrom::cheaper;
+    /// The mean of infinitely many looks, without speckle, instead of that of the source's looks: the sum of the
+    /// intensities of all waves, what ideal time multiplexing shows. For stereograms that are made on demand and whose
+    /// waves have independent random phases, Fourier with Phases::random; photograph() throws Error(usage) for others.
+    bool expected = false;
 };
 
 /// Photographs a hologram by wave optics with the narrow-band camera (docs/notation.md, section 4): the field is

@@ -26,7 +26,12 @@ class HogelWaves {
     /// @param prepared  by HogelSynthesis::prepare()
     /// @param waves     aligned to a cache line
     virtual void waves(std::span<const float> prepared, const HogelPlace& place, float* waves) const = 0;
+    /// |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size() values.
+    virtual void powers(std::span<const float> prepared, float* powers) const = 0;
+    /// Whether the phases of all waves of all hogels are random and independent.
+    virtual bool independent() const = 0;
     static constexpr std::size_t rows_together = 16;
+    static std::size_t powers_size(std::size_t samples) { return size(samples) / 2; }
     static std::size_t size(std::size_t samples) {
         return (samples + rows_together - 1) / rows_together * rows_together * samples * 2;
     }

@@ -37,7 +37,7 @@ std::unique_ptr<HogelSynthesis> make_synthesis(std::span<const LightFieldGrid> f
 }
 
 // A stereogram of hogels side by side.
-class Stereogram final : public FieldSource, public optics::EyeLight {
+class Stereogram final : public FieldSource, public optics::EyeLight, public optics::WavePowers {
   public:
     Stereogram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options, RayValues values)
         : light_field_(light_field),
@@ -96,6 +96,23 @@ class Stereogram final : public FieldSource, public optics::EyeLight {
         };
         return eye::make_stereogram_eyes({grid_, columns_, waves, synthesis_->prepared_size(), prepare_hogels},
                                          hogels_of(part), eyes);
+    }
+
+    const optics::WavePowers* wave_powers() const override {
+        const HogelWaves* waves = synthesis_->hogel_waves();
+        return waves != nullptr && waves->independent() ? this : nullptr;
+    }
+
+    Counts counts() const override { return {front().hogels_s, front().hogels_t, columns_}; }
+
+    void read_powers(const Region& part, View<float, 2> out) const override {
+        const HogelRange hogels{part.x0, part.y0, part.width, part.height};
+        auto scratch = scratch_pool_.take();
+        if (scratch->prepared.shape() != Shape<2>{hogels.hogels(), synthesis_->prepared_size()})
+            scratch->prepared = Array<float, 2>({hogels.hogels(), synthesis_->prepared_size()});
+        prepare(hogels, scratch->rays, scratch->prepared);
+        for (std::size_t h = 0; h < hogels.hogels(); ++h)
+            synthesis_->hogel_waves()->powers(scratch->prepared[h].elements(), &out(h, 0));
     }
 
   private:
@@ -192,6 +209,13 @@ class Stereogram final : public FieldSource, public optics::EyeLight {
     }
 
     void prepare(const HogelRange& hogels, std::vector<LightFieldTile>& rays, View<float, 2> prepared) const {
+        if (faces().size() == 1 && !with_depth_)
+            if (const View<const float, 5> whole = light_field_.front().in_memory(); whole.size() > 0) {
+                for (std::size_t row = 0; row < hogels.nt; ++row)
+                    synthesis_->prepare({&whole(channel_, hogels.t0 + row, hogels.s0, 0, 0), {hogels.ns, rays_}}, {},
+                                        {&prepared(row * hogels.ns, 0), {hogels.ns, prepared.extent(1)}});
+                return;
+            }
         for_each_band(hogels, [&](const HogelRange& band) {
             read_rays(band, rays);
             prepare(rays, 0, {&prepared((band.t0 - hogels.t0) * band.ns, 0), {band.hogels(), prepared.extent(1)}});

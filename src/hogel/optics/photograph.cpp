@@ -9,6 +9,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/image/film.h"
+#include "hogel/optics/expected/expected.h"
 #include "hogel/optics/eye_light.h"
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
@@ -68,6 +69,16 @@ std::unique_ptr<EyeDrawing> draw_hogels(const FieldSource& whole, const Region& 
                     "a photograph from hogels needs a stereogram that is made on demand, by Fourier transforms of "
                     "hogels with at least twice as many samples as the eye takes in; from samples would do");
     return drawing;
+}
+
+const WavePowers& powers_of(const FieldSource& hologram) {
+    const auto* eyes = dynamic_cast<const EyeLight*>(&hologram);
+    const WavePowers* waves = eyes != nullptr ? eyes->wave_powers() : nullptr;
+    if (waves == nullptr)
+        throw Error(ErrorCode::usage,
+                    "the mean of infinitely many looks needs a stereogram that is made on demand and whose waves have "
+                    "independent random phases: the method fourier with random phases; a number of looks would do");
+    return *waves;
 }
 
 // One pass of cameras over one window: adds the window's light to their pictures.
@@ -153,6 +164,11 @@ void photograph_into(const FieldSource& hologram, std::span<const Camera> camera
                      std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
     image::require_a_picture_for_each(cameras, pictures);
+    if (options.expected) {
+        const WavePowers& waves = powers_of(hologram);
+        image::load_film(cameras, 1, hologram.provenance(), pictures);
+        return expected::photograph(hologram, waves, cameras, options, pictures, progress);
+    }
     const auto memory = static_cast<double>(options.memory);
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);
     image::load_film(cameras, 1, hologram.provenance(), pictures);
