@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arguments.h"
 #include "concerns.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
@@ -87,6 +88,22 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
             make_camera(options, width, height,
                         options.frames > 1 ? static_cast<double>(i) / static_cast<double>(options.frames - 1) : 0));
     return cameras;
+}
+
+Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help) {
+    return command.text(names, text, "NUMBER|expected",
+                        help + "\nexpected: the mean of infinitely many, without speckle");
+}
+
+Looks parse_looks(const std::string& text) {
+    if (text == "expected") return {1, true};
+    constexpr double max_looks = 1 << 24;
+    const std::optional<double> number = parse_number(text);
+    if (!number || !(*number >= 1 && *number <= max_looks) || *number != std::floor(*number))
+        throw Error(ErrorCode::usage, fmt::format("--looks: '{}' is neither a number of pictures from 1 to {:.0f} nor "
+                                                  "expected",
+                                                  text, max_looks));
+    return {static_cast<std::size_t>(*number), false};
 }
 
 }  // namespace hogel::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "command_line.h"
@@ -28,5 +29,15 @@ void add_camera_options(Command& command, CameraOptions& options);
 
 /// The cameras of all frames, for a hologram of this size. Throws Error(usage).
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height);
+
+/// --looks: a number of looks, or the mean of infinitely many.
+struct Looks {
+    std::size_t count = 0;
+    bool expected = false;
+};
+/// Adds --looks, whose text is parsed by parse_looks().
+Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help);
+/// Throws Error(usage).
+Looks parse_looks(const std::string& text);
 
 }  // namespace hogel::cli

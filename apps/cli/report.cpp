@@ -94,7 +94,7 @@ std::string eye_title(const Vec3& eye) {
     return "From " + x + (x.empty() || y.empty() ? "" : ", ") + y;
 }
 
-std::string picture(const Image& image, const std::string& file, const char* label, const std::string& alt,
+std::string picture(const Image& image, const std::string& file, const std::string& label, const std::string& alt,
                     double exposure) {
     return fmt::format(
         "<a href=\"{}.png\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
@@ -112,12 +112,26 @@ std::string pictures_html(const Report& report) {
             open_focus = pair.focus_name;
         }
         const std::string eye = eye_title(pair.camera.eye);
+        std::string pictures, numbers;
+        const auto add = [&](const Image& image, const std::string& file, const std::string& label,
+                             const std::string& by) {
+            pictures += picture(image, file, label, eye + ", photographed by " + by, report.exposure);
+        };
+        const auto compare = [&](const std::string& name, const ImageComparison& comparison) {
+            numbers += fmt::format("<span class=\"soft num\">{}: PSNR {} · SSIM {:.3f}</span>", name,
+                                   decibel_text(comparison.psnr), comparison.ssim);
+        };
+        if (report.looks > 0) {
+            const std::string looks = fmt::format("{} look{}", report.looks, report.looks == 1 ? "" : "s");
+            add(pair.wave, pair.wave_file, "waves, " + looks, "waves");
+            compare(looks, pair.comparison);
+        }
+        add(pair.expected, pair.expected_file, "waves, infinitely many looks", "waves, the mean of infinitely many looks");
+        compare("infinitely many looks", pair.expected_comparison);
+        add(pair.geometric, pair.geometric_file, "rays", "rays");
         html += fmt::format(
-            "<figure class=\"pair\"><div class=\"two\">{}{}</div>\n<figcaption><span>{}</span>"
-            "<span class=\"soft num\">PSNR {} · SSIM {:.3f}</span></figcaption></figure>\n",
-            picture(pair.wave, pair.wave_file, "waves", eye + ", photographed by waves", report.exposure),
-            picture(pair.geometric, pair.geometric_file, "rays", eye + ", photographed by rays", report.exposure), eye,
-            decibel_text(pair.comparison.psnr), pair.comparison.ssim);
+            "<figure class=\"pair\"><div class=\"row\">{}</div>\n<figcaption><span>{}</span>{}</figcaption></figure>\n",
+            pictures, eye, numbers);
     }
     return html + "</div>";
 }
@@ -162,7 +176,8 @@ std::string tables_html(const Report& report) {
                   {"Wavelengths", wavelengths_text(report)},
                   {"Size if it were stored", format_bytes(field_bytes)},
                   {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
-                  {"Looks averaged", fmt::format("{}", report.looks)},
+                  {"Looks averaged",
+                   report.looks > 0 ? fmt::format("{}; and infinitely many", report.looks) : "infinitely many"},
                   {"Exposure", fmt::format("{:.4g}", report.exposure)}};
     Rows times;
     for (const auto& [name, seconds] : report.stages) {
@@ -228,8 +243,12 @@ std::string report_json(const Report& report) {
                                        {"focus_depth", camera.focus_depth},
                                        {"pupil", camera.pupil},
                                        {"pixels", {camera.picture.width, camera.picture.height}},
-                                       {"wave", pair.wave_file + ".png"},
+                                       {"expected", pair.expected_file + ".png"},
                                        {"geometric", pair.geometric_file + ".png"},
+                                       {"expected_psnr", number(pair.expected_comparison.psnr)},
+                                       {"expected_ssim", number(pair.expected_comparison.ssim)}});
+        if (report.looks == 0) continue;
+        json["photographs"].back().update({{"wave", pair.wave_file + ".png"},
                                        {"psnr", number(pair.comparison.psnr)},
                                        {"ssim", number(pair.comparison.ssim)},
                                        {"max_error", number(pair.comparison.max_error)},

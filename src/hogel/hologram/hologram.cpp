@@ -108,11 +108,12 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
     void read_powers(const Region& part, View<float, 2> out) const override {
         const HogelRange hogels{part.x0, part.y0, part.width, part.height};
         auto scratch = scratch_pool_.take();
-        if (scratch->prepared.shape() != Shape<2>{hogels.hogels(), synthesis_->prepared_size()})
-            scratch->prepared = Array<float, 2>({hogels.hogels(), synthesis_->prepared_size()});
-        prepare(hogels, scratch->rays, scratch->prepared);
+        const Shape<2> shape{hogels.hogels(), synthesis_->prepared_size()};
+        if (scratch->prepared.size() < shape[0] * shape[1]) scratch->prepared = Array<float, 2>(shape);
+        const View<float, 2> prepared(scratch->prepared.data(), shape);
+        prepare(hogels, scratch->rays, prepared);
         for (std::size_t h = 0; h < hogels.hogels(); ++h)
-            synthesis_->hogel_waves()->powers(scratch->prepared[h].elements(), &out(h, 0));
+            synthesis_->hogel_waves()->powers(prepared[h].elements(), &out(h, 0));
     }
 
   private:

@@ -85,7 +85,6 @@ TEST(ExpectedPhotograph, is_what_means_of_looks_converge_to) {
                      sixteen = distance(photo(light_field, c, 16), expected), sixty_four = distance(many, expected);
         EXPECT_NEAR(2 * sixteen / four, 1, 0.05);
         EXPECT_NEAR(4 * sixty_four / four, 1, 0.05);
-        std::printf("%s: mean %.5f, 4 looks %.4f of it, %.4f %.4f\n", c.name.c_str(), mean(many) / mean(expected), four / mean(expected), 2 * sixteen / four, 4 * sixty_four / four);
     }
 }
 

@@ -24,6 +24,9 @@ constexpr double guard = 0.05;
 // Hogels that are read together.
 constexpr std::size_t block_across = 64, block_down = 2;
 
+// Pixels that are exposed together.
+constexpr std::size_t pixels_across = 32, pixels_down = 16;
+
 // By how much, in radians, the phase of the focus at the pupil's rim may vary over the part of the hologram that one
 // table of spots serves.
 constexpr double max_change = 0.5;
@@ -131,12 +134,10 @@ class Photographer {
         read(last_row - first_row_, first, end, progress.part(0.0, 0.8));
         for (ExpectedEye& eye : eyes_)
             for (const Exposure& exposure : eye.exposures)
-                core::parallel_for(exposure.rows.base.size(), [&](std::size_t row) {
-                    const std::ptrdiff_t base = exposure.rows.base[row];
-                    // Pixels beside the hologram may still show a part of it.
-                    const auto at = static_cast<std::size_t>(
-                        std::clamp<std::ptrdiff_t>(base, 0, static_cast<std::ptrdiff_t>(height) - 1));
-                    if (at >= first && at < end) expose_row(eye, exposure, row, pictures[exposure.camera]);
+                expose_blocks(exposure, [&](std::size_t row, std::size_t left, std::size_t right) {
+                    const auto base = static_cast<std::size_t>(exposure.rows.base[row]);
+                    if (base >= first && base < end)
+                        expose_row(eye, exposure, row, left, right, pictures[exposure.camera]);
                 });
         progress.report(1);
     }
@@ -177,8 +178,8 @@ class Photographer {
             auto powers = powers_.take();
             const std::size_t samples = hogels_.samples,
                               size = (samples + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes * samples;
-            if (powers->shape() != Shape<2>{part.samples(), size}) *powers = Array<float, 2>({part.samples(), size});
-            waves_.read_powers(part, *powers);
+            if (powers->size() == 0) *powers = Array<float, 2>({block_across * block_down, size});
+            waves_.read_powers(part, {powers->data(), {part.samples(), size}});
             for (ExpectedEye& eye : eyes_)
                 for (std::size_t h = 0; h < part.samples(); ++h)
                     add_hogel(eye, part.x0 + h % part.width, part.y0 + h / part.width, &(*powers)(h, 0), first, end);
@@ -213,7 +214,22 @@ class Photographer {
         }
     }
 
-    void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, Image& picture) const {
+    // Calls expose(row, left, right) for parts of rows of pixels, block by block, so that the numbers around a block
+    // stay in the processor's cache.
+    template <class Expose>
+    static void expose_blocks(const Exposure& exposure, const Expose& expose) {
+        const std::size_t width = exposure.columns.base.size(), height = exposure.rows.base.size();
+        const std::size_t across = (width + pixels_across - 1) / pixels_across,
+                          down = (height + pixels_down - 1) / pixels_down;
+        core::parallel_for(across * down, [&](std::size_t i) {
+            const std::size_t left = i % across * pixels_across, top = i / across * pixels_down;
+            for (std::size_t row = top; row < std::min(top + pixels_down, height); ++row)
+                if (exposure.rows.seen[row] > 0) expose(row, left, std::min(left + pixels_across, width));
+        });
+    }
+
+    void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, std::size_t first,
+                    std::size_t end, Image& picture) const {
         const auto width = static_cast<std::ptrdiff_t>(hogels_.plane.width),
                    rows = static_cast<std::ptrdiff_t>(eye.numbers.extent(0));
         const std::size_t pairs = eye.pairs->count;
@@ -221,16 +237,15 @@ class Photographer {
         const std::ptrdiff_t base_y = exposure.rows.base[row] - static_cast<std::ptrdiff_t>(first_row_);
         const std::ptrdiff_t top = std::max<std::ptrdiff_t>(0, base_y - reach),
                              bottom = std::min(rows, base_y + reach + 1);
-        if (exposure.rows.seen[row] == 0 || top >= bottom) return;
         const auto position = [](std::ptrdiff_t base, double extent) {
             return (static_cast<double>(base) + 0.5) / extent;
         };
         const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
-        for (std::size_t column = 0; column < exposure.columns.base.size(); ++column) {
+        for (std::size_t column = first; column < end; ++column) {
             const std::ptrdiff_t base = exposure.columns.base[column];
             const std::ptrdiff_t left = std::max<std::ptrdiff_t>(0, base - reach),
                                  right = std::min(width, base + reach + 1);
-            if (exposure.columns.seen[column] == 0 || left >= right) continue;
+            if (exposure.columns.seen[column] == 0) continue;
             const double across = position(base, static_cast<double>(width));
             float light = 0;
             for (std::size_t i = 0; i < exposure.spots.size(); ++i) {
