@@ -143,9 +143,9 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
     if (expected && geometric)
         throw Error(ErrorCode::usage, "--looks expected: is of waves, and rays have no speckle; give --wave");
     if (expected && (options.camera == "narrow" || options.camera == "full"))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--looks expected: needs the hogels, not samples; leave out --camera {}",
-                                options.camera));
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--looks expected: needs the hogels, not samples; leave out --camera {}", options.camera));
     if (options.film_distance != 0 && options.camera != "full")
         throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");
     if (options.display == "phase" && (options.camera != "full" || options.film_distance != 0))

@@ -126,7 +126,8 @@ std::string pictures_html(const Report& report) {
             add(pair.wave, pair.wave_file, "waves, " + looks, "waves");
             compare(looks, pair.comparison);
         }
-        add(pair.expected, pair.expected_file, "waves, infinitely many looks", "waves, the mean of infinitely many looks");
+        add(pair.expected, pair.expected_file, "waves, infinitely many looks",
+            "waves, the mean of infinitely many looks");
         compare("infinitely many looks", pair.expected_comparison);
         add(pair.geometric, pair.geometric_file, "rays", "rays");
         html += fmt::format(
@@ -171,14 +172,14 @@ std::string tables_html(const Report& report) {
                                               2 * std::atan(grid.half_v()) / degree)},
                 {"Rays", fmt::format("{:.4g} million", 1e-6 * grid.samples() / static_cast<double>(grid.channels))},
                 {"Light field file", format_bytes(static_cast<double>(report.light_field_bytes))}};
-    Rows hologram{{"Samples", samples_text(report)},
-                  {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
-                  {"Wavelengths", wavelengths_text(report)},
-                  {"Size if it were stored", format_bytes(field_bytes)},
-                  {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
-                  {"Looks averaged",
-                   report.looks > 0 ? fmt::format("{}; and infinitely many", report.looks) : "infinitely many"},
-                  {"Exposure", fmt::format("{:.4g}", report.exposure)}};
+    Rows hologram{
+        {"Samples", samples_text(report)},
+        {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
+        {"Wavelengths", wavelengths_text(report)},
+        {"Size if it were stored", format_bytes(field_bytes)},
+        {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
+        {"Looks averaged", report.looks > 0 ? fmt::format("{}; and infinitely many", report.looks) : "infinitely many"},
+        {"Exposure", fmt::format("{:.4g}", report.exposure)}};
     Rows times;
     for (const auto& [name, seconds] : report.stages) {
         std::string title = name;
@@ -249,10 +250,10 @@ std::string report_json(const Report& report) {
                                        {"expected_ssim", number(pair.expected_comparison.ssim)}});
         if (report.looks == 0) continue;
         json["photographs"].back().update({{"wave", pair.wave_file + ".png"},
-                                       {"psnr", number(pair.comparison.psnr)},
-                                       {"ssim", number(pair.comparison.ssim)},
-                                       {"max_error", number(pair.comparison.max_error)},
-                                       {"linear_psnr", number(pair.comparison.linear_psnr)}});
+                                           {"psnr", number(pair.comparison.psnr)},
+                                           {"ssim", number(pair.comparison.ssim)},
+                                           {"max_error", number(pair.comparison.max_error)},
+                                           {"linear_psnr", number(pair.comparison.linear_psnr)}});
     }
     for (const auto& [name, seconds] : report.stages) json["stages"].push_back({{"name", name}, {"seconds", seconds}});
     json["seconds"] = seconds_in_all(report);

@@ -55,7 +55,8 @@ std::vector<Case> cases() {
 }
 
 Image photo(const LightField& light_field, const Case& c, std::size_t looks) {
-    const auto hologram = make_hologram(light_field, {{532_nm, 0}, c.pitch, Fourier{}, std::max<std::size_t>(looks, 1), 7});
+    const auto hologram =
+        make_hologram(light_field, {{532_nm, 0}, c.pitch, Fourier{}, std::max<std::size_t>(looks, 1), 7});
     PhotographOptions options;
     options.expected = looks == 0;
     return photograph(*hologram, {&c.camera, 1}, options).front();
@@ -86,6 +87,23 @@ TEST(ExpectedPhotograph, is_what_means_of_looks_converge_to) {
         EXPECT_NEAR(2 * sixteen / four, 1, 0.05);
         EXPECT_NEAR(4 * sixty_four / four, 1, 0.05);
     }
+}
+
+// Bands of rows of hogels and one eye at a time give the same pictures.
+TEST(ExpectedPhotograph, fits_into_little_memory) {
+    const Case c = cases().front();
+    const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, c.pitch, Fourier{}, 1, 7});
+    Camera other = c.camera;
+    other.eye.x += 1_mm;
+    other.focus_depth = 2_mm;
+    const std::vector<Camera> cameras{c.camera, other};
+    PhotographOptions options;
+    options.expected = true;
+    const std::vector<Image> whole = photograph(*hologram, cameras, options);
+    options.memory = 500'000;
+    const std::vector<Image> bands = photograph(*hologram, cameras, options);
+    for (std::size_t i = 0; i < cameras.size(); ++i) EXPECT_LT(distance(whole[i], bands[i]), 1e-5 * mean(whole[i]));
 }
 
 TEST(ExpectedPhotograph, needs_independent_random_phases) {

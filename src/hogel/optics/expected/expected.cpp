@@ -116,7 +116,7 @@ class Photographer {
     // Bytes of the numbers of a row of hogels.
     double row_bytes() const {
         double pairs = 0;
-        for (const ExpectedEye& eye : eyes_) pairs += static_cast<double>(eye.pairs->count);
+        for (const ExpectedEye& eye : eyes_) pairs += static_cast<double>(eye.pairs->padded_count());
         return pairs * static_cast<double>(hogels_.plane.width) * sizeof(float);
     }
     std::size_t reach() const {
@@ -147,17 +147,16 @@ class Photographer {
         for (const ExpectedEye& eye : eyes_)
             for (const Exposure& exposure : eye.exposures) {
                 const Camera& camera = cameras_[exposure.camera];
-                const Array<float, 2> spread = spread_tails(exposure.tails, exposure.spots.front().reach(),
-                                                            128 * resolution_cell(camera, hogels_.wavelength) /
-                                                                hogels_.plane.pitch_x);
+                const Array<float, 2> spread =
+                    spread_tails(exposure.tails, exposure.spots.front().reach(),
+                                 128 * resolution_cell(camera, hogels_.wavelength) / hogels_.plane.pitch_x);
                 const Grid &plane = hogels_.plane, &picture = camera.picture;
                 Image& image = pictures[exposure.camera];
                 core::parallel_for(picture.height, [&](std::size_t row) {
                     for (std::size_t column = 0; column < picture.width; ++column)
-                        image.pixels(row, column, 0) +=
-                            exposure.rows.seen[row] * exposure.columns.seen[column] *
-                            between(spread, plane.row(picture.y(static_cast<double>(row))),
-                                    plane.column(picture.x(static_cast<double>(column))));
+                        image.pixels(row, column, 0) += exposure.rows.seen[row] * exposure.columns.seen[column] *
+                                                        between(spread, plane.row(picture.y(static_cast<double>(row))),
+                                                                plane.column(picture.x(static_cast<double>(column))));
                 });
             }
     }
@@ -167,8 +166,8 @@ class Photographer {
     void read(std::size_t count, std::size_t first, std::size_t end, const Progress& progress) {
         const Grid& plane = hogels_.plane;
         for (ExpectedEye& eye : eyes_)
-            if (eye.numbers.shape() != Shape<2>{count, plane.width * eye.pairs->count})
-                eye.numbers = Array<float, 2>({count, plane.width * eye.pairs->count});
+            if (eye.numbers.shape() != Shape<2>{count, plane.width * eye.pairs->padded_count()})
+                eye.numbers = Array<float, 2>({count, plane.width * eye.pairs->padded_count()});
         const std::size_t across = (plane.width + block_across - 1) / block_across,
                           down = (count + block_down - 1) / block_down;
         core::parallel_for(across * down, [&](std::size_t i) {
@@ -198,9 +197,9 @@ class Photographer {
         thread_local Array<float, 1> all;
         if (all.size() < basis.count() * basis.padded_count())
             all = Array<float, 1>({basis.count() * basis.padded_count()});
-        sum_powers(basis, basis.weights(geometry.sine_x(x, y) * cycles),
-                   basis.weights(-geometry.sine_y(x, y) * cycles), powers, all.data());
-        float* const numbers = &eye.numbers(t - first_row_, s * eye.pairs->count);
+        sum_powers(basis, basis.weights(geometry.sine_x(x, y) * cycles), basis.weights(-geometry.sine_y(x, y) * cycles),
+                   powers, all.data());
+        float* const numbers = &eye.numbers(t - first_row_, s * eye.pairs->padded_count());
         float* to = numbers;
         for (std::size_t q = 0; q < basis.count(); ++q) {
             const Pairs::Range range = eye.pairs->of_column[q];
@@ -232,7 +231,7 @@ class Photographer {
                     std::size_t end, Image& picture) const {
         const auto width = static_cast<std::ptrdiff_t>(hogels_.plane.width),
                    rows = static_cast<std::ptrdiff_t>(eye.numbers.extent(0));
-        const std::size_t pairs = eye.pairs->count;
+        const std::size_t pairs = eye.pairs->padded_count();
         const auto reach = static_cast<std::ptrdiff_t>(exposure.spots.front().reach());
         const std::ptrdiff_t base_y = exposure.rows.base[row] - static_cast<std::ptrdiff_t>(first_row_);
         const std::ptrdiff_t top = std::max<std::ptrdiff_t>(0, base_y - reach),
@@ -256,10 +255,10 @@ class Photographer {
                 const float* weights =
                     &spots(exposure.rows.place[row], exposure.columns.place[column], top - base_y + reach,
                            static_cast<std::size_t>(left - base + reach) * pairs);
-                light += weight * sum_products({&eye.numbers(top, static_cast<std::size_t>(left) * pairs), weights,
-                                                eye.numbers.extent(1), spots.extent(3),
-                                                static_cast<std::size_t>(bottom - top),
-                                                static_cast<std::size_t>(right - left) * pairs});
+                light += weight *
+                         sum_products({&eye.numbers(top, static_cast<std::size_t>(left) * pairs), weights,
+                                       eye.numbers.extent(1), spots.extent(3), static_cast<std::size_t>(bottom - top),
+                                       static_cast<std::size_t>(right - left) * pairs});
             }
             picture.pixels(row, column, 0) += exposure.rows.seen[row] * exposure.columns.seen[column] * light;
         }

@@ -77,8 +77,12 @@ class Pupil {
         return distance * distance / (cosine_ * 0.25 * pi * camera_.pupil * camera_.pupil);
     }
     // By how much the demodulation's frequency grows over a hogel, in cycles, across and down.
-    double bend_x(double pitch) const { return pitch * pitch * (1 - nx_ * nx_) * cosine_ / (camera_.eye.z * wavelength_); }
-    double bend_y(double pitch) const { return pitch * pitch * (1 - ny_ * ny_) * cosine_ / (camera_.eye.z * wavelength_); }
+    double bend_x(double pitch) const {
+        return pitch * pitch * (1 - nx_ * nx_) * cosine_ / (camera_.eye.z * wavelength_);
+    }
+    double bend_y(double pitch) const {
+        return pitch * pitch * (1 - ny_ * ny_) * cosine_ / (camera_.eye.z * wavelength_);
+    }
 
   private:
     const Camera& camera_;
@@ -213,8 +217,8 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     window.stop = window.flat + pixel + cells_fading * 0.5 / half_band;
     const double period = window.flat + window.stop;
     const PupilEdge edge(window, 1);
-    const auto half =
-        static_cast<std::size_t>(std::ceil((film::frequency_radius(2 * half_band, 2 * half_band * camera.eye.z / camera.pupil) + edge.reach()) * period));
+    const auto half = static_cast<std::size_t>(std::ceil(
+        (film::frequency_radius(2 * half_band, 2 * half_band * camera.eye.z / camera.pupil) + edge.reach()) * period));
     const std::size_t size = math::good_fft_size(4 * half + 2), side = 2 * half + 1, highest = 2 * half;
     Array<std::complex<double>, 2> opening({side, side});
     Array<double, 2> energy({side, side});
@@ -234,7 +238,7 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     const Array<float, 2> means_x = pixel_means(columns, reach_, size, period, highest),
                           means_y = pixel_means(rows, reach_, size, period, highest);
     const std::size_t across_all = means_x.extent(0), down_all = means_y.extent(0);
-    weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.count});
+    weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.padded_count()});
     struct Pair {
         std::size_t x, y;
     };
@@ -270,12 +274,11 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
             for (std::size_t c = 0; c < across_all; ++c) {
                 float sum = 0;
                 for (std::size_t i = 0; i < size; ++i) sum += lines(r, i) * means_x(c, i);
-                weights_(r / taps(), c / taps(), r % taps(), c % taps() * pairs.count + pair) = sum;
+                weights_(r / taps(), c / taps(), r % taps(), c % taps() * pairs.padded_count() + pair) = sum;
                 followed += sum;
             }
-        tails_[pair] = static_cast<float>(
-            radiance * scale * light -
-            followed / static_cast<double>(columns.places.size() * rows.places.size()));
+        tails_[pair] = static_cast<float>(radiance * scale * light -
+                                          followed / static_cast<double>(columns.places.size() * rows.places.size()));
     });
 }
 

@@ -29,6 +29,8 @@ struct Pairs {
     };
     std::vector<Range> of_column;  ///< [q_x]
     std::size_t count = 0;         ///< in all
+    /// With zeros, so that those of each hogel begin at a cache line.
+    std::size_t padded_count() const { return (count + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes; }
 
     Pairs(const SpotBasis& basis, double half_band);
 };

@@ -38,7 +38,8 @@ Array<float, 2> spread_tails(View<const float, 2> light, std::size_t reach, doub
     for (std::ptrdiff_t y = -far; y <= far; ++y)
         for (std::ptrdiff_t x = -far; x <= far; ++x) all += weight(y, x);
     if (all == 0) return spread;
-    const auto rows = static_cast<std::ptrdiff_t>(sums.extent(0)), columns = static_cast<std::ptrdiff_t>(sums.extent(1));
+    const auto rows = static_cast<std::ptrdiff_t>(sums.extent(0)),
+               columns = static_cast<std::ptrdiff_t>(sums.extent(1));
     const std::ptrdiff_t down = std::min(far, rows - 1), across = std::min(far, columns - 1);
     const std::size_t height = math::good_fft_size(static_cast<std::size_t>(rows + down)),
                       width = math::good_fft_size(static_cast<std::size_t>(columns + across));
@@ -65,8 +66,10 @@ float between(View<const float, 2> values, double row, double column) {
     };
     const double y = held(row, values.extent(0)), x = held(column, values.extent(1));
     const auto top = static_cast<std::size_t>(y), left = static_cast<std::size_t>(x);
-    const std::size_t bottom = std::min(top + 1, values.extent(0) - 1), right = std::min(left + 1, values.extent(1) - 1);
-    const auto v = static_cast<float>(y - static_cast<double>(top)), u = static_cast<float>(x - static_cast<double>(left));
+    const std::size_t bottom = std::min(top + 1, values.extent(0) - 1),
+                      right = std::min(left + 1, values.extent(1) - 1);
+    const auto v = static_cast<float>(y - static_cast<double>(top)),
+               u = static_cast<float>(x - static_cast<double>(left));
     return (1 - v) * ((1 - u) * values(top, left) + u * values(top, right)) +
            v * ((1 - u) * values(bottom, left) + u * values(bottom, right));
 }
