@@ -56,7 +56,7 @@ Image CapturedEye::photograph(const Camera& camera) const {
         throw Error(ErrorCode::usage, fmt::format("light was captured for focuses nearer to the hologram than {}",
                                                   format_length(camera.focus_depth)));
     Array<float, 2> intensity = film_.unexposed();
-    for (const auto& look : looks_) film_.expose(look, camera, intensity);
+    film_.expose(looks_, camera, intensity);
     Image picture(camera.picture.width, camera.picture.height, 1);
     film_.develop(intensity, camera, Rectangle(plane_), 1 / static_cast<double>(looks_.size()), picture);
     return picture;

@@ -107,15 +107,17 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
             report(0.9 * fraction);
             return true;
         });
-        for (std::size_t e = 0; e < eyes.size(); ++e)
-            for (std::size_t look = 0; look < count; ++look) {
-                const Array<std::complex<float>, 2> wave = films[e].pupil_wave(drawn[e][look]);
-                drawn[e][look] = {};
-                for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
-                    films[e].expose(wave, cameras[eyes[e].members[c]], intensities[e][c]);
-                report(0.9 +
-                       0.1 * static_cast<double>(e * count + look + 1) / static_cast<double>(eyes.size() * count));
+        for (std::size_t e = 0; e < eyes.size(); ++e) {
+            // Waves of a pupil take less memory than the bands from which they come.
+            std::vector<Array<std::complex<float>, 2>> waves;
+            for (Array<std::complex<float>, 2>& band : drawn[e]) {
+                waves.push_back(films[e].pupil_wave(band));
+                band = {};
             }
+            for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
+                films[e].expose(waves, cameras[eyes[e].members[c]], intensities[e][c]);
+            report(0.9 + 0.1 * static_cast<double>(e + 1) / static_cast<double>(eyes.size()));
+        }
     }
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
