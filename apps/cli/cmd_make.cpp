@@ -27,7 +27,8 @@ struct Options {
     std::size_t resolution = defaults.resolution;
     std::string looks;  // empty: enough_looks()
     std::size_t pupil_samples = defaults.pupil_samples;
-    bool store_hologram = false, force = false;
+    std::string camera = "auto";
+    bool store_hologram = false, keep_light_field = false, force = false;
 };
 
 struct Focus {
@@ -102,10 +103,43 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
 
 // Prints the resources that the work needs. Throws if they are not available.
 void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
-                const Session& session) {
-    const Plan plan = plan_photographs(std::span(&grid, 1), request, cameras);
-    state_plan(session, plan, "photographing the hologram");
+                const PhotographOptions& options, const Session& session) {
+    const std::span<const LightFieldGrid> faces(&grid, 1);
+    say_camera(session, faces, request, cameras, options);
+    state_plan(session, plan_photographs(faces, request, cameras, options), "photographing the hologram");
 }
+
+// The command that renders the light field again, from the options that describe the run.
+std::string render_command(const Metadata& run, const std::string& scene) {
+    constexpr std::array<std::string_view, 14> names{
+        "algorithm", "shading", "shadow-map", "cache-spacing", "cull-back-faces", "hogels", "directions",
+        "samples",   "size",    "fov",        "toward",        "front",           "as-is",  "fit"};
+    std::string command = "hogel render " + scene + " -o lightfield.h5";
+    for (const auto& [key, value] : run)
+        for (const std::string_view name : names) {
+            if (key != fmt::format("option {}", name) || value == "no") continue;
+            command += fmt::format(" --{}", name);
+            if (value != "yes") command += " " + value;
+        }
+    return command;
+}
+
+// A file that is removed in the end, unless it is to be kept.
+class PassingFile {
+  public:
+    PassingFile(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
+    PassingFile(const PassingFile&) = delete;
+    PassingFile& operator=(const PassingFile&) = delete;
+    ~PassingFile() {
+        std::error_code none;
+        if (!keep_) std::filesystem::remove(path_, none);
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    bool keep_;
+};
 
 // The most important facts of report.json.
 Result result_of(const Report& report, const std::string& folder, const Session& session) {
@@ -156,18 +190,21 @@ int make(const Options& options, const Session& session) {
     const HologramRequest request = options.hologram.request(session, looks.count);
     with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--pitch, --fov"}},
                  [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
-    state_plan(report.light_field, request, cameras, session);
+    const PhotographOptions with = photograph_options(options.camera, looks.expected);
+    state_plan(report.light_field, request, cameras, with, session);
 
     const OutputFolder folder(options.output, options.force);
-    const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
+    const PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field);
+    report.render_command = render_command(report.run, options.scene);
+    report.scene_input = describe_input(options.scene, scene);
 
     timed(session, report, "light field", [&](Stage& stage) {
         const LightField rendered = render_light_field(session, scene, options.render);
         require_memory(session, rendered, options.render, scene);
-        write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
+        write_light_field(light_field_file.path(), rendered, {.metadata = report.run}, stage.progress());
     });
-    report.light_field_bytes = std::filesystem::file_size(light_field_file);
-    const LightField light_field = open_light_field(light_field_file);
+    if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
+    const LightField light_field = open_light_field(light_field_file.path());
     const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
@@ -181,7 +218,7 @@ int make(const Options& options, const Session& session) {
         });
     if (!looks.expected)
         timed(session, report, "photographs by waves", [&](Stage& stage) {
-            std::vector<Image> pictures = photograph_colours(holograms, cameras, PhotographOptions(), stage.progress());
+            std::vector<Image> pictures = photograph_colours(holograms, cameras, with, stage.progress());
             for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
         });
     timed(session, report, "expected photographs", [&](Stage& stage) {
@@ -217,11 +254,14 @@ void add_make(Command& command, Session& session) {
     add_force_flag(command, options->force);
     command.flag("--store-hologram", options->store_hologram,
                  "Keep hologram.h5 too; otherwise it streams through and is never stored");
+    command.flag("--keep-light-field", options->keep_light_field,
+                 "Keep lightfield.h5 too; the report has the command that renders it again");
     command.group("Hologram");
     command.positive_length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
     command.group("Camera");
     command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
     command.positive_length("--pupil", options->pupil, "Diameter of the lens");
+    add_wave_camera_option(command, options->camera, {"auto", "eye", "narrow"});
     command.count("--resolution", options->resolution, "Pixels across a photograph");
     add_looks_option(command, "--looks", options->looks,
                      "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")

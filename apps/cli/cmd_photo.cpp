@@ -37,10 +37,7 @@ struct Options {
             return PlaneWaveCameraOptions{
                 {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
                 film_distance};
-        return PhotographOptions{.from = camera == "eye"      ? LightFrom::hogels
-                                         : camera == "narrow" ? LightFrom::samples
-                                                              : LightFrom::cheaper,
-                                 .expected = parse_looks(looks).expected};
+        return photograph_options(camera, parse_looks(looks).expected);
     }
 };
 
@@ -117,7 +114,13 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     }
     const HologramRequest request = options.hologram.request(session, parse_looks(options.looks).count);
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
-    state_plan(session, plan_photographs(light_field.grids(), request, cameras), "photographing the hologram");
+    const WaveCamera with = options.wave_camera();
+    const auto* const narrow = std::get_if<PhotographOptions>(&with);
+    if (narrow != nullptr) say_camera(session, light_field.grids(), request, cameras, *narrow);
+    state_plan(
+        session,
+        plan_photographs(light_field.grids(), request, cameras, narrow != nullptr ? *narrow : PhotographOptions()),
+        "photographing the hologram");
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
     const auto holograms = make_holograms(light_field, request);
@@ -219,12 +222,7 @@ void add_photo_options(Command& command, Options& options) {
     command.choice("--display", options.display, {"intensity", "log", "phase"}, "intensity|log|phase",
                    "Linear light; four decades of it from black to white;\nor its phase, beside that of light "
                    "through the middle of the lens, from -pi to pi");
-    command.choice("--camera", options.camera, {"auto", "eye", "narrow", "full"}, "auto|eye|narrow|full",
-                   "How waves are photographed:"
-                   "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
-                   "\neye: the few numbers of each hogel that enter the lens"
-                   "\nnarrow: the band that enters the lens, from all samples, tile by tile"
-                   "\nfull: plane waves to the lens and back, exact and slow");
+    add_wave_camera_option(command, options.camera, {"auto", "eye", "narrow", "full"});
     command.length("--film-distance", options.film_distance,
                    "From a thin lens to its film, for the full camera:\nwith its aberrations; 0mm: a perfect lens");
     const Option geometric =

@@ -171,7 +171,10 @@ std::string tables_html(const Report& report) {
                 {"Field of view", fmt::format("{:.4g}° × {:.4g}°", 2 * std::atan(grid.half_u()) / degree,
                                               2 * std::atan(grid.half_v()) / degree)},
                 {"Rays", fmt::format("{:.4g} million", 1e-6 * grid.samples() / static_cast<double>(grid.channels))},
-                {"Light field file", format_bytes(static_cast<double>(report.light_field_bytes))}};
+                {"Light field file", report.light_field_bytes > 0
+                                         ? format_bytes(static_cast<double>(report.light_field_bytes))
+                                         : "not kept; scene and options are, from which it can be rendered again: " +
+                                               report.render_command}};
     Rows hologram{
         {"Samples", samples_text(report)},
         {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
@@ -221,14 +224,15 @@ std::string report_json(const Report& report) {
     const LightFieldGrid& grid = report.light_field;
     Json json;
     for (const auto& [name, value] : report.run) json["run"][name] = value;
-    json["scene"] = {{"name", report.scene}, {"triangles", report.triangles}};
+    json["scene"] = {{"name", report.scene}, {"input", report.scene_input}, {"triangles", report.triangles}};
     json["light_field"] = {{"algorithm", report.algorithm},
                            {"hogels", {grid.hogels_s, grid.hogels_t}},
                            {"directions", {grid.directions_u, grid.directions_v}},
                            {"pitch", grid.pitch},
                            {"tan_half", {grid.half_u(), grid.half_v()}},
-                           {"file", "lightfield.h5"},
-                           {"bytes", report.light_field_bytes}};
+                           {"render", report.render_command}};
+    if (report.light_field_bytes > 0)
+        json["light_field"].update({{"file", "lightfield.h5"}, {"bytes", report.light_field_bytes}});
     for (const FieldGrid& hologram : report.holograms)
         json["holograms"].push_back({{"wavelength", hologram.wavelength},
                                      {"samples", {hologram.plane.width, hologram.plane.height}},

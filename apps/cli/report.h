@@ -30,7 +30,9 @@ struct Report {
     std::size_t triangles = 0;
     std::string algorithm;
     LightFieldGrid light_field;
-    std::uintmax_t light_field_bytes = 0;  ///< of the file
+    std::uintmax_t light_field_bytes = 0;  ///< of the file; 0: it is not kept
+    std::string render_command;            ///< which renders the light field again
+    std::string scene_input;               ///< what identifies the scene: see describe_input()
     std::vector<FieldGrid> holograms;
     std::size_t looks = 0;  ///< 0: only the mean of infinitely many
     std::size_t pupil_samples = 0;

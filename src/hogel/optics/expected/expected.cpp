@@ -274,6 +274,43 @@ class Photographer {
 
 }  // namespace
 
+namespace {
+
+HogelGrid hogel_grid(const FieldGrid& hologram, const WavePowers::Counts& counts) {
+    const Grid& samples = hologram.plane;
+    const auto side = static_cast<double>(counts.samples);
+    return {{counts.across, counts.down, samples.pitch_x * side, samples.pitch_y * side, samples.center_x,
+             samples.center_y},
+            counts.samples,
+            hologram.wavelength};
+}
+
+std::vector<SharedEye> eyes_of(std::span<const Camera> cameras) {
+    std::vector<std::size_t> all(cameras.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return group_by_eye(cameras, all);
+}
+
+}  // namespace
+
+Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
+          const PhotographOptions& options) {
+    const HogelGrid hogels = hogel_grid(hologram, counts);
+    Work work;
+    for (const SharedEye& eye : eyes_of(cameras)) {
+        const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
+        const SpotBasis basis(counts.samples, band * (1 + guard));
+        const auto pairs = static_cast<double>(Pairs(basis, band).padded_count());
+        work.bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
+        for (const std::size_t member : eye.members) {
+            const auto taps = static_cast<double>(2 * Spots::reach(hogels, cameras[member], band) + 1);
+            work.products += pairs * taps * taps * static_cast<double>(cameras[member].picture.samples());
+        }
+    }
+    work.bytes = std::min(work.bytes, static_cast<double>(options.memory));
+    return work;
+}
+
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
                 const PhotographOptions& options, std::span<Image> pictures, const Progress& progress) {
     const FieldGrid& field = hologram.grid();
@@ -283,15 +320,8 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
         narrow_band::NarrowBand(field, camera.eye, camera.pupil);  // throws where the pupil is too wide for the pitch
     }
     const WavePowers::Counts counts = waves.counts();
-    const Grid& samples = field.plane;
-    const auto side = static_cast<double>(counts.samples);
-    const HogelGrid hogels{{counts.across, counts.down, samples.pitch_x * side, samples.pitch_y * side,
-                            samples.center_x, samples.center_y},
-                           counts.samples,
-                           field.wavelength};
-    std::vector<std::size_t> all(cameras.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const std::vector<SharedEye> eyes = group_by_eye(cameras, all);
+    const HogelGrid hogels = hogel_grid(field, counts);
+    const std::vector<SharedEye> eyes = eyes_of(cameras);
     // As many eyes at a time as fit into memory with enough rows of hogels.
     std::size_t at_once = eyes.size();
     for (std::size_t done = 0; done < eyes.size();) {

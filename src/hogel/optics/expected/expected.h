@@ -19,4 +19,12 @@ namespace hogel::optics::expected {
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
                 const PhotographOptions& options, std::span<Image> pictures, const Progress& progress);
 
+/// What photograph() takes, besides the waves' powers.
+struct Work {
+    double products = 0;  ///< of numbers of hogels and spots
+    double bytes = 0;     ///< of the numbers
+};
+Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
+          const PhotographOptions& options);
+
 }  // namespace hogel::optics::expected

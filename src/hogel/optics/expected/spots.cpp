@@ -9,7 +9,9 @@
 #include "hogel/core/parallel.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/dirichlet.h"
+#include "hogel/optics/expected/kernels.h"
 #include "hogel/optics/film/lens.h"
+#include "hogel/optics/phase_walk.h"
 #include "hogel/optics/pupil_edge.h"
 #include "hogel/optics/sine_grid.h"
 #include "hogel/optics/view_geometry.h"
@@ -102,12 +104,12 @@ std::complex<double> bent_dirichlet(double y, std::size_t samples, double bend) 
 }
 
 // [q][κ = −half … half, in steps of 1/period]: the light of each wave of a basis.
-Array<std::complex<double>, 2> lights(const SpotBasis& basis, std::size_t half, double period, double bend) {
-    Array<std::complex<double>, 2> values({basis.count(), 2 * half + 1});
+Array<Complex, 2> lights(const SpotBasis& basis, std::size_t half, double period, double bend) {
+    Array<Complex, 2> values({basis.count(), 2 * half + 1});
     for (std::size_t q = 0; q < basis.count(); ++q)
         for (std::size_t i = 0; i < 2 * half + 1; ++i) {
             const double kappa = (static_cast<double>(i) - static_cast<double>(half)) / period;
-            values(q, i) = bent_dirichlet(basis.node(q) - kappa, basis.samples(), bend);
+            values(q, i) = Complex(bent_dirichlet(basis.node(q) - kappa, basis.samples(), bend));
         }
     return values;
 }
@@ -220,24 +222,32 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     const auto half = static_cast<std::size_t>(std::ceil(
         (film::frequency_radius(2 * half_band, 2 * half_band * camera.eye.z / camera.pupil) + edge.reach()) * period));
     const std::size_t size = math::good_fft_size(4 * half + 2), side = 2 * half + 1, highest = 2 * half;
-    Array<std::complex<double>, 2> opening({side, side});
-    Array<double, 2> energy({side, side});
+    Array<Complex, 2> opening({side, side});
+    Array<float, 2> energy({side, side});
     for (std::size_t row = 0; row < side; ++row)
         for (std::size_t column = 0; column < side; ++column) {
             const auto kappa = [&](std::size_t i) {
                 return (static_cast<double>(i) - static_cast<double>(half)) / period;
             };
             const auto [inside, phase] = pupil.at(kappa(column), kappa(row));
-            opening(row, column) = edge.transmission(inside) * phase;
+            opening(row, column) = Complex(edge.transmission(inside) * phase);
             // Of the light, a sample on the rim stands for the part of its cell that is in the disc.
-            energy(row, column) = std::clamp(0.5 + inside * period, 0.0, 1.0) * std::norm(phase);
+            energy(row, column) = static_cast<float>(std::clamp(0.5 + inside * period, 0.0, 1.0) * std::norm(phase));
         }
     const double pitch = hogels.plane.pitch_x;
-    const Array<std::complex<double>, 2> across = lights(basis, half, period, pupil.bend_x(pitch)),
-                                         down = lights(basis, half, period, pupil.bend_y(pitch));
+    const Array<Complex, 2> across = lights(basis, half, period, pupil.bend_x(pitch)),
+                            down = lights(basis, half, period, pupil.bend_y(pitch));
     const Array<float, 2> means_x = pixel_means(columns, reach_, size, period, highest),
                           means_y = pixel_means(rows, reach_, size, period, highest);
     const std::size_t across_all = means_x.extent(0), down_all = means_y.extent(0);
+    // The light of each wave across that passes through a row of the pupil.
+    Array<float, 2> passing({basis.count(), side});
+    std::vector<float> powers(side);
+    for (std::size_t q = 0; q < basis.count(); ++q) {
+        for (std::size_t i = 0; i < side; ++i) powers[i] = std::norm(across(q, i));
+        for (std::size_t row = 0; row < side; ++row)
+            passing(q, row) = sum_products({powers.data(), &energy(row, 0), 0, 0, 1, side});
+    }
     weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.padded_count()});
     struct Pair {
         std::size_t x, y;
@@ -252,28 +262,28 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     core::parallel_for(list.size(), [&](std::size_t pair) {
         const auto [qx, qy] = list[pair];
         Array<Complex, 2> film({size, size});
-        double light = 0;
-        for (std::size_t row = 0; row < side; ++row)
-            for (std::size_t column = 0; column < side; ++column) {
-                if (opening(row, column) == 0.0 && energy(row, column) == 0) continue;
-                const std::complex<double> value = down(qy, row) * across(qx, column);
-                film((row + size - half) % size, (column + size - half) % size) =
-                    Complex(scale * value * opening(row, column));
-                light += std::norm(value) * energy(row, column);
-            }
+        float light = 0;
+        for (std::size_t row = 0; row < side; ++row) {
+            const Complex along = static_cast<float>(scale) * down(qy, row);
+            const Complex *wave = &across(qx, 0), *passed = &opening(row, 0);
+            // Frequencies below zero are at the end of the transform.
+            Complex* const line = &film((row + size - half) % size, 0);
+            for (std::size_t i = 0; i < half; ++i) line[size - half + i] = times(along, times(wave[i], passed[i]));
+            for (std::size_t i = half; i < side; ++i) line[i - half] = times(along, times(wave[i], passed[i]));
+            light += std::norm(down(qy, row)) * passing(qx, row);
+        }
         fft.backward(film);
         Array<float, 2> spot({size, size});
         for (std::size_t i = 0; i < spot.size(); ++i)
-            spot.data()[i] = static_cast<float>(radiance * std::norm(film.data()[i]));
-        Array<float, 2> lines({down_all, size});
-        for (std::size_t r = 0; r < down_all; ++r)
+            spot.data()[i] = static_cast<float>(radiance) * std::norm(film.data()[i]);
+        Array<float, 2> turned({across_all, size});
+        for (std::size_t c = 0; c < across_all; ++c)
             for (std::size_t k = 0; k < size; ++k)
-                for (std::size_t i = 0; i < size; ++i) lines(r, i) += means_y(r, k) * spot(k, i);
+                turned(c, k) = sum_products({&spot(k, 0), &means_x(c, 0), 0, 0, 1, size});
         double followed = 0;
         for (std::size_t r = 0; r < down_all; ++r)
             for (std::size_t c = 0; c < across_all; ++c) {
-                float sum = 0;
-                for (std::size_t i = 0; i < size; ++i) sum += lines(r, i) * means_x(c, i);
+                const float sum = sum_products({&means_y(r, 0), &turned(c, 0), 0, 0, 1, size});
                 weights_(r / taps(), c / taps(), r % taps(), c % taps() * pairs.padded_count() + pair) = sum;
                 followed += sum;
             }

@@ -184,8 +184,8 @@ void Film::expose_node(View<const Complex, 2> pupil_wave, View<const Complex, 2>
         const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
         Array<Complex, 2> lines({count, stride_of(size_.y.size)});
         for (std::size_t y = 0; y < height; ++y) {
-            const std::size_t at = wrapped(
-                static_cast<std::ptrdiff_t>(y) - static_cast<std::ptrdiff_t>(height / 2), size_.y.size);
+            const std::size_t at =
+                wrapped(static_cast<std::ptrdiff_t>(y) - static_cast<std::ptrdiff_t>(height / 2), size_.y.size);
             const Complex *wave = &pupil_wave(top + y, left + first), *factor = &lens(y, first);
             for (std::size_t c = 0; c < count; ++c) lines(c, at) = times(wave[c], factor[c]);
         }
@@ -204,8 +204,7 @@ void Film::expose_node(View<const Complex, 2> pupil_wave, View<const Complex, 2>
             float* row = &intensity(j, 0);
             const Complex* seen = line.data() + size_.x.first;
             for (std::size_t i = 0; i < size_.x.count; ++i)
-                row[i] += share_y[j] * share_x[i] *
-                          (seen[i].real() * seen[i].real() + seen[i].imag() * seen[i].imag());
+                row[i] += share_y[j] * share_x[i] * (seen[i].real() * seen[i].real() + seen[i].imag() * seen[i].imag());
         }
     });
 }
