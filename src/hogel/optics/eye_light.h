@@ -54,6 +54,9 @@ class EyeLight {
     /// The light of a part of the hologram; null where computing the samples costs less. Hogels that the part cuts
     /// belong to it.
     virtual std::unique_ptr<EyeDrawing> eye_drawing(const Region& part, std::span<const Eye> eyes) const = 0;
+    /// Computes what all eyes and looks share, the amplitudes of the waves, and keeps it, if that takes at most
+    /// `memory` bytes. Not to be called while the field is read. Returns the bytes that are kept.
+    virtual std::size_t keep_amplitudes(std::size_t memory) const = 0;
     /// Of the waves of all hogels, if their phases are random and independent, otherwise null: the mean of infinitely
     /// many looks is then a sum of their intensities.
     virtual const WavePowers* wave_powers() const { return nullptr; }
