@@ -39,8 +39,10 @@ struct SeenEye {
     double pupil = 0, blur = 0;
     std::vector<SeenColour> colours;
 
+    // A much narrower pupil spreads light farther than films for the wider one have room.
     bool serves(const Camera& camera) const {
-        return !colours.empty() && camera.eye == eye && camera.pupil <= pupil && defocus_blur(camera) <= blur;
+        return !colours.empty() && camera.eye == eye && camera.pupil <= pupil && camera.pupil > 0.8 * pupil &&
+               defocus_blur(camera) <= blur;
     }
 };
 

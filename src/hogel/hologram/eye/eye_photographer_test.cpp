@@ -92,6 +92,20 @@ TEST(EyePhotographer, shows_the_mean_of_the_looks_so_far) {
     EXPECT_GT(distance(shown.front(), last), 2 * distance(shown[2], last));
 }
 
+// Fields of which only samples are known, too; narrower pupils need no new light.
+TEST(EyePhotographer, takes_photographs_of_samples) {
+    const Setting s;
+    const Grid& plane = s.hologram->grid().plane;
+    const auto field = std::make_shared<Field>(s.hologram->grid());
+    s.hologram->read({0, 0, plane.width, plane.height}, 0, field->samples);
+    EyePhotographer photographer({field});
+    for (const double pupil : {0.7_mm, 0.4_mm, 0.9_mm}) {
+        Camera camera = s.camera();
+        camera.pupil = pupil;
+        EXPECT_LT(distance(photographer.photograph(camera), photograph(*field, {&camera, 1}).front()), 4e-3) << pupil;
+    }
+}
+
 TEST(EyePhotographer, continues_after_a_stop) {
     const Setting s;
     EyePhotographer photographer({s.hologram});
