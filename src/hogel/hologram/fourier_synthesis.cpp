@@ -61,14 +61,7 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
         thread_local Array<Complex, 2> plain;
         if (plain.shape() != Shape<2>{n, n}) plain = Array<Complex, 2>({n, n});
         spread_phases(moduli, place, plain);
-        if (n % rows_together != 0) std::fill_n(waves, size(n), 0.0f);
-        for (std::size_t row = 0; row < n; ++row) {
-            float* to = waves + 2 * (row / rows_together * rows_together * n) + row % rows_together;
-            for (std::size_t column = 0; column < n; ++column, to += 2 * rows_together) {
-                to[0] = plain(row, column).real();
-                to[rows_together] = plain(row, column).imag();
-            }
-        }
+        store_waves(plain, waves);
     }
 
     void powers(std::span<const float> moduli, float* powers) const override {

@@ -74,7 +74,8 @@ LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRe
                          std::span<const Camera> cameras, const PhotographOptions& options) {
     if (options.expected) return {LightFrom::hogels, "the mean of infinitely many looks is a sum over hogels"};
     if (options.from == LightFrom::samples) return {LightFrom::samples, "that was requested"};
-    if (!std::holds_alternative<Fourier>(request.method))
+    const auto* const added = std::get_if<PhaseAdded>(&request.method);
+    if (!std::holds_alternative<Fourier>(request.method) && (added == nullptr || added->exact))
         return {LightFrom::samples, "this method has no hogels that are sums of as many waves as they have samples"};
     std::size_t per_hogel = 0, samples = 0;
     for (const Channel& channel : request.channels) {
