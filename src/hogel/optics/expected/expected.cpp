@@ -77,10 +77,11 @@ Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Ca
     const Grid &plane = hogels.plane, &picture = camera.picture;
     Exposure exposure;
     exposure.camera = index;
+    const std::size_t places = max_places(*eye.pairs, Spots::reach(hogels, camera, eye.band));
     exposure.columns =
-        pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width);
+        pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width, places);
     exposure.rows =
-        pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height);
+        pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height, places);
     exposure.parts_x = parts(hogels, camera, true);
     exposure.parts_y = parts(hogels, camera, false);
     for (std::size_t j = 0; j < exposure.parts_y; ++j)

@@ -30,8 +30,6 @@ constexpr double min_share = 1e-4;
 // before its samples repeat.
 constexpr double cells_followed = 5, cells_fading = 8;
 
-constexpr std::size_t max_places = 32;
-
 // The width of the blur of a point of the hologram, in hogels.
 double blur_width(const HogelGrid& hogels, const Camera& camera) {
     const double beside = std::hypot(camera.picture.center_x - camera.eye.x, camera.picture.center_y - camera.eye.y);
@@ -176,7 +174,14 @@ Pairs::Pairs(const SpotBasis& basis, double half_band) : of_column(basis.count()
     }
 }
 
-PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels) {
+std::size_t max_places(const Pairs& pairs, std::size_t reach) {
+    constexpr double max_bytes = 64e6;
+    const auto taps = static_cast<double>(2 * reach + 1);
+    const double bytes = taps * taps * static_cast<double>(pairs.padded_count() * sizeof(float));
+    return static_cast<std::size_t>(std::clamp(std::sqrt(max_bytes / bytes), 4.0, 32.0));
+}
+
+PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t max_places) {
     PixelPlaces all;
     all.width = step;
     for (const bool rounded : {false, true}) {
@@ -186,7 +191,8 @@ PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::siz
             const double low = std::clamp(u - 0.5 * step, -0.5, end), high = std::clamp(u + 0.5 * step, -0.5, end);
             const double middle = 0.5 * (low + high), base = std::floor(middle + 0.5);
             PixelPlaces::Place place{middle - base, high - low};
-            if (rounded) place.offset = std::round(place.offset * double{max_places}) / double{max_places};
+            const auto parts = static_cast<double>(max_places);
+            if (rounded) place.offset = std::round(place.offset * parts) / parts;
             const auto same = std::ranges::find_if(all.places, [&](const PixelPlaces::Place& other) {
                 return std::abs(other.offset - place.offset) < 1e-5 && std::abs(other.width - place.width) < 1e-5;
             });
@@ -208,6 +214,52 @@ std::size_t Spots::reach(const HogelGrid& hogels, const Camera& camera, double h
         std::ceil(0.5 + 0.5 * blur_width(hogels, camera) + cells_followed * cell + 0.5 * pixel));
 }
 
+namespace {
+
+// The pupil's samples of κ = −half … half, in steps of 1/period, [down][across].
+struct Opening {
+    Array<Complex, 2> wave;
+    Array<float, 2> energy;  // of a sample on the rim, that of the part of its cell that is in the disc
+
+    Opening(const Pupil& pupil, const PupilEdge& edge, std::size_t half, double period)
+        : wave({2 * half + 1, 2 * half + 1}), energy(wave.shape()) {
+        const auto kappa = [&](std::size_t i) { return (static_cast<double>(i) - static_cast<double>(half)) / period; };
+        for (std::size_t row = 0; row < wave.extent(0); ++row)
+            for (std::size_t column = 0; column < wave.extent(1); ++column) {
+                const auto [inside, phase] = pupil.at(kappa(column), kappa(row));
+                wave(row, column) = Complex(edge.transmission(inside) * phase);
+                energy(row, column) =
+                    static_cast<float>(std::clamp(0.5 + inside * period, 0.0, 1.0) * std::norm(phase));
+            }
+    }
+
+    // [wave][row]: the light of each wave across that passes through a row of the pupil.
+    Array<float, 2> passing(View<const Complex, 2> across) const {
+        const std::size_t side = wave.extent(0);
+        Array<float, 2> light({across.extent(0), side});
+        std::vector<float> powers(side);
+        for (std::size_t q = 0; q < across.extent(0); ++q) {
+            for (std::size_t i = 0; i < side; ++i) powers[i] = std::norm(across(q, i));
+            for (std::size_t row = 0; row < side; ++row)
+                light(q, row) = sum_products({powers.data(), &energy(row, 0), 0, 0, 1, side});
+        }
+        return light;
+    }
+
+    // The light of a wave across and one down in the pupil, in the order of a transform of film's size.
+    void fill(const Complex* across, const Complex* down, float scale, View<Complex, 2> film) const {
+        const std::size_t side = wave.extent(0), half = side / 2, size = film.extent(0);
+        for (std::size_t row = 0; row < side; ++row) {
+            const Complex along = scale * down[row], *passed = &wave(row, 0);
+            Complex* const line = &film((row + size - half) % size, 0);
+            for (std::size_t i = 0; i < half; ++i) line[size - half + i] = times(along, times(across[i], passed[i]));
+            for (std::size_t i = half; i < side; ++i) line[i - half] = times(along, times(across[i], passed[i]));
+        }
+    }
+};
+
+}  // namespace
+
 Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& basis, const Pairs& pairs,
              double half_band, double x, double y, const PixelPlaces& columns, const PixelPlaces& rows)
     : reach_(reach(hogels, camera, half_band)), tails_(pairs.count) {
@@ -222,32 +274,14 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     const auto half = static_cast<std::size_t>(std::ceil(
         (film::frequency_radius(2 * half_band, 2 * half_band * camera.eye.z / camera.pupil) + edge.reach()) * period));
     const std::size_t size = math::good_fft_size(4 * half + 2), side = 2 * half + 1, highest = 2 * half;
-    Array<Complex, 2> opening({side, side});
-    Array<float, 2> energy({side, side});
-    for (std::size_t row = 0; row < side; ++row)
-        for (std::size_t column = 0; column < side; ++column) {
-            const auto kappa = [&](std::size_t i) {
-                return (static_cast<double>(i) - static_cast<double>(half)) / period;
-            };
-            const auto [inside, phase] = pupil.at(kappa(column), kappa(row));
-            opening(row, column) = Complex(edge.transmission(inside) * phase);
-            // Of the light, a sample on the rim stands for the part of its cell that is in the disc.
-            energy(row, column) = static_cast<float>(std::clamp(0.5 + inside * period, 0.0, 1.0) * std::norm(phase));
-        }
+    const Opening opening(pupil, edge, half, period);
     const double pitch = hogels.plane.pitch_x;
     const Array<Complex, 2> across = lights(basis, half, period, pupil.bend_x(pitch)),
                             down = lights(basis, half, period, pupil.bend_y(pitch));
     const Array<float, 2> means_x = pixel_means(columns, reach_, size, period, highest),
                           means_y = pixel_means(rows, reach_, size, period, highest);
     const std::size_t across_all = means_x.extent(0), down_all = means_y.extent(0);
-    // The light of each wave across that passes through a row of the pupil.
-    Array<float, 2> passing({basis.count(), side});
-    std::vector<float> powers(side);
-    for (std::size_t q = 0; q < basis.count(); ++q) {
-        for (std::size_t i = 0; i < side; ++i) powers[i] = std::norm(across(q, i));
-        for (std::size_t row = 0; row < side; ++row)
-            passing(q, row) = sum_products({powers.data(), &energy(row, 0), 0, 0, 1, side});
-    }
+    const Array<float, 2> passing = opening.passing(across);
     weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.padded_count()});
     struct Pair {
         std::size_t x, y;
@@ -262,16 +296,9 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     core::parallel_for(list.size(), [&](std::size_t pair) {
         const auto [qx, qy] = list[pair];
         Array<Complex, 2> film({size, size});
+        opening.fill(&across(qx, 0), &down(qy, 0), static_cast<float>(scale), film);
         float light = 0;
-        for (std::size_t row = 0; row < side; ++row) {
-            const Complex along = static_cast<float>(scale) * down(qy, row);
-            const Complex *wave = &across(qx, 0), *passed = &opening(row, 0);
-            // Frequencies below zero are at the end of the transform.
-            Complex* const line = &film((row + size - half) % size, 0);
-            for (std::size_t i = 0; i < half; ++i) line[size - half + i] = times(along, times(wave[i], passed[i]));
-            for (std::size_t i = half; i < side; ++i) line[i - half] = times(along, times(wave[i], passed[i]));
-            light += std::norm(down(qy, row)) * passing(qx, row);
-        }
+        for (std::size_t row = 0; row < side; ++row) light += std::norm(down(qy, row)) * passing(qx, row);
         fft.backward(film);
         Array<float, 2> spot({size, size});
         for (std::size_t i = 0; i < spot.size(); ++i)

@@ -49,9 +49,13 @@ struct PixelPlaces {
     std::vector<float> seen;           ///< [pixel], the share of it that is on the hologram
     double width = 0;                  ///< of a whole pixel, in hogels
 };
-/// Positions u = first + i · step of `pixels` pixels beside `hogels` hogels. If more than 32 different places occur,
-/// they are rounded to a 32nd of a hogel.
-PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels);
+/// Positions u = first + i · step of `pixels` pixels beside `hogels` hogels. If more than `max_places` different places
+/// occur, they are rounded to this part of a hogel.
+PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t max_places);
+
+/// Places along an axis for which a table of spots takes 64 MB at most, from 4 to 32: wide spots, which need many
+/// hogels, are smooth.
+std::size_t max_places(const Pairs& pairs, std::size_t reach);
 
 /// Spots of waves on a camera's film, as means over pixels.
 ///
